@@ -1,0 +1,110 @@
+//! What the user asked for: options of the command line, keys of the TOML file and `MANYVIEW_*` variables.
+#![forbid(unsafe_code)]
+
+use crate::display::Display;
+use std::path::PathBuf;
+
+/// Everything the layer needs to know before the first frame.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Config {
+    /// Number of views N, at least 1.
+    pub views: u32,
+    /// The panel whose mask the pictures are interleaved for.
+    pub display: Display,
+    /// What is given to the swap.
+    pub output: Output,
+    /// Spacing of the cameras and the depth of zero parallax.
+    pub camera: Camera,
+    /// How draws are repeated per view.
+    pub strategy: Strategy,
+    /// Where the views lie in memory.
+    pub atlas: AtlasLayout,
+    /// Size of a tile over the size of the window, in (0, 1].
+    pub view_scale: f64,
+    /// Where the JSON report goes at the end of the program.
+    pub report: Option<PathBuf>,
+    /// Pictures to write, if any.
+    pub capture: Option<Capture>,
+}
+
+/// The picture that is shown.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Output {
+    /// Interleaved through the mask of the display.
+    Panel,
+    /// All views in one row, view 0 on the left.
+    SideBySide,
+    /// The Looking Glass order: view 0 bottom left, rows upwards.
+    Quilt,
+    /// One view.
+    View(u32),
+}
+
+/// Where the cameras stand. Lengths are in the program's eye-space units.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Camera {
+    /// Derived from the first perspective projection that is drawn with.
+    Auto,
+    /// κ and ξ of Luo et al.: spacing of neighbouring viewpoints, depth of the focal plane.
+    Eye {
+        /// κ
+        spacing: f64,
+        /// ξ, positive
+        focal_depth: f64,
+    },
+    /// Shift of neighbouring views in clip space: `x += separation · (i − (N−1)/2) · (w − convergence)`.
+    Clip {
+        /// Per neighbouring view, in units of normalised device coordinates.
+        separation: f64,
+        /// In units of clip-space w.
+        convergence: f64,
+    },
+}
+
+/// How a draw call is repeated for the views.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Strategy {
+    /// Chosen per draw.
+    Auto,
+    /// The draw itself again, per view.
+    Replay,
+    /// One instanced draw with a generated vertex shader.
+    Instanced,
+    /// One draw through a generated geometry shader.
+    Geometry,
+}
+
+/// Where the views lie.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum AtlasLayout {
+    /// Tiles of one 2D texture, in a row or a grid.
+    SideBySide,
+    /// One layer of an array texture per view.
+    Layers,
+}
+
+/// Pictures to write while the program runs.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Capture {
+    /// Target file; with several frames `%d` in it (or before the extension) is the frame.
+    pub out: PathBuf,
+    /// First frame, 1-based.
+    pub first: u64,
+    /// Last frame, inclusive.
+    pub last: u64,
+    /// What is written.
+    pub what: CaptureWhat,
+}
+
+/// What a captured picture holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CaptureWhat {
+    /// The picture given to the swap.
+    Output,
+    /// All tiles, views in order, left to right then top to bottom.
+    Atlas,
+    /// One tile at tile size.
+    View(u32),
+    /// The depth of the program's own view, 16-bit grey.
+    Depth,
+}

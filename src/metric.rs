@@ -1,0 +1,2 @@
+//! m
+#![forbid(unsafe_code)]
