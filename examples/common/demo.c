@@ -1,0 +1,345 @@
+/* main() of every demo: options, the frame loop, the view matrix, dumps, timing. */
+#include "demo.h"
+#include <errno.h>
+#include <limits.h>
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
+
+int demo_width = 512, demo_height = 384, demo_x, demo_y;
+
+static const char *program = "demo", *api_name, *dump;
+static const struct demo_api *api;
+static struct demo_window window = {.pbuffer = -1};
+static int frames = -1, view_index, view_count = 1, tiled, check, timing;
+static double eye_spacing = 0.3, focal_depth = 8.0;
+
+_Noreturn void demo_fail(int status, const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    fprintf(stderr, "%s: ", program);
+    vfprintf(stderr, format, args);
+    fputc('\n', stderr);
+    va_end(args);
+    exit(status);
+}
+
+double demo_time(int frame) { return frame * 0.02; }
+
+demo_function demo_proc(const char *name)
+{
+    demo_function f = api->proc(name);
+    if (!f)
+        demo_fail(1, "no function %s", name);
+    return f;
+}
+
+/* ---- viewport, scissor and projection ---- */
+
+void demo_viewport(int x, int y, int width, int height)
+{
+    glViewport(demo_x + x, demo_y + y, width, height);
+}
+
+void demo_scissor(int x, int y, int width, int height)
+{
+    int x1 = x + width, y1 = y + height;
+    if (tiled) { /* never outside the picture */
+        x = x < 0 ? 0 : x;
+        y = y < 0 ? 0 : y;
+        x1 = x1 > demo_width ? demo_width : x1;
+        y1 = y1 > demo_height ? demo_height : y1;
+        width = x1 > x ? x1 - x : 0;
+        height = y1 > y ? y1 - y : 0;
+    }
+    glScissor(demo_x + x, demo_y + y, width, height);
+    glEnable(GL_SCISSOR_TEST);
+}
+
+void demo_scissor_off(void)
+{
+    if (tiled)
+        demo_scissor(0, 0, demo_width, demo_height);
+    else
+        glDisable(GL_SCISSOR_TEST);
+}
+
+/* View i of N: the camera moved by e along its x axis, sheared so that depth X keeps its place:
+ * row0' = row0 + sep * row3 - sep * conv * (0,0,0,1), sep = A e / X, conv = X, A = P[0][0]. */
+void demo_projection_done(void)
+{
+    GLfloat p[16]; /* column-major: row r, column c is p[4 * c + r] */
+    GLint mode;
+    double e = (view_index - (view_count - 1) / 2.0) * eye_spacing;
+    if (e == 0.0)
+        return;
+    glGetFloatv(GL_PROJECTION_MATRIX, p);
+    if (p[3] == 0.0f && p[7] == 0.0f && p[11] == 0.0f)
+        return; /* orthographic: flat */
+    /* A is what row 0 has at a right angle to the viewing direction (row 3), per unit of row 3: P[0][0] of a plain
+     * frustum, and the same number when the camera was multiplied onto the projection. */
+    double w2 = (double)p[3] * p[3] + (double)p[7] * p[7] + (double)p[11] * p[11], a = p[0];
+    if (p[3] != 0.0f || p[7] != 0.0f) {
+        double along = ((double)p[0] * p[3] + (double)p[4] * p[7] + (double)p[8] * p[11]) / w2;
+        double x = p[0] - along * p[3], y = p[4] - along * p[7], z = p[8] - along * p[11];
+        a = sqrt(x * x + y * y + z * z);
+    }
+    double sep = a / sqrt(w2) * e / focal_depth, conv = focal_depth * sqrt(w2);
+    for (int c = 0; c < 4; c++)
+        p[4 * c] = (GLfloat)(p[4 * c] + sep * p[4 * c + 3] - (c == 3 ? sep * conv : 0.0));
+    glGetIntegerv(GL_MATRIX_MODE, &mode);
+    glMatrixMode(GL_PROJECTION);
+    glLoadMatrixf(p);
+    glMatrixMode((GLenum)mode);
+}
+
+void demo_perspective(double fovy, double aspect, double z_near, double z_far)
+{
+    double h = z_near * tan(fovy * M_PI / 360.0), w = h * aspect;
+    GLint mode;
+    glGetIntegerv(GL_MATRIX_MODE, &mode);
+    glMatrixMode(GL_PROJECTION);
+    glLoadIdentity();
+    glFrustum(-w, w, -h, h, z_near, z_far);
+    demo_projection_done();
+    glMatrixMode((GLenum)mode);
+}
+
+/* ---- options ---- */
+
+static void usage(void)
+{
+    printf("usage: %s [options]\n"
+           "  --api glx|egl|osmesa   window system (default %s)\n"
+           "  --surface window|pbuffer  egl only; default: window where there is a DISPLAY\n"
+           "  --frames N             stop after N frames (default: never in a window without --dump, else 60)\n"
+           "  --size WxH             size of the picture (default 512x384)\n"
+           "  --view i/N             draw view i of N, 0 the leftmost\n"
+           "  --eye-spacing K        distance of neighbouring cameras (default 0.3)\n"
+           "  --focal-depth X        depth that keeps its place in all views (default 8)\n"
+           "  --canvas WxH           size of the window (default: that of the picture)\n"
+           "  --offset X,Y           lower left corner of the picture in the window (default 0,0)\n"
+           "  --dump FILE.png        write the last frame; with %%d in the name, every frame\n"
+           "  --samples S            multisampled (glx, egl)\n"
+           "  --srgb                 sRGB-capable surface, with GL_FRAMEBUFFER_SRGB on (glx, egl)\n"
+           "  --check                fail with status 3 after a frame that raised a GL error\n"
+           "  --time                 print the median milliseconds per frame on stderr\n",
+           program, api->name);
+    for (const struct demo_option *o = demo_options; o->name; o++)
+        printf("  %s%s%*s%s\n", o->name, o->takes_number ? " N" : "",
+               (int)(23 - strlen(o->name) - (o->takes_number ? 2 : 0)), "", o->help);
+    exit(0);
+}
+
+static double number(const char *option, const char *text)
+{
+    char *end;
+    double v = strtod(text, &end);
+    if (end == text || *end || !isfinite(v))
+        demo_fail(2, "%s: not a number: %s", option, text);
+    return v;
+}
+
+static int integer(const char *option, const char *text, int least)
+{
+    char *end;
+    errno = 0;
+    long v = strtol(text, &end, 10);
+    if (end == text || *end || errno || v < least || v > INT_MAX)
+        demo_fail(2, "%s: not a whole number of at least %d: %s", option, least, text);
+    return (int)v;
+}
+
+static void pair(const char *option, const char *text, char separator, int *a, int *b)
+{
+    char used, rest;
+    if (sscanf(text, "%d%c%d%c", a, &used, b, &rest) != 3 || used != separator)
+        demo_fail(2, "%s: not of the form A%cB: %s", option, separator, text);
+}
+
+static int own_option(const char *name, const char *value)
+{
+    for (const struct demo_option *o = demo_options; o->name; o++) {
+        if (strcmp(o->name, name))
+            continue;
+        if (o->takes_number && !value)
+            demo_fail(2, "%s needs a value", name);
+        *o->value = o->takes_number ? integer(name, value, 1) : 1;
+        return 1 + o->takes_number;
+    }
+    return 0;
+}
+
+static void parse(int argc, char **argv)
+{
+    int canvas = 0, help = 0;
+    for (int i = 1; i < argc; i++) {
+        const char *o = argv[i], *v = i + 1 < argc ? argv[i + 1] : NULL;
+        int own = own_option(o, v);
+        if (own) { i += own - 1; continue; }
+        if (!strcmp(o, "--srgb")) { window.srgb = 1; continue; }
+        if (!strcmp(o, "--check")) { check = 1; continue; }
+        if (!strcmp(o, "--time")) { timing = 1; continue; }
+        if (!strcmp(o, "--help")) { help = 1; continue; }
+        static const char *valued[] = {"--api", "--surface", "--frames", "--size", "--view", "--eye-spacing",
+            "--focal-depth", "--canvas", "--offset", "--dump", "--samples", NULL};
+        int known = 0;
+        for (const char **k = valued; *k; k++)
+            known |= !strcmp(o, *k);
+        if (!known)
+            demo_fail(2, "unknown option %s (see --help)", o);
+        if (!v)
+            demo_fail(2, "%s needs a value", o);
+        i++;
+        if (!strcmp(o, "--api")) {
+            api_name = v;
+        } else if (!strcmp(o, "--surface")) {
+            if (strcmp(v, "window") && strcmp(v, "pbuffer"))
+                demo_fail(2, "--surface: window or pbuffer, not %s", v);
+            window.pbuffer = !strcmp(v, "pbuffer");
+        } else if (!strcmp(o, "--frames")) {
+            frames = integer(o, v, 1);
+        } else if (!strcmp(o, "--size")) {
+            pair(o, v, 'x', &demo_width, &demo_height);
+        } else if (!strcmp(o, "--view")) {
+            pair(o, v, '/', &view_index, &view_count);
+        } else if (!strcmp(o, "--eye-spacing")) {
+            eye_spacing = number(o, v);
+        } else if (!strcmp(o, "--focal-depth")) {
+            focal_depth = number(o, v);
+        } else if (!strcmp(o, "--canvas")) {
+            pair(o, v, 'x', &window.width, &window.height);
+            canvas = 1;
+        } else if (!strcmp(o, "--offset")) {
+            pair(o, v, ',', &demo_x, &demo_y);
+        } else if (!strcmp(o, "--dump")) {
+            dump = v;
+        } else {
+            window.samples = integer(o, v, 0);
+        }
+    }
+    if (!canvas) {
+        window.width = demo_width;
+        window.height = demo_height;
+    }
+    if (demo_width < 1 || demo_height < 1)
+        demo_fail(2, "--size: must be at least 1x1");
+    if (view_count < 1 || view_index < 0 || view_index >= view_count)
+        demo_fail(2, "--view: i/N with 0 <= i < N");
+    if (!(focal_depth > 0.0))
+        demo_fail(2, "--focal-depth: must be above 0");
+    if (demo_x < 0 || demo_y < 0 || demo_x > window.width - demo_width || demo_y > window.height - demo_height)
+        demo_fail(2, "the picture does not fit into the canvas");
+    tiled = demo_x || demo_y || window.width != demo_width || window.height != demo_height;
+#ifdef DEMO_OSMESA
+    api = &demo_osmesa;
+    if (api_name && strcmp(api_name, "osmesa"))
+        demo_fail(2, "this build draws with OSMesa only");
+    if (window.samples)
+        demo_fail(2, "--samples: OSMesa has no multisampling");
+#else
+    api = &demo_glx;
+    if (api_name && !strcmp(api_name, "osmesa")) { /* a different libGL, so a different program */
+        char path[PATH_MAX + 16];
+        ssize_t n = readlink("/proc/self/exe", path, PATH_MAX);
+        if (n > 0) {
+            strcpy(path + n, ".osmesa");
+            execv(path, argv);
+        }
+        demo_fail(1, "cannot start %s.osmesa: %s", program, strerror(errno));
+    }
+#ifndef DEMO_DLOPEN
+    if (api_name && !strcmp(api_name, "egl"))
+        api = &demo_egl;
+#endif
+    if (api_name && strcmp(api_name, api->name))
+        demo_fail(2, "--api: unknown: %s", api_name);
+#endif
+    if (window.pbuffer >= 0 && strcmp(api->name, "egl"))
+        demo_fail(2, "--surface: for --api egl only");
+    if (help)
+        usage();
+}
+
+/* ---- the frame loop ---- */
+
+static void write_dump(int frame)
+{
+    char path[PATH_MAX];
+    const char *d = strstr(dump, "%d");
+    if (d)
+        snprintf(path, sizeof path, "%.*s%d%s", (int)(d - dump), dump, frame, d + 2);
+    else
+        snprintf(path, sizeof path, "%s", dump);
+    unsigned char *rgb = malloc((size_t)demo_width * (size_t)demo_height * 3);
+    if (!rgb)
+        demo_fail(1, "out of memory");
+    glPushClientAttrib(GL_CLIENT_PIXEL_STORE_BIT);
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    glReadPixels(demo_x, demo_y, demo_width, demo_height, GL_RGB, GL_UNSIGNED_BYTE, rgb);
+    glPopClientAttrib();
+    if (demo_write_png(path, demo_width, demo_height, rgb))
+        demo_fail(1, "cannot write %s", path);
+    free(rgb);
+}
+
+static double now_ms(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec * 1e3 + (double)t.tv_nsec * 1e-6;
+}
+
+static int ascending(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+int main(int argc, char **argv)
+{
+    const char *slash = strrchr(argv[0], '/');
+    program = slash ? slash + 1 : argv[0];
+    parse(argc, argv);
+    window.title = program;
+    api->open(&window);
+    if (frames < 0)
+        frames = dump || window.pbuffer == 1 || !strcmp(api->name, "osmesa") ? 60 : INT_MAX;
+
+    enum { KEPT = 100000 };
+    double *times = timing ? malloc(KEPT * sizeof *times) : NULL;
+    int timed = 0, quit = 0;
+    if (window.srgb)
+        glEnable(GL_FRAMEBUFFER_SRGB);
+    demo_scissor_off();
+    demo_setup();
+    double last = now_ms();
+    for (int frame = 0; frame < frames && !quit; frame++) {
+        demo_frame(frame);
+        GLenum error;
+        int bad = 0;
+        while (check && (error = glGetError()) && ++bad < 10)
+            fprintf(stderr, "%s: GL error 0x%04x in frame %d\n", program, error, frame);
+        if (bad)
+            exit(3);
+        if (dump && (strstr(dump, "%d") || frame == frames - 1))
+            write_dump(frame);
+        quit = api->frame_end();
+        double now = now_ms();
+        if (times && frame && timed < KEPT) /* the first frame compiles; it does not count */
+            times[timed++] = now - last;
+        last = now;
+    }
+    if (timed) {
+        qsort(times, (size_t)timed, sizeof *times, ascending);
+        fprintf(stderr, "ms_per_frame median %.3f\n", times[timed / 2]);
+    }
+    free(times);
+    api->close();
+    return 0;
+}

@@ -1,0 +1,76 @@
+/* The frame that every demo program hangs in: options, window, views, picture files.
+ * A demo supplies demo_setup(), demo_frame() and demo_options[]; common/demo.c has main(). */
+#ifndef DEMO_H
+#define DEMO_H
+
+#define GL_GLEXT_PROTOTYPES
+#ifdef DEMO_DLOPEN
+#include "dlgl.h"
+#else
+#include <GL/gl.h>
+#include <GL/glext.h>
+#endif
+
+/* ---- what a demo supplies ---- */
+struct demo_option {
+    const char *name; /* "--vbo"; the list ends with a null name */
+    const char *help;
+    int *value; /* set to 1, or to the number that follows the option if takes_number */
+    int takes_number;
+};
+extern const struct demo_option demo_options[];
+#define DEMO_NO_OPTIONS const struct demo_option demo_options[] = {{0}}
+
+void demo_setup(void);          /* once, with the context current */
+void demo_frame(int frame);     /* draws frame number 0, 1, 2, ...; the same picture for the same number */
+
+/* ---- what a demo may use ---- */
+extern int demo_width, demo_height; /* size of the picture (--size) */
+extern int demo_x, demo_y;          /* where it begins in the window (--offset) */
+
+double demo_time(int frame);        /* 0.02 s a frame */
+
+/* Like glViewport and glScissor (which it also enables), from the corner of the picture. */
+void demo_viewport(int x, int y, int width, int height);
+void demo_scissor(int x, int y, int width, int height);
+void demo_scissor_off(void);
+
+/* To be called after every change of a perspective GL_PROJECTION matrix: with --view it puts the
+ * matrix of that view in its place. It touches no orthographic matrix. */
+void demo_projection_done(void);
+/* Loads a perspective projection and calls demo_projection_done(). fovy in degrees. */
+void demo_perspective(double fovy, double aspect, double z_near, double z_far);
+
+typedef void (*demo_function)(void);
+demo_function demo_proc(const char *name); /* glXGetProcAddressARB and its kin; fails if null */
+
+_Noreturn void demo_fail(int status, const char *format, ...);
+
+/* ---- shapes.c: solids by glBegin/glEnd, with normals and texture coordinates ---- */
+void demo_sphere(double radius, int slices, int stacks);
+void demo_torus(double radius, double tube, int slices, int stacks);
+void demo_box(double x, double y, double z); /* half sizes, around the origin */
+/* A square texture of two colours with mipmaps; returns its name and leaves it bound. */
+GLuint demo_checker(int size, int squares, const GLubyte a[3], const GLubyte b[3]);
+
+/* ---- png.c ---- */
+/* RGB rows, the lowest first. */
+int demo_write_png(const char *path, int width, int height, const unsigned char *rgb);
+
+/* ---- window systems (glx.c, egl.c, osmesa.c) ---- */
+struct demo_window {
+    int width, height; /* the canvas */
+    int samples, srgb;
+    int pbuffer;       /* 1: --surface pbuffer, 0: --surface window, -1: not said */
+    const char *title;
+};
+struct demo_api {
+    const char *name;
+    void (*open)(struct demo_window *);
+    int (*frame_end)(void); /* swap; non-zero: the user asks to quit */
+    demo_function (*proc)(const char *name);
+    void (*close)(void);
+};
+extern const struct demo_api demo_glx, demo_egl, demo_osmesa;
+
+#endif

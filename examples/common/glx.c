@@ -1,0 +1,74 @@
+/* A double-buffered X window with a legacy GLX context. */
+#include "x11.h"
+#ifndef DEMO_DLOPEN
+#include <GL/glx.h>
+#endif
+
+static Display *display;
+static Window win;
+static GLXContext context;
+
+static XVisualInfo *choose(const struct demo_window *w)
+{
+    int screen = DefaultScreen(display);
+    if (!w->samples && !w->srgb) {
+        int a[] = {GLX_RGBA, GLX_DOUBLEBUFFER, GLX_RED_SIZE, 8, GLX_GREEN_SIZE, 8, GLX_BLUE_SIZE, 8,
+                   GLX_DEPTH_SIZE, 24, GLX_STENCIL_SIZE, 8, None};
+        return glXChooseVisual(display, screen, a);
+    }
+    int a[32] = {GLX_DOUBLEBUFFER, True, GLX_RED_SIZE, 8, GLX_GREEN_SIZE, 8, GLX_BLUE_SIZE, 8,
+                 GLX_DEPTH_SIZE, 24, GLX_STENCIL_SIZE, 8, GLX_X_RENDERABLE, True};
+    int n = 14, count = 0;
+    if (w->samples) {
+        a[n++] = GLX_SAMPLE_BUFFERS;
+        a[n++] = 1;
+        a[n++] = GLX_SAMPLES;
+        a[n++] = w->samples;
+    }
+    if (w->srgb) {
+        a[n++] = GLX_FRAMEBUFFER_SRGB_CAPABLE_ARB;
+        a[n++] = True;
+    }
+    a[n] = None;
+    GLXFBConfig *configs = glXChooseFBConfig(display, screen, a, &count);
+    XVisualInfo *visual = count ? glXGetVisualFromFBConfig(display, configs[0]) : NULL;
+    if (configs)
+        XFree(configs);
+    return visual;
+}
+
+static void open_window(struct demo_window *w)
+{
+    display = x11_open();
+#ifdef DEMO_DLOPEN
+    dlgl_load();
+#endif
+    XVisualInfo *visual = choose(w);
+    if (!visual)
+        demo_fail(1, "no GLX visual of this kind");
+    context = glXCreateContext(display, visual, NULL, True);
+    if (!context)
+        demo_fail(1, "glXCreateContext failed");
+    win = x11_window(display, visual, w);
+    XFree(visual);
+    if (!glXMakeCurrent(display, win, context))
+        demo_fail(1, "glXMakeCurrent failed");
+}
+
+static int frame_end(void)
+{
+    glXSwapBuffers(display, win);
+    return x11_quit(display);
+}
+
+static demo_function proc(const char *name) { return (demo_function)glXGetProcAddressARB((const GLubyte *)name); }
+
+static void close_window(void)
+{
+    glXMakeCurrent(display, None, NULL);
+    glXDestroyContext(display, context);
+    XDestroyWindow(display, win);
+    XCloseDisplay(display);
+}
+
+const struct demo_api demo_glx = {"glx", open_window, frame_end, proc, close_window};

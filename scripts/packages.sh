@@ -1,0 +1,93 @@
+#!/bin/sh
+# Installs the Debian packages that are missing. Does nothing, and asks for nothing, when all are there.
+#
+#   scripts/packages.sh PACKAGE... [--optional PACKAGE...]
+#
+# A missing optional package is a warning: the tests that need it say that they are skipped.
+set -eu
+
+say() { echo "packages: $*" >&2; }
+
+installed() {
+    [ "$(dpkg-query -W -f='${db:Status-Status}' "$1" 2>/dev/null)" = installed ]
+}
+
+# Prints those of its arguments that are not installed.
+missing() {
+    for package; do
+        installed "$package" || printf '%s ' "$package"
+    done
+}
+
+required= optional= list=required
+for word; do
+    case $word in
+        --optional) list=optional ;;
+        *) eval "$list=\"\$$list $word\"" ;;
+    esac
+done
+
+if ! command -v dpkg-query >/dev/null 2>&1 || ! command -v apt-get >/dev/null 2>&1; then
+    say "this is no Debian system; make sure that you have what these Debian packages hold:$required$optional"
+    exit 0
+fi
+
+# Lists are split into words on purpose from here on.
+# shellcheck disable=SC2086
+{
+    need=$(missing $required)
+    want=$(missing $optional)
+}
+[ -n "$need$want" ] || exit 0
+
+as_root=
+if [ "$(id -u)" -ne 0 ]; then
+    if ! command -v sudo >/dev/null 2>&1; then
+        say "not root and no sudo; as root, run: apt-get install $need$want"
+        [ -z "$need" ] && exit 0
+        exit 1
+    fi
+    as_root=sudo
+fi
+
+apt() {
+    $as_root env DEBIAN_FRONTEND=noninteractive apt-get -y -q "$@" >&2
+}
+
+updated=
+update() {
+    [ -z "$updated" ] || return 0
+    updated=yes
+    say "reading the package index"
+    apt update || say "apt-get update failed; going on with the index that is there"
+}
+
+available() {
+    apt-cache show --no-all-versions "$1" >/dev/null 2>&1
+}
+
+# A fresh machine has no index at all, an old one may not know a package.
+for package in $need $want; do
+    available "$package" || update
+done
+
+install() {
+    say "installing $*"
+    apt install --no-install-recommends "$@" && return 0
+    # An older point release of Mesa on the machine has been seen to stop the installation half-way;
+    # repairing and asking again goes through. An index older than the archive does too after an update.
+    update
+    apt --fix-broken install || true
+    apt install --no-install-recommends "$@"
+}
+
+# shellcheck disable=SC2086
+if [ -n "$need" ] && ! install $need; then
+    say "could not install: $(missing $need)"
+    exit 1
+fi
+for package in $want; do
+    if ! available "$package" || ! install "$package"; then
+        say "warning: $package is not to be had here; what needs it is skipped"
+    fi
+done
