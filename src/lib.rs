@@ -1,10 +1,15 @@
 //! `manyview` shows unmodified OpenGL programs on glasses-free 3D panels.
 //!
-//! The modules follow the flow of a draw call; a module imports only from those above it.
+//! The modules follow the flow of a draw call (see ARCHITECTURE.md); a module imports only from those above it in this list.
 #![deny(unsafe_code)]
 
-pub mod config;
+// Blank lines between them: rustfmt would put them in the order of the alphabet.
+
 pub mod display;
-pub mod fixed;
-pub mod interleave;
+
+pub mod config;
+
+#[allow(unsafe_code, reason = "the one place that talks to the driver")]
+pub mod gl;
+
 pub mod metric;

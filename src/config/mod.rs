@@ -1,8 +1,25 @@
 //! What the user asked for: options of the command line, keys of the TOML file and `MANYVIEW_*` variables.
 #![forbid(unsafe_code)]
 
+mod error;
+mod options;
+pub mod panel;
+mod parse;
+mod settings;
+mod status;
+#[cfg(test)]
+mod tests;
+
+pub use error::ConfigError;
+pub use options::{DISABLE, Field, LIBRARY, OPTIONS, OptionId, OptionSpec, Origin, PathKind};
+pub use settings::{Setting, Settings};
+pub use status::Status;
+
 use crate::display::Display;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
+
+/// The largest number of views anyone may ask for; the driver may allow fewer.
+pub const MAX_VIEWS: u32 = 256;
 
 /// Everything the layer needs to know before the first frame.
 #[derive(Clone, Debug, PartialEq)]
@@ -25,6 +42,20 @@ pub struct Config {
     pub report: Option<PathBuf>,
     /// Pictures to write, if any.
     pub capture: Option<Capture>,
+    /// Where the layer tells the launcher how far it is, if the launcher asked.
+    pub status: Option<PathBuf>,
+}
+
+impl Config {
+    /// Reads the `MANYVIEW_*` variables through `lookup`, and the TOML file that they name.
+    pub fn from_env(lookup: impl Fn(&str) -> Option<String>) -> Result<Self, ConfigError> {
+        Self::from_settings(&Settings::from_env(lookup)?)
+    }
+}
+
+/// True if [`DISABLE`] turns the layer off; then no other variable is read.
+pub fn disabled(lookup: impl Fn(&str) -> Option<String>) -> bool {
+    lookup(DISABLE).is_some_and(|value| !value.is_empty() && value != "0")
 }
 
 /// The picture that is shown.
@@ -86,7 +117,7 @@ pub enum AtlasLayout {
 /// Pictures to write while the program runs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Capture {
-    /// Target file; with several frames `%d` in it (or before the extension) is the frame.
+    /// Target file; [`Capture::path_for`] says what it is called for each frame.
     pub out: PathBuf,
     /// First frame, 1-based.
     pub first: u64,
@@ -94,6 +125,44 @@ pub struct Capture {
     pub last: u64,
     /// What is written.
     pub what: CaptureWhat,
+}
+
+impl Capture {
+    /// The file for one frame: `%d` becomes the frame; without it, several frames get `-000030` before the extension.
+    ///
+    /// The layer writes to [`Capture::partial_path`] first and renames, so a file with this name is whole.
+    #[must_use]
+    pub fn path_for(&self, frame: u64) -> PathBuf {
+        let name = self
+            .out
+            .file_name()
+            .map(|name| name.to_string_lossy().into_owned())
+            .unwrap_or_default();
+        if name.contains("%d") {
+            return self
+                .out
+                .with_file_name(name.replace("%d", &frame.to_string()));
+        }
+        if self.first == self.last {
+            return self.out.clone();
+        }
+        let path = Path::new(&name);
+        let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+        let extension = path
+            .extension()
+            .map(|e| format!(".{}", e.to_string_lossy()))
+            .unwrap_or_default();
+        self.out
+            .with_file_name(format!("{stem}-{frame:06}{extension}"))
+    }
+
+    /// The name under which the file for one frame grows.
+    #[must_use]
+    pub fn partial_path(&self, frame: u64) -> PathBuf {
+        let mut path = self.path_for(frame).into_os_string();
+        path.push(".tmp");
+        PathBuf::from(path)
+    }
 }
 
 /// What a captured picture holds.

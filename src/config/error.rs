@@ -1,0 +1,150 @@
+//! What can be wrong with the options; each message names the option, its value and the remedy.
+#![forbid(unsafe_code)]
+
+use super::options::Field;
+use std::path::PathBuf;
+
+/// Why the options cannot be used.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum ConfigError {
+    /// N is no number, 0 or too large.
+    #[error("{field} is '{value}'; give a whole number of views from 1 to {max}", max = super::MAX_VIEWS)]
+    Views {
+        /// The option.
+        field: Field,
+        /// Its value.
+        value: String,
+    },
+    /// A word that is not one of the choices.
+    #[error("{field} is '{value}'; this version knows {choices}")]
+    Choice {
+        /// The option.
+        field: Field,
+        /// Its value.
+        value: String,
+        /// What it could be.
+        choices: &'static str,
+    },
+    /// A view that does not exist.
+    #[error("{field} asks for view {view} of {views}; views count from 0, so the last is view:{last}", last = views - 1)]
+    ViewOutOfRange {
+        /// The option.
+        field: Field,
+        /// The view asked for.
+        view: u32,
+        /// N
+        views: u32,
+    },
+    /// Not a finite number.
+    #[error("{field} is '{value}'; give a finite number such as {example}")]
+    Number {
+        /// The option.
+        field: Field,
+        /// Its value.
+        value: String,
+        /// A value that would do.
+        example: &'static str,
+    },
+    /// Zero or negative where only a positive number makes sense.
+    #[error(
+        "{field} is {value}; give a number above 0, the distance to the plane of zero parallax"
+    )]
+    NotPositive {
+        /// The option.
+        field: Field,
+        /// Its value.
+        value: String,
+    },
+    /// One half of a pair.
+    #[error(
+        "{field} is {value} but {partner} is missing; give both, or neither to have the cameras chosen"
+    )]
+    Partner {
+        /// The half that is there.
+        field: Field,
+        /// Its value.
+        value: String,
+        /// The half that is missing.
+        partner: Field,
+    },
+    /// κ, ξ and S, C at once.
+    #[error(
+        "{first} is {first_value} and {second} is {second_value}, two ways to place the same cameras; keep one of them"
+    )]
+    TwoCameras {
+        /// One of the eye options.
+        first: Field,
+        /// Its value.
+        first_value: String,
+        /// One of the clip-space options.
+        second: Field,
+        /// Its value.
+        second_value: String,
+    },
+    /// Views are drawn at the size of the window in this version.
+    #[error(
+        "{field} is '{value}', but this version draws views at the size of the window; leave it out or give 1"
+    )]
+    ViewScale {
+        /// The option.
+        field: Field,
+        /// Its value.
+        value: String,
+    },
+    /// Frames that cannot be counted.
+    #[error(
+        "{field} is '{value}'; give a frame counted from 1 such as 30, or a range such as 30..40"
+    )]
+    Frames {
+        /// The option.
+        field: Field,
+        /// Its value.
+        value: String,
+    },
+    /// Frames or content without a file to write to.
+    #[error("{field} is '{value}' but no picture is asked for; set {out} to the file to write")]
+    CaptureWithoutOut {
+        /// The option.
+        field: Field,
+        /// Its value.
+        value: String,
+        /// The option that is missing.
+        out: Field,
+    },
+    /// A panel that cannot be had, or not with this number of views; the reason names it and the remedy.
+    #[error("{field}: {reason}")]
+    Display {
+        /// The option.
+        field: Field,
+        /// What is wrong.
+        reason: String,
+    },
+    /// A TOML file that cannot be read or parsed.
+    #[error("{field} is '{}', which cannot be used: {reason}", path.display())]
+    File {
+        /// The option.
+        field: Field,
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        reason: String,
+    },
+    /// A key that means nothing.
+    #[error("{} has the unknown key '{key}'; the keys are {known}", path.display())]
+    UnknownKey {
+        /// The file.
+        path: PathBuf,
+        /// The key.
+        key: String,
+        /// The keys there are.
+        known: String,
+    },
+    /// A key with a table, list, date or truth value.
+    #[error("{field} is of type {kind}; give a number or a text in quotes")]
+    KeyType {
+        /// The key.
+        field: Field,
+        /// What it is.
+        kind: &'static str,
+    },
+}

@@ -1,0 +1,224 @@
+//! The one table of options: each is an option of the command, a key of the TOML file and a `MANYVIEW_*` variable.
+#![forbid(unsafe_code)]
+
+use std::fmt;
+use std::path::PathBuf;
+
+/// Turns the layer off when it is set to anything but nothing or `0`.
+pub const DISABLE: &str = "MANYVIEW_DISABLE";
+/// Path of the layer's library; read by the launcher only.
+pub const LIBRARY: &str = "MANYVIEW_LIBRARY";
+
+/// Names an option wherever it comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum OptionId {
+    /// The TOML file with the other options.
+    Config,
+    /// Panel, by name or file.
+    Display,
+    /// Number of views.
+    Views,
+    /// What is given to the swap.
+    Output,
+    /// κ
+    EyeSpacing,
+    /// ξ
+    FocalDepth,
+    /// Separation in clip space.
+    Separation,
+    /// Convergence in clip space.
+    Convergence,
+    /// How draws are repeated.
+    Strategy,
+    /// Where the views lie.
+    Atlas,
+    /// Tile size over window size.
+    ViewScale,
+    /// JSON report.
+    Report,
+    /// Picture to write.
+    CaptureOut,
+    /// Frames to write.
+    CaptureFrames,
+    /// What the picture holds.
+    CaptureWhat,
+    /// Where the layer tells the launcher how far it is.
+    Status,
+}
+
+/// How a value that may be a path is made absolute.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PathKind {
+    /// Not a path.
+    No,
+    /// Always a path.
+    File,
+    /// A path unless it is the name of a built-in panel.
+    NameOrFile,
+}
+
+/// One row of the table.
+#[derive(Clone, Copy, Debug)]
+pub struct OptionSpec {
+    /// Which option.
+    pub id: OptionId,
+    /// Long option of the command, without the dashes.
+    pub flag: Option<&'static str>,
+    /// Key of the TOML file.
+    pub key: Option<&'static str>,
+    /// Environment variable.
+    pub variable: &'static str,
+    /// How the value is written in help texts.
+    pub value: &'static str,
+    /// Whether the value is a path.
+    pub path: PathKind,
+    /// One line for people.
+    pub help: &'static str,
+}
+
+macro_rules! option {
+    ($id:ident, $flag:expr, $key:expr, $variable:literal, $value:literal, $path:ident, $help:literal) => {
+        OptionSpec {
+            id: OptionId::$id,
+            flag: $flag,
+            key: $key,
+            variable: $variable,
+            value: $value,
+            path: PathKind::$path,
+            help: $help,
+        }
+    };
+}
+
+/// Every option, in the order in which people read about them.
+#[rustfmt::skip]
+pub const OPTIONS: &[OptionSpec] = &[
+    option!(Display, Some("display"), Some("display"), "MANYVIEW_DISPLAY", "NAME|FILE", NameOrFile,
+        "panel: a built-in name or a panel file; huebner8 unless given"),
+    option!(Views, Some("views"), Some("views"), "MANYVIEW_VIEWS", "N", No,
+        "number of views, 1 to 256; the panel's own unless given"),
+    option!(Output, Some("output"), Some("output"), "MANYVIEW_OUTPUT", "panel|sbs|quilt|view:I", No,
+        "what the window shows; panel unless given"),
+    option!(EyeSpacing, Some("eye-spacing"), Some("eye-spacing"), "MANYVIEW_EYE_SPACING", "K", No,
+        "spacing of neighbouring viewpoints in eye-space units; with --focal-depth"),
+    option!(FocalDepth, Some("focal-depth"), Some("focal-depth"), "MANYVIEW_FOCAL_DEPTH", "X", No,
+        "depth of zero parallax in eye-space units; with --eye-spacing"),
+    option!(Separation, Some("separation"), Some("separation"), "MANYVIEW_SEPARATION", "S", No,
+        "shift of neighbouring views in clip space; with --convergence"),
+    option!(Convergence, Some("convergence"), Some("convergence"), "MANYVIEW_CONVERGENCE", "C", No,
+        "clip-space w of zero parallax; with --separation"),
+    option!(Strategy, Some("strategy"), Some("strategy"), "MANYVIEW_STRATEGY", "auto|replay|instanced|geometry", No,
+        "how draws are repeated per view; auto unless given"),
+    option!(Atlas, Some("atlas"), Some("atlas"), "MANYVIEW_ATLAS", "side-by-side|layers", No,
+        "where the views lie in memory; side-by-side unless given"),
+    option!(ViewScale, Some("view-scale"), Some("view-scale"), "MANYVIEW_VIEW_SCALE", "F", No,
+        "size of a view over the size of the window, above 0 and at most 1; 1 unless given"),
+    option!(Report, Some("report"), Some("report"), "MANYVIEW_REPORT", "FILE.json", File,
+        "write a JSON report of frames, draws and fallbacks"),
+    option!(Config, Some("config"), None, "MANYVIEW_CONFIG", "FILE.toml", File,
+        "read options from a TOML file; variables and the command line win over it"),
+    option!(CaptureOut, Some("out"), Some("capture-out"), "MANYVIEW_CAPTURE_OUT", "PATH", File,
+        "PNG to write; with several frames %d in it is the frame, else -000030 goes before the extension"),
+    option!(CaptureFrames, Some("frames"), Some("capture-frames"), "MANYVIEW_CAPTURE_FRAMES", "N|A..B", No,
+        "frames to write, counted from 1, both ends included; 30 unless given"),
+    option!(CaptureWhat, Some("what"), Some("capture-what"), "MANYVIEW_CAPTURE_WHAT", "output|atlas|view:I|depth", No,
+        "what a picture holds; output unless given"),
+    option!(Status, None, None, "MANYVIEW_STATUS", "FILE.json", File,
+        "where the layer tells the launcher how many frames it has seen"),
+];
+
+impl OptionId {
+    /// The row of this option.
+    #[must_use]
+    pub fn spec(self) -> &'static OptionSpec {
+        // Every variant has a row (tested); the fallback only keeps this total.
+        OPTIONS
+            .iter()
+            .find(|spec| spec.id == self)
+            .unwrap_or(&OPTIONS[0])
+    }
+
+    /// True for the four options that place the cameras: a source that sets one of them replaces them all.
+    #[must_use]
+    pub fn places_cameras(self) -> bool {
+        matches!(
+            self,
+            Self::EyeSpacing | Self::FocalDepth | Self::Separation | Self::Convergence
+        )
+    }
+}
+
+/// Where a value comes from, the strongest first.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Origin {
+    /// An option of the command.
+    CommandLine,
+    /// An environment variable.
+    Variable,
+    /// A key of this TOML file.
+    File(PathBuf),
+    /// Nobody asked: the default.
+    Default,
+}
+
+/// An option as its user wrote it: `--views`, `MANYVIEW_VIEWS` or `views in panel.toml`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Field {
+    /// Which option.
+    pub id: OptionId,
+    /// Where its value comes from.
+    pub origin: Origin,
+}
+
+impl Field {
+    /// The same kind of spelling for another option, to name the remedy.
+    #[must_use]
+    pub fn sibling(&self, id: OptionId) -> Self {
+        Self {
+            id,
+            origin: self.origin.clone(),
+        }
+    }
+}
+
+impl fmt::Display for Field {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let spec = self.id.spec();
+        match (&self.origin, spec.flag, spec.key) {
+            (Origin::File(path), _, Some(key)) => write!(f, "{key} in {}", path.display()),
+            (Origin::CommandLine | Origin::Default, Some(flag), _) => write!(f, "--{flag}"),
+            _ => f.write_str(spec.variable),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::collections::BTreeSet;
+
+    #[test]
+    fn every_name_is_used_once() {
+        let unique = |names: Vec<&str>| names.len() == names.iter().collect::<BTreeSet<_>>().len();
+        assert!(
+            unique(OPTIONS.iter().filter_map(|o| o.flag).collect()),
+            "flags"
+        );
+        assert!(
+            unique(OPTIONS.iter().filter_map(|o| o.key).collect()),
+            "keys"
+        );
+        assert!(
+            unique(OPTIONS.iter().map(|o| o.variable).collect()),
+            "variables"
+        );
+    }
+
+    #[test]
+    fn every_row_finds_itself() {
+        for row in OPTIONS {
+            assert_eq!(row.id.spec().variable, row.variable);
+        }
+        assert_eq!(OPTIONS.len(), 16, "a new option needs a row");
+    }
+}

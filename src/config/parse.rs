@@ -1,0 +1,279 @@
+//! From written options to a [`Config`]; every value is checked here and nowhere else.
+#![forbid(unsafe_code)]
+
+use super::error::ConfigError;
+use super::options::{Field, OptionId, Origin};
+use super::settings::Settings;
+use super::{
+    AtlasLayout, Camera, Capture, CaptureWhat, Config, MAX_VIEWS, Output, Strategy, panel,
+};
+use crate::display::Display;
+use std::path::PathBuf;
+
+const DEFAULT_FRAME: u64 = 30;
+
+impl Config {
+    /// Understands every option; the first one that is wrong is the error.
+    pub fn from_settings(settings: &Settings) -> Result<Self, ConfigError> {
+        let display = display(settings)?;
+        let views = views(settings, &display)?;
+        Ok(Self {
+            views,
+            output: output(settings, views)?,
+            camera: camera(settings)?,
+            strategy: choice(
+                settings,
+                OptionId::Strategy,
+                STRATEGIES,
+                "auto, replay, instanced and geometry",
+            )?
+            .unwrap_or(Strategy::Auto),
+            atlas: choice(
+                settings,
+                OptionId::Atlas,
+                ATLASES,
+                "side-by-side and layers",
+            )?
+            .unwrap_or(AtlasLayout::SideBySide),
+            view_scale: view_scale(settings)?,
+            report: path(settings, OptionId::Report),
+            capture: capture(settings, views)?,
+            status: path(settings, OptionId::Status),
+            display,
+        })
+    }
+}
+
+const STRATEGIES: &[(&str, Strategy)] = &[
+    ("auto", Strategy::Auto),
+    ("replay", Strategy::Replay),
+    ("instanced", Strategy::Instanced),
+    ("geometry", Strategy::Geometry),
+];
+
+const ATLASES: &[(&str, AtlasLayout)] = &[
+    ("side-by-side", AtlasLayout::SideBySide),
+    ("layers", AtlasLayout::Layers),
+];
+
+fn display(settings: &Settings) -> Result<Display, ConfigError> {
+    let (field, value) = display_field(settings);
+    panel::load(value).map_err(|reason| ConfigError::Display { field, reason })
+}
+
+fn display_field(settings: &Settings) -> (Field, &str) {
+    let default = Field {
+        id: OptionId::Display,
+        origin: Origin::Default,
+    };
+    settings
+        .field(OptionId::Display)
+        .unwrap_or((default, panel::DEFAULT))
+}
+
+fn views(settings: &Settings, display: &Display) -> Result<u32, ConfigError> {
+    let given = settings.field(OptionId::Views);
+    let (field, text) = match given {
+        Some((field, value)) => (field, value.to_owned()),
+        None => (
+            display_field(settings).0.sibling(OptionId::Views),
+            display.views.to_string(),
+        ),
+    };
+    let views = match text.parse() {
+        Ok(views) if (1..=MAX_VIEWS).contains(&views) => views,
+        _ => return Err(ConfigError::Views { field, value: text }),
+    };
+    panel::check_views(display, views).map_err(|reason| ConfigError::Display { field, reason })?;
+    Ok(views)
+}
+
+fn output(settings: &Settings, views: u32) -> Result<Output, ConfigError> {
+    const CHOICES: &str = "panel, sbs, quilt and view:I";
+    let Some((field, value)) = settings.field(OptionId::Output) else {
+        return Ok(Output::Panel);
+    };
+    match value {
+        "panel" => Ok(Output::Panel),
+        "sbs" => Ok(Output::SideBySide),
+        "quilt" => Ok(Output::Quilt),
+        _ => one_view(&field, value, views, CHOICES).map(Output::View),
+    }
+}
+
+/// The I of `view:I`.
+fn one_view(
+    field: &Field,
+    value: &str,
+    views: u32,
+    choices: &'static str,
+) -> Result<u32, ConfigError> {
+    let Some(view) = value
+        .strip_prefix("view:")
+        .and_then(|index| index.parse().ok())
+    else {
+        return Err(ConfigError::Choice {
+            field: field.clone(),
+            value: value.to_owned(),
+            choices,
+        });
+    };
+    if view >= views {
+        return Err(ConfigError::ViewOutOfRange {
+            field: field.clone(),
+            view,
+            views,
+        });
+    }
+    Ok(view)
+}
+
+fn choice<T: Copy>(
+    settings: &Settings,
+    id: OptionId,
+    table: &[(&str, T)],
+    choices: &'static str,
+) -> Result<Option<T>, ConfigError> {
+    let Some((field, value)) = settings.field(id) else {
+        return Ok(None);
+    };
+    match table.iter().find(|(name, _)| *name == value) {
+        Some((_, choice)) => Ok(Some(*choice)),
+        None => Err(ConfigError::Choice {
+            field,
+            value: value.to_owned(),
+            choices,
+        }),
+    }
+}
+
+fn camera(settings: &Settings) -> Result<Camera, ConfigError> {
+    use OptionId::{Convergence, EyeSpacing, FocalDepth, Separation};
+    let eye = settings
+        .field(EyeSpacing)
+        .or_else(|| settings.field(FocalDepth));
+    let clip = settings
+        .field(Separation)
+        .or_else(|| settings.field(Convergence));
+    if let (Some((first, first_value)), Some((second, second_value))) = (&eye, &clip) {
+        return Err(ConfigError::TwoCameras {
+            first: first.clone(),
+            first_value: (*first_value).to_owned(),
+            second: second.clone(),
+            second_value: (*second_value).to_owned(),
+        });
+    }
+    if eye.is_some() {
+        let (spacing, focal_depth) = pair(settings, EyeSpacing, FocalDepth)?;
+        if focal_depth <= 0.0
+            && let Some((field, value)) = settings.field(FocalDepth)
+        {
+            return Err(ConfigError::NotPositive {
+                field,
+                value: value.to_owned(),
+            });
+        }
+        return Ok(Camera::Eye {
+            spacing,
+            focal_depth,
+        });
+    }
+    if clip.is_some() {
+        let (separation, convergence) = pair(settings, Separation, Convergence)?;
+        return Ok(Camera::Clip {
+            separation,
+            convergence,
+        });
+    }
+    Ok(Camera::Auto)
+}
+
+/// Two numbers that only make sense together; at least one is there.
+fn pair(settings: &Settings, first: OptionId, second: OptionId) -> Result<(f64, f64), ConfigError> {
+    match (settings.field(first), settings.field(second)) {
+        (Some(a), Some(b)) => Ok((number(a)?, number(b)?)),
+        (Some((field, value)), None) => Err(ConfigError::Partner {
+            partner: field.sibling(second),
+            field,
+            value: value.to_owned(),
+        }),
+        (None, Some((field, value))) => Err(ConfigError::Partner {
+            partner: field.sibling(first),
+            field,
+            value: value.to_owned(),
+        }),
+        (None, None) => Ok((0.0, 0.0)),
+    }
+}
+
+fn number((field, value): (Field, &str)) -> Result<f64, ConfigError> {
+    match value.parse::<f64>() {
+        Ok(number) if number.is_finite() => Ok(number),
+        _ => Err(ConfigError::Number {
+            field,
+            value: value.to_owned(),
+            example: "0.25",
+        }),
+    }
+}
+
+fn view_scale(settings: &Settings) -> Result<f64, ConfigError> {
+    let Some((field, value)) = settings.field(OptionId::ViewScale) else {
+        return Ok(1.0);
+    };
+    match value.parse::<f64>() {
+        Ok(scale) if scale == 1.0 => Ok(scale),
+        _ => Err(ConfigError::ViewScale {
+            field,
+            value: value.to_owned(),
+        }),
+    }
+}
+
+fn path(settings: &Settings, id: OptionId) -> Option<PathBuf> {
+    settings
+        .get(id)
+        .map(|setting| PathBuf::from(&setting.value))
+}
+
+fn capture(settings: &Settings, views: u32) -> Result<Option<Capture>, ConfigError> {
+    const CHOICES: &str = "output, atlas, view:I and depth";
+    let frames = settings.field(OptionId::CaptureFrames);
+    let what = settings.field(OptionId::CaptureWhat);
+    let Some(out) = path(settings, OptionId::CaptureOut) else {
+        return match frames.or(what) {
+            None => Ok(None),
+            Some((field, value)) => Err(ConfigError::CaptureWithoutOut {
+                out: field.sibling(OptionId::CaptureOut),
+                field,
+                value: value.to_owned(),
+            }),
+        };
+    };
+    let (first, last) = match frames {
+        None => (DEFAULT_FRAME, DEFAULT_FRAME),
+        Some((field, value)) => frame_range(value).ok_or_else(|| ConfigError::Frames {
+            field,
+            value: value.to_owned(),
+        })?,
+    };
+    let what = match what {
+        None | Some((_, "output")) => CaptureWhat::Output,
+        Some((_, "atlas")) => CaptureWhat::Atlas,
+        Some((_, "depth")) => CaptureWhat::Depth,
+        Some((field, value)) => CaptureWhat::View(one_view(&field, value, views, CHOICES)?),
+    };
+    Ok(Some(Capture {
+        out,
+        first,
+        last,
+        what,
+    }))
+}
+
+/// `30` or `30..40`, both ends included, counted from 1.
+fn frame_range(text: &str) -> Option<(u64, u64)> {
+    let (first, last) = text.split_once("..").unwrap_or((text, text));
+    let (first, last) = (first.parse().ok()?, last.parse().ok()?);
+    (1 <= first && first <= last).then_some((first, last))
+}

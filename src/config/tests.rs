@@ -1,0 +1,274 @@
+//! Messages, precedence and the way through the environment.
+
+use super::*;
+use std::fmt::Write as _;
+
+fn from_pairs(pairs: &[(&str, &str)]) -> Result<Config, ConfigError> {
+    Config::from_env(|name| {
+        pairs
+            .iter()
+            .find(|(n, _)| *n == name)
+            .map(|(_, v)| (*v).to_owned())
+    })
+}
+
+fn on_command_line(pairs: &[(OptionId, &str)]) -> Settings {
+    let mut settings = Settings::default();
+    for (id, value) in pairs {
+        settings.set(*id, *value, Origin::CommandLine);
+    }
+    settings
+}
+
+#[test]
+fn nothing_set_gives_the_defaults() {
+    let config = from_pairs(&[]).unwrap();
+    assert_eq!(
+        (config.views, config.output, config.camera),
+        (8, Output::Panel, Camera::Auto)
+    );
+    assert_eq!(
+        (config.strategy, config.atlas),
+        (Strategy::Auto, AtlasLayout::SideBySide)
+    );
+    assert_eq!(
+        (config.view_scale, config.report, config.capture),
+        (1.0, None, None)
+    );
+    assert_eq!(config.display.name, panel::DEFAULT);
+}
+
+#[test]
+fn every_message_is_one_clear_sentence() {
+    let cases: &[&[(&str, &str)]] = &[
+        &[("MANYVIEW_VIEWS", "0")],
+        &[("MANYVIEW_VIEWS", "257")],
+        &[("MANYVIEW_VIEWS", "-3")],
+        &[("MANYVIEW_VIEWS", "eight")],
+        &[("MANYVIEW_OUTPUT", "anaglyph")],
+        &[("MANYVIEW_OUTPUT", "view:8")],
+        &[("MANYVIEW_OUTPUT", "view:x")],
+        &[("MANYVIEW_EYE_SPACING", "0.1")],
+        &[("MANYVIEW_FOCAL_DEPTH", "5")],
+        &[
+            ("MANYVIEW_EYE_SPACING", "0.1"),
+            ("MANYVIEW_FOCAL_DEPTH", "0"),
+        ],
+        &[
+            ("MANYVIEW_EYE_SPACING", "0.1"),
+            ("MANYVIEW_FOCAL_DEPTH", "-2"),
+        ],
+        &[
+            ("MANYVIEW_EYE_SPACING", "NaN"),
+            ("MANYVIEW_FOCAL_DEPTH", "2"),
+        ],
+        &[
+            ("MANYVIEW_EYE_SPACING", "0.1"),
+            ("MANYVIEW_FOCAL_DEPTH", "inf"),
+        ],
+        &[("MANYVIEW_SEPARATION", "0.1")],
+        &[("MANYVIEW_CONVERGENCE", "2")],
+        &[
+            ("MANYVIEW_SEPARATION", "0.1"),
+            ("MANYVIEW_CONVERGENCE", "1e999"),
+        ],
+        &[
+            ("MANYVIEW_SEPARATION", "0.1"),
+            ("MANYVIEW_EYE_SPACING", "0.2"),
+        ],
+        &[("MANYVIEW_STRATEGY", "magic")],
+        &[("MANYVIEW_ATLAS", "cube")],
+        &[("MANYVIEW_VIEW_SCALE", "auto")],
+        &[("MANYVIEW_VIEW_SCALE", "0")],
+        &[("MANYVIEW_VIEW_SCALE", "2")],
+        &[("MANYVIEW_VIEW_SCALE", "NaN")],
+        &[("MANYVIEW_CAPTURE_FRAMES", "30")],
+        &[
+            ("MANYVIEW_CAPTURE_OUT", "a.png"),
+            ("MANYVIEW_CAPTURE_FRAMES", "0"),
+        ],
+        &[
+            ("MANYVIEW_CAPTURE_OUT", "a.png"),
+            ("MANYVIEW_CAPTURE_FRAMES", "9..3"),
+        ],
+        &[
+            ("MANYVIEW_CAPTURE_OUT", "a.png"),
+            ("MANYVIEW_CAPTURE_WHAT", "sound"),
+        ],
+        &[
+            ("MANYVIEW_CAPTURE_OUT", "a.png"),
+            ("MANYVIEW_CAPTURE_WHAT", "view:9"),
+        ],
+        &[("MANYVIEW_CONFIG", "no-such-file.toml")],
+    ];
+    let mut all = String::new();
+    for case in cases {
+        let message = from_pairs(case).unwrap_err().to_string();
+        assert!(!message.contains('\n'), "one line: {message}");
+        writeln!(all, "{message}").unwrap();
+    }
+    insta::assert_snapshot!(all);
+}
+
+#[test]
+fn messages_name_the_option_as_it_was_written() {
+    let settings = on_command_line(&[(OptionId::EyeSpacing, "0.1")]);
+    insta::assert_snapshot!(
+        Config::from_settings(&settings).unwrap_err(),
+        @"--eye-spacing is 0.1 but --focal-depth is missing; give both, or neither to have the cameras chosen"
+    );
+}
+
+#[test]
+fn toml_messages_name_the_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("wall.toml");
+    let message = |text: &str| {
+        std::fs::write(&path, text).unwrap();
+        let error = from_pairs(&[("MANYVIEW_CONFIG", path.to_str().unwrap())])
+            .unwrap_err()
+            .to_string();
+        assert!(!error.contains('\n'), "one line: {error}");
+        error.replace(folder.path().to_str().unwrap(), "FOLDER")
+    };
+    let all = [
+        "views = 0",
+        "view = 8",
+        "views = [8]",
+        "views = ",
+        "focal-depth = 4.0",
+    ]
+    .map(message);
+    insta::assert_snapshot!(all.join("\n"));
+}
+
+#[test]
+fn command_line_beats_variable_beats_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("m.toml");
+    std::fs::write(
+        &path,
+        "views = 3\noutput = \"sbs\"\nstrategy = \"replay\"\nreport = \"r.json\"\n",
+    )
+    .unwrap();
+    let variables = |name: &str| match name {
+        "MANYVIEW_CONFIG" => Some(path.to_str().unwrap().to_owned()),
+        "MANYVIEW_VIEWS" => Some("4".to_owned()),
+        "MANYVIEW_OUTPUT" => Some("quilt".to_owned()),
+        _ => None,
+    };
+    let environment = Settings::from_env(variables).unwrap();
+    let settings = on_command_line(&[(OptionId::Views, "5")]).over(environment);
+    let config = Config::from_settings(&settings).unwrap();
+    assert_eq!(
+        (config.views, config.output, config.strategy),
+        (5, Output::Quilt, Strategy::Replay)
+    );
+    assert_eq!(
+        config.report,
+        Some(folder.path().join("r.json")),
+        "relative to the file"
+    );
+}
+
+#[test]
+fn a_stronger_camera_replaces_a_weaker_one_whole() {
+    let weaker = on_command_line(&[(OptionId::Separation, "0.1"), (OptionId::Convergence, "3")]);
+    let stronger = on_command_line(&[(OptionId::EyeSpacing, "0.2"), (OptionId::FocalDepth, "7")]);
+    let config = Config::from_settings(&stronger.over(weaker)).unwrap();
+    assert_eq!(
+        config.camera,
+        Camera::Eye {
+            spacing: 0.2,
+            focal_depth: 7.0
+        }
+    );
+}
+
+#[test]
+fn options_survive_the_way_through_the_environment() {
+    let settings = on_command_line(&[
+        (OptionId::Views, "5"),
+        (OptionId::Output, "view:2"),
+        (OptionId::Separation, "-0.05"),
+        (OptionId::Convergence, "4"),
+        (OptionId::ViewScale, "1"),
+        (OptionId::CaptureOut, "/tmp/a.png"),
+        (OptionId::CaptureFrames, "3..5"),
+        (OptionId::CaptureWhat, "atlas"),
+    ]);
+    let passed = settings.to_env(Path::new("/somewhere"));
+    let again = Config::from_env(|name| {
+        passed
+            .iter()
+            .find(|(n, _)| n == name)
+            .map(|(_, v)| v.clone())
+    });
+    assert_eq!(again.unwrap(), Config::from_settings(&settings).unwrap());
+}
+
+#[test]
+fn paths_are_made_absolute_and_names_are_not() {
+    let settings = on_command_line(&[
+        (OptionId::Report, "r.json"),
+        (OptionId::Display, panel::DEFAULT),
+    ]);
+    let passed = settings.to_env(Path::new("/here"));
+    assert!(passed.contains(&("MANYVIEW_REPORT".to_owned(), "/here/r.json".to_owned())));
+    assert!(passed.contains(&("MANYVIEW_DISPLAY".to_owned(), panel::DEFAULT.to_owned())));
+}
+
+#[test]
+fn pictures_are_named_by_frame() {
+    let capture = |out: &str, first, last| Capture {
+        out: out.into(),
+        first,
+        last,
+        what: CaptureWhat::Output,
+    };
+    assert_eq!(
+        capture("d/a.png", 30, 30).path_for(30),
+        Path::new("d/a.png")
+    );
+    assert_eq!(
+        capture("d/a.png", 30, 31).path_for(31),
+        Path::new("d/a-000031.png")
+    );
+    assert_eq!(
+        capture("d/a-%d.png", 30, 31).path_for(31),
+        Path::new("d/a-31.png")
+    );
+    assert_eq!(
+        capture("d/a-%d.png", 30, 30).path_for(30),
+        Path::new("d/a-30.png")
+    );
+    assert_eq!(
+        capture("d.x/a", 1, 2).path_for(2),
+        Path::new("d.x/a-000002")
+    );
+    assert_eq!(
+        capture("d/a.png", 1, 1).partial_path(1),
+        Path::new("d/a.png.tmp")
+    );
+}
+
+#[test]
+fn disable_means_anything_but_nothing_and_zero() {
+    assert!(disabled(|_| Some("1".to_owned())));
+    assert!(!disabled(|_| Some("0".to_owned())));
+    assert!(!disabled(|_| Some(String::new())));
+    assert!(!disabled(|_| None));
+}
+
+#[test]
+fn status_survives_a_round_trip() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("s.json");
+    assert_eq!(Status::read(&path), None);
+    let status = Status {
+        frames: 12,
+        notes: vec!["the layer turned itself off".to_owned()],
+    };
+    status.write(&path).unwrap();
+    assert_eq!(Status::read(&path), Some(status));
+}

@@ -1,0 +1,86 @@
+//! Numbers of a panel description: exact where the text allows it.
+#![forbid(unsafe_code)]
+
+/// Largest denominator that is kept exactly. Nine decimals are more than any calibration gives.
+const MODEST: i64 = 1_000_000_000;
+
+/// A number as the user wrote it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Number {
+    /// In lowest terms.
+    Exact {
+        /// Carries the sign.
+        numerator: i64,
+        /// At least 1.
+        denominator: i64,
+    },
+    /// Everything that has no modest denominator.
+    Float(f64),
+}
+
+impl Number {
+    /// `numerator / denominator` in lowest terms; None when the denominator is 0 or too large.
+    pub fn ratio(numerator: i64, denominator: i64) -> Option<Self> {
+        let divisor = gcd(numerator.checked_abs()?, denominator.checked_abs()?);
+        let (n, d) = (
+            numerator.checked_div(divisor)?,
+            denominator.checked_div(divisor)?,
+        );
+        let (n, d) = if d < 0 {
+            (n.checked_neg()?, d.checked_neg()?)
+        } else {
+            (n, d)
+        };
+        (1..=MODEST).contains(&d).then_some(Self::Exact {
+            numerator: n,
+            denominator: d,
+        })
+    }
+
+    /// Reads `a/b` of whole numbers or a decimal number. None when it is neither, or not finite.
+    pub fn parse(text: &str) -> Option<Self> {
+        let text = text.trim();
+        if let Some((a, b)) = text.split_once('/') {
+            let (a, b) = (a.trim().parse().ok()?, b.trim().parse().ok()?);
+            if b == 0 {
+                return None;
+            }
+            return Some(Self::ratio(a, b).unwrap_or(Self::Float(a as f64 / b as f64)));
+        }
+        let float: f64 = text.parse().ok().filter(|f: &f64| f.is_finite())?;
+        Some(decimal(text).unwrap_or(Self::Float(float)))
+    }
+
+    /// The decimal number that is written shortest among those that round to `value`: 5.333 is 5333/1000, as written.
+    pub fn from_f64(value: f64) -> Option<Self> {
+        Self::parse(&format!("{value}"))
+    }
+
+    /// The nearest f64.
+    pub fn to_f64(self) -> f64 {
+        match self {
+            Self::Exact {
+                numerator,
+                denominator,
+            } => numerator as f64 / denominator as f64,
+            Self::Float(value) => value,
+        }
+    }
+}
+
+/// Plain decimals such as `-12.75`, without exponent.
+fn decimal(text: &str) -> Option<Number> {
+    let (whole, fraction) = text.split_once('.').unwrap_or((text, ""));
+    let fraction = fraction.trim_end_matches('0');
+    let denominator = 10i64.checked_pow(fraction.len().try_into().ok()?)?;
+    // The digits together keep the sign of "-0.5", which the whole part alone would lose.
+    Number::ratio(format!("{whole}{fraction}").parse().ok()?, denominator)
+}
+
+/// Greatest common divisor; of 0 and 0 it is 0.
+pub(super) fn gcd(mut a: i64, mut b: i64) -> i64 {
+    while b != 0 {
+        (a, b) = (b, a % b);
+    }
+    a
+}

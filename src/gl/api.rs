@@ -1,0 +1,563 @@
+//! The layer's own calls into the driver: thin, without pointers for the caller.
+
+use super::immediate::Recording;
+use super::real::{Ptr, Real};
+use core::ffi::CStr;
+
+/// The driver of the context that is current on this thread. Every method is the GL command of its name.
+#[derive(Clone, Copy, Debug)]
+pub struct Gl {
+    real: &'static Real,
+    // The context is current on one thread only.
+    _not_send: core::marker::PhantomData<*const ()>,
+}
+
+macro_rules! plain {
+    ($($name:ident = $gl:ident($($a:ident: $t:ty),*) $(-> $r:ty)?;)*) => {
+        /// Commands without pointers.
+        #[allow(missing_docs, clippy::too_many_arguments, reason = "each is the GL command of its name")]
+        impl Gl {
+            $(
+                #[inline]
+                pub fn $name(&self, $($a: $t),*) $(-> $r)? {
+                    // SAFETY: a context of this provider is current (contract of `Gl::new`).
+                    // SAFETY: the command takes no pointers; wrong values raise a GL error.
+                    unsafe { self.real.$gl($($a),*) }
+                }
+            )*
+        }
+    };
+}
+
+plain! {
+    begin = glBegin(mode: u32);
+    end = glEnd();
+    matrix_mode = glMatrixMode(mode: u32);
+    viewport = glViewport(x: i32, y: i32, w: i32, h: i32);
+    scissor = glScissor(x: i32, y: i32, w: i32, h: i32);
+    enable = glEnable(cap: u32);
+    disable = glDisable(cap: u32);
+    enablei = glEnablei(cap: u32, index: u32);
+    disablei = glDisablei(cap: u32, index: u32);
+    is_enabledi = glIsEnabledi(cap: u32, index: u32) -> u8;
+    color_4f = glColor4f(r: f32, g: f32, b: f32, a: f32);
+    normal_3f = glNormal3f(x: f32, y: f32, z: f32);
+    multi_tex_coord_4f = glMultiTexCoord4f(unit: u32, s: f32, t: f32, r: f32, q: f32);
+    secondary_color_3f = glSecondaryColor3f(r: f32, g: f32, b: f32);
+    fog_coordf = glFogCoordf(f: f32);
+    edge_flag = glEdgeFlag(flag: u8);
+    push_matrix = glPushMatrix();
+    pop_matrix = glPopMatrix();
+    push_attrib = glPushAttrib(mask: u32);
+    pop_attrib = glPopAttrib();
+    get_error = glGetError() -> u32;
+    flush = glFlush();
+    finish = glFinish();
+    bind_framebuffer = glBindFramebuffer(target: u32, name: u32);
+    draw_buffer = glDrawBuffer(buffer: u32);
+    read_buffer = glReadBuffer(buffer: u32);
+    framebuffer_texture_2d = glFramebufferTexture2D(target: u32, attachment: u32, kind: u32, texture: u32, level: i32);
+    framebuffer_texture = glFramebufferTexture(target: u32, attachment: u32, texture: u32, level: i32);
+    framebuffer_texture_layer = glFramebufferTextureLayer(target: u32, attachment: u32, texture: u32, level: i32, layer: i32);
+    framebuffer_parameteri = glFramebufferParameteri(target: u32, name: u32, value: i32);
+    check_framebuffer_status = glCheckFramebufferStatus(target: u32) -> u32;
+    blit_framebuffer = glBlitFramebuffer(sx0: i32, sy0: i32, sx1: i32, sy1: i32, dx0: i32, dy0: i32, dx1: i32, dy1: i32, mask: u32, filter: u32);
+    bind_texture = glBindTexture(target: u32, name: u32);
+    active_texture = glActiveTexture(unit: u32);
+    tex_parameteri = glTexParameteri(target: u32, name: u32, value: i32);
+    tex_image_2d_multisample = glTexImage2DMultisample(target: u32, samples: i32, format: u32, w: i32, h: i32, fixed: u8);
+    tex_image_3d_multisample = glTexImage3DMultisample(target: u32, samples: i32, format: u32, w: i32, h: i32, d: i32, fixed: u8);
+    bind_sampler = glBindSampler(unit: u32, sampler: u32);
+    is_texture = glIsTexture(name: u32) -> u8;
+    create_shader = glCreateShader(kind: u32) -> u32;
+    compile_shader = glCompileShader(shader: u32);
+    delete_shader = glDeleteShader(shader: u32);
+    create_program = glCreateProgram() -> u32;
+    attach_shader = glAttachShader(program: u32, shader: u32);
+    link_program = glLinkProgram(program: u32);
+    use_program = glUseProgram(program: u32);
+    bind_program_pipeline = glBindProgramPipeline(pipeline: u32);
+    uniform_1i = glUniform1i(location: i32, v: i32);
+    uniform_1ui = glUniform1ui(location: i32, v: u32);
+    uniform_2ui = glUniform2ui(location: i32, x: u32, y: u32);
+    uniform_4f = glUniform4f(location: i32, x: f32, y: f32, z: f32, w: f32);
+    uniform_block_binding = glUniformBlockBinding(program: u32, block: u32, binding: u32);
+    bind_buffer = glBindBuffer(target: u32, name: u32);
+    bind_buffer_base = glBindBufferBase(target: u32, index: u32, name: u32);
+    bind_vertex_array = glBindVertexArray(name: u32);
+    pixel_storei = glPixelStorei(name: u32, value: i32);
+    color_maski = glColorMaski(index: u32, r: u8, g: u8, b: u8, a: u8);
+    color_mask = glColorMask(r: u8, g: u8, b: u8, a: u8);
+    provoking_vertex = glProvokingVertex(convention: u32);
+    polygon_mode = glPolygonMode(face: u32, mode: u32);
+    draw_arrays = glDrawArrays(mode: u32, first: i32, count: i32);
+    draw_arrays_instanced = glDrawArraysInstanced(mode: u32, first: i32, count: i32, instances: i32);
+    call_list = glCallList(list: u32);
+    window_pos_2i = glWindowPos2i(x: i32, y: i32);
+}
+
+macro_rules! generate {
+    ($($name:ident = $gl:ident;)*) => { $(
+        /// One new name.
+        pub fn $name(&self) -> u32 {
+            let mut name = 0u32;
+            // SAFETY: a context is current; the pointer is to one u32 that lives across the call.
+            unsafe { self.real.$gl(1, (&raw mut name).cast()) };
+            name
+        }
+    )* };
+}
+
+/// Commands that take or give memory.
+impl Gl {
+    /// # Safety
+    /// A context of this provider is current on this thread for as long as the value is used.
+    pub unsafe fn new(real: &'static Real) -> Self {
+        Gl {
+            real,
+            _not_send: core::marker::PhantomData,
+        }
+    }
+
+    /// The table behind, for hooks that pass on the program's own arguments.
+    pub fn real(&self) -> &'static Real {
+        self.real
+    }
+
+    generate! {
+        gen_texture = glGenTextures;
+        gen_framebuffer = glGenFramebuffers;
+        gen_buffer = glGenBuffers;
+        gen_vertex_array = glGenVertexArrays;
+    }
+
+    /// glIsEnabled
+    pub fn is_enabled(&self, cap: u32) -> bool {
+        // SAFETY: a context is current.
+        unsafe { self.real.glIsEnabled(cap) != 0 }
+    }
+
+    /// glGetIntegerv; the largest answer that the layer asks for has 16 elements.
+    pub fn get_integers<const K: usize>(&self, name: u32) -> [i32; K] {
+        let mut v = [0i32; 16];
+        const { assert!(K <= 16) };
+        // SAFETY: room for 16 elements, more than any name asked for here returns.
+        unsafe { self.real.glGetIntegerv(name, v.as_mut_ptr().cast()) };
+        let mut out = [0; K];
+        out.copy_from_slice(&v[..K]);
+        out
+    }
+
+    /// glGetIntegerv of a single value.
+    pub fn get_integer(&self, name: u32) -> i32 {
+        self.get_integers::<1>(name)[0]
+    }
+
+    /// glGetFloatv of up to 16 values.
+    pub fn get_floats<const K: usize>(&self, name: u32) -> [f32; K] {
+        let mut v = [0f32; 16];
+        const { assert!(K <= 16) };
+        // SAFETY: room for 16 elements, the size of a matrix.
+        unsafe { self.real.glGetFloatv(name, v.as_mut_ptr().cast()) };
+        let mut out = [0.0; K];
+        out.copy_from_slice(&v[..K]);
+        out
+    }
+
+    /// glGetBooleani_v through glGetIntegeri_v, up to 4 values.
+    pub fn get_integers_indexed<const K: usize>(&self, name: u32, index: u32) -> [i32; K] {
+        let mut v = [0i32; 4];
+        const { assert!(K <= 4) };
+        // SAFETY: room for 4 elements.
+        unsafe {
+            self.real
+                .glGetIntegeri_v(name, index, v.as_mut_ptr().cast())
+        };
+        let mut out = [0; K];
+        out.copy_from_slice(&v[..K]);
+        out
+    }
+
+    /// glGetTexGeniv of one value; `coord` is GL_S to GL_Q.
+    pub fn get_tex_gen(&self, coord: u32, name: u32) -> i32 {
+        let mut v = [0i32; 4];
+        // SAFETY: room for 4 elements.
+        unsafe { self.real.glGetTexGeniv(coord, name, v.as_mut_ptr().cast()) };
+        v[0]
+    }
+
+    /// glGetTexEnviv of one value.
+    pub fn get_tex_env(&self, target: u32, name: u32) -> i32 {
+        let mut v = [0i32; 4];
+        // SAFETY: room for 4 elements.
+        unsafe { self.real.glGetTexEnviv(target, name, v.as_mut_ptr().cast()) };
+        v[0]
+    }
+
+    /// glGetLightfv, up to 4 values.
+    pub fn get_light(&self, light: u32, name: u32) -> [f32; 4] {
+        let mut v = [0f32; 4];
+        // SAFETY: room for 4 elements.
+        unsafe { self.real.glGetLightfv(light, name, v.as_mut_ptr().cast()) };
+        v
+    }
+
+    /// glGetString, empty when there is none.
+    pub fn get_string(&self, name: u32) -> String {
+        // SAFETY: a context is current; the driver's string is static.
+        text(unsafe { self.real.glGetString(name) })
+    }
+
+    /// Whether the context has an extension, by glGetStringi where there is GL 3, else by the one long string.
+    pub fn has_extension(&self, extension: &str) -> bool {
+        let n = if self.version() >= (3, 0) {
+            self.get_integer(super::consts::NUM_EXTENSIONS)
+        } else {
+            0
+        };
+        if n > 0 {
+            return (0..n as u32).any(|i| {
+                // SAFETY: a context is current; i is below the number of extensions.
+                let name = unsafe { self.real.glGetStringi(super::consts::EXTENSIONS, i) };
+                text(name) == extension
+            });
+        }
+        self.get_string(super::consts::EXTENSIONS)
+            .split(' ')
+            .any(|e| e == extension)
+    }
+
+    /// glGetMaterialfv, up to 4 values.
+    pub fn get_material(&self, face: u32, name: u32) -> [f32; 4] {
+        let mut v = [0f32; 4];
+        // SAFETY: room for 4 elements.
+        unsafe { self.real.glGetMaterialfv(face, name, v.as_mut_ptr().cast()) };
+        v
+    }
+
+    /// glMaterialfv; 4 values, of which GL_SHININESS uses one.
+    pub fn material(&self, face: u32, name: u32, v: &[f32; 4]) {
+        // SAFETY: 4 elements, the most that any name reads.
+        unsafe { self.real.glMaterialfv(face, name, v.as_ptr() as Ptr) }
+    }
+
+    /// Major and minor version of the context.
+    pub fn version(&self) -> (u32, u32) {
+        let s = self.get_string(super::consts::VERSION);
+        let s = s.trim_start_matches("OpenGL ES ");
+        let mut parts = s.split(['.', ' ']).map(|p| p.parse().unwrap_or(0));
+        (parts.next().unwrap_or(0), parts.next().unwrap_or(0))
+    }
+
+    /// glLoadMatrixf; column-major.
+    pub fn load_matrix(&self, m: &[f32; 16]) {
+        // SAFETY: 16 floats.
+        unsafe { self.real.glLoadMatrixf(m.as_ptr() as Ptr) }
+    }
+
+    /// glTexImage2D without data.
+    pub fn tex_storage_2d(&self, internal: u32, w: i32, h: i32, format: u32, kind: u32) {
+        // SAFETY: no data (the caller sees to it that no unpack buffer is bound).
+        unsafe {
+            self.real.glTexImage2D(
+                super::consts::TEXTURE_2D,
+                0,
+                internal as i32,
+                w,
+                h,
+                0,
+                format,
+                kind,
+                core::ptr::null_mut(),
+            )
+        }
+    }
+
+    /// glTexImage3D of an array texture without data.
+    pub fn tex_storage_3d(&self, internal: u32, w: i32, h: i32, d: i32, format: u32, kind: u32) {
+        // SAFETY: no data.
+        unsafe {
+            self.real.glTexImage3D(
+                super::consts::TEXTURE_2D_ARRAY,
+                0,
+                internal as i32,
+                w,
+                h,
+                d,
+                0,
+                format,
+                kind,
+                core::ptr::null_mut(),
+            )
+        }
+    }
+
+    /// glTexImage2D with a whole picture of 16-bit words, rows from texture row 0 on, 4 channels.
+    pub fn tex_image_rgba16ui(&self, w: i32, h: i32, data: &[[u16; 4]]) {
+        if data.len() < w as usize * h as usize {
+            return;
+        }
+        let c = (
+            super::consts::RGBA16UI as i32,
+            super::consts::RGBA_INTEGER,
+            super::consts::UNSIGNED_SHORT,
+        );
+        // SAFETY: w·h texels of 8 bytes (checked); default unpack state (the caller has set it).
+        unsafe {
+            self.real.glTexImage2D(
+                super::consts::TEXTURE_2D,
+                0,
+                c.0,
+                w,
+                h,
+                0,
+                c.1,
+                c.2,
+                data.as_ptr() as Ptr,
+            )
+        }
+    }
+
+    /// glReadPixels of RGB bytes, rows bottom up; pack state must be the default with alignment 1.
+    pub fn read_rgb(&self, x: i32, y: i32, w: u32, h: u32) -> Vec<u8> {
+        let mut out = vec![0u8; w as usize * h as usize * 3];
+        let c = (super::consts::RGB, super::consts::UNSIGNED_BYTE);
+        // SAFETY: w·h·3 bytes; alignment 1, no pack buffer (contract above).
+        unsafe {
+            self.real
+                .glReadPixels(x, y, w as i32, h as i32, c.0, c.1, out.as_mut_ptr().cast())
+        };
+        out
+    }
+
+    /// glReadPixels of depth as 16 bits, rows bottom up; pack state as for [`Gl::read_rgb`].
+    pub fn read_depth16(&self, x: i32, y: i32, w: u32, h: u32) -> Vec<u16> {
+        let mut out = vec![0u16; w as usize * h as usize];
+        let c = (
+            super::consts::DEPTH_COMPONENT,
+            super::consts::UNSIGNED_SHORT,
+        );
+        // SAFETY: w·h·2 bytes; alignment 1, no pack buffer.
+        unsafe {
+            self.real
+                .glReadPixels(x, y, w as i32, h as i32, c.0, c.1, out.as_mut_ptr().cast())
+        };
+        out
+    }
+
+    /// glDrawPixels of RGB bytes, rows bottom up; unpack state must be the default with alignment 1.
+    pub fn draw_pixels_rgb(&self, w: i32, h: i32, data: &[u8]) {
+        if data.len() < w as usize * h as usize * 3 {
+            return;
+        }
+        // SAFETY: w·h·3 bytes (checked).
+        unsafe {
+            self.real.glDrawPixels(
+                w,
+                h,
+                super::consts::RGB,
+                super::consts::UNSIGNED_BYTE,
+                data.as_ptr() as Ptr,
+            )
+        }
+    }
+
+    /// glBitmap without a picture: moves the raster position by (dx, dy) window pixels.
+    pub fn move_raster(&self, dx: f32, dy: f32) {
+        // SAFETY: no data is read for a picture of size 0.
+        unsafe {
+            self.real
+                .glBitmap(0, 0, 0.0, 0.0, dx, dy, core::ptr::null_mut())
+        }
+    }
+
+    /// glDrawBuffers
+    pub fn draw_buffers(&self, buffers: &[u32]) {
+        // SAFETY: length and pointer of one slice.
+        unsafe {
+            self.real
+                .glDrawBuffers(buffers.len() as i32, buffers.as_ptr() as Ptr)
+        }
+    }
+
+    /// Source of a shader, compiled; the log on failure.
+    pub fn compile(&self, kind: u32, source: &str) -> Result<u32, String> {
+        let shader = self.create_shader(kind);
+        let p = source.as_ptr();
+        let len = source.len() as i32;
+        // SAFETY: one string of the given length.
+        unsafe {
+            self.real
+                .glShaderSource(shader, 1, (&raw const p) as Ptr, (&raw const len) as Ptr)
+        };
+        self.compile_shader(shader);
+        let mut ok = 0i32;
+        let mut log = vec![0u8; 4096];
+        let mut got = 0i32;
+        // SAFETY: one integer; a buffer of the length given.
+        unsafe {
+            self.real
+                .glGetShaderiv(shader, super::consts::COMPILE_STATUS, (&raw mut ok).cast());
+            self.real.glGetShaderInfoLog(
+                shader,
+                log.len() as i32,
+                (&raw mut got).cast(),
+                log.as_mut_ptr().cast(),
+            );
+        }
+        if ok != 0 {
+            return Ok(shader);
+        }
+        self.delete_shader(shader);
+        log.truncate(got.max(0) as usize);
+        Err(String::from_utf8_lossy(&log).into_owned())
+    }
+
+    /// A program of compiled shaders, linked; the log on failure. The shaders are released either way.
+    pub fn link(&self, shaders: &[u32]) -> Result<u32, String> {
+        let program = self.create_program();
+        for &s in shaders {
+            self.attach_shader(program, s);
+        }
+        self.link_program(program);
+        for &s in shaders {
+            self.delete_shader(s);
+        }
+        let mut ok = 0i32;
+        let mut log = vec![0u8; 4096];
+        let mut got = 0i32;
+        // SAFETY: one integer; a buffer of the length given.
+        unsafe {
+            self.real
+                .glGetProgramiv(program, super::consts::LINK_STATUS, (&raw mut ok).cast());
+            self.real.glGetProgramInfoLog(
+                program,
+                log.len() as i32,
+                (&raw mut got).cast(),
+                log.as_mut_ptr().cast(),
+            );
+        }
+        if ok != 0 {
+            return Ok(program);
+        }
+        // SAFETY: a program name.
+        unsafe { self.real.glDeleteProgram(program) };
+        log.truncate(got.max(0) as usize);
+        Err(String::from_utf8_lossy(&log).into_owned())
+    }
+
+    /// glGetUniformLocation
+    pub fn uniform_location(&self, program: u32, name: &CStr) -> i32 {
+        // SAFETY: a string that ends in NUL.
+        unsafe {
+            self.real
+                .glGetUniformLocation(program, name.as_ptr() as Ptr)
+        }
+    }
+
+    /// glUniform4fv
+    pub fn uniform_4fv(&self, location: i32, v: &[[f32; 4]]) {
+        // SAFETY: that many vectors.
+        unsafe {
+            self.real
+                .glUniform4fv(location, v.len() as i32, v.as_ptr() as Ptr)
+        }
+    }
+
+    /// glGetUniformBlockIndex
+    pub fn uniform_block_index(&self, program: u32, name: &CStr) -> u32 {
+        // SAFETY: a string that ends in NUL.
+        unsafe {
+            self.real
+                .glGetUniformBlockIndex(program, name.as_ptr() as Ptr)
+        }
+    }
+
+    /// glBufferData of bytes.
+    pub fn buffer_data(&self, target: u32, data: &[u8], usage: u32) {
+        // SAFETY: that many bytes.
+        unsafe {
+            self.real
+                .glBufferData(target, data.len() as isize, data.as_ptr() as Ptr, usage)
+        }
+    }
+
+    /// glDeleteTextures of one name.
+    pub fn delete_texture(&self, name: u32) {
+        // SAFETY: one name.
+        unsafe { self.real.glDeleteTextures(1, (&raw const name) as Ptr) }
+    }
+
+    /// glDeleteFramebuffers of one name.
+    pub fn delete_framebuffer(&self, name: u32) {
+        // SAFETY: one name.
+        unsafe { self.real.glDeleteFramebuffers(1, (&raw const name) as Ptr) }
+    }
+
+    /// glGetFramebufferAttachmentParameteriv of the draw framebuffer.
+    pub fn attachment_parameter(&self, attachment: u32, name: u32) -> i32 {
+        let mut v = 0i32;
+        // SAFETY: one integer.
+        unsafe {
+            self.real.glGetFramebufferAttachmentParameteriv(
+                super::consts::DRAW_FRAMEBUFFER,
+                attachment,
+                name,
+                (&raw mut v).cast(),
+            )
+        };
+        v
+    }
+
+    /// Sends recorded immediate mode between a glBegin and a glEnd.
+    pub fn replay(&self, mode: u32, recording: &Recording) {
+        self.begin(mode);
+        // SAFETY: between glBegin and glEnd of the context it was recorded in (the caller keeps one per context).
+        unsafe { recording.replay(self.real) };
+        self.end();
+    }
+
+    /// glDrawElementsInstanced with the program's own index pointer.
+    pub fn draw_elements_instanced(
+        &self,
+        mode: u32,
+        count: i32,
+        kind: u32,
+        indices: Indices,
+        instances: i32,
+    ) {
+        // SAFETY: the program passed this pointer for this count and type to its own draw (contract of `Indices::new`).
+        unsafe {
+            self.real
+                .glDrawElementsInstanced(mode, count, kind, indices.0, instances)
+        }
+    }
+
+    /// glDrawElements with the program's own index pointer.
+    pub fn draw_elements(&self, mode: u32, count: i32, kind: u32, indices: Indices) {
+        // SAFETY: as above.
+        unsafe { self.real.glDrawElements(mode, count, kind, indices.0) }
+    }
+}
+
+fn text(p: Ptr) -> String {
+    if p.is_null() {
+        return String::new();
+    }
+    // SAFETY: the driver's strings end in NUL and live as long as the context.
+    unsafe { CStr::from_ptr(p as *const core::ffi::c_char) }
+        .to_string_lossy()
+        .into_owned()
+}
+
+/// The index pointer of the program's draw: an address, or an offset into the element buffer.
+#[derive(Clone, Copy, Debug)]
+pub struct Indices(Ptr);
+
+impl Indices {
+    /// # Safety
+    /// The value is used only while the draw it came from has not returned, for the same count and type.
+    pub unsafe fn new(p: Ptr) -> Self {
+        Indices(p)
+    }
+}

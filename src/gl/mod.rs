@@ -1,0 +1,16 @@
+//! The only unsafe code of the library: the table of real functions, recorded immediate mode, and [`Gl`], the calls that the
+//! layer itself makes.
+
+#[macro_use]
+mod real;
+pub mod api;
+pub mod consts;
+pub mod immediate;
+#[allow(missing_docs, non_upper_case_globals, clippy::missing_safety_doc, reason = "generated; the names are the API's own")]
+#[rustfmt::skip]
+mod table;
+
+pub use api::Gl;
+pub use immediate::Recording;
+pub use real::{Ptr, Real};
+pub use table::{COUNT, NAMES, slot};

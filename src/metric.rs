@@ -1,2 +1,0 @@
-//! m
-#![forbid(unsafe_code)]
