@@ -9,6 +9,8 @@ pub mod display;
 
 pub mod config;
 
+pub mod fixed;
+
 #[allow(unsafe_code, reason = "the one place that talks to the driver")]
 pub mod gl;
 

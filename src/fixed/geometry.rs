@@ -1,0 +1,141 @@
+//! The geometry shader: the primitive of one view, for each view.
+//!
+//! Based on: Q. Luo et al., "GPU-based multi-view rendering" and F. de Sorbier et al., "GPU rendering for
+//! autostereoscopic displays" (3DPVT 2008): the primitive is emitted once per view, shifted and cut at its tile.
+//!
+//! The order of emission keeps the order of the input, so the driver's provoking vertex is the program's own. A quad or
+//! polygon arrives as something else (see [`Primitive`]), and its flat colour is given to every vertex instead.
+
+use super::components::varyings;
+use super::key::{Amplifier, Diagonal, FixedKey, Primitive, Provoking};
+use super::limits::Limits;
+use super::reason::Unsupported;
+use super::text::Text;
+use super::{UNIFORM_FIRST, vertex, view};
+
+/// Vertices in the order of emission, with their index in the input.
+fn order(key: &FixedKey) -> &'static [u8] {
+    match (key.target.primitive, key.target.diagonal) {
+        (Primitive::Points, _) => &[0],
+        (Primitive::Lines, _) => &[0, 1],
+        (Primitive::Triangles | Primitive::Polygon, _) => &[0, 1, 2],
+        // Strips: triangles 0 1 3 and 3 1 2, or 1 2 0 and 0 2 3.
+        (Primitive::Quads | Primitive::QuadStrip, Diagonal::OneThree) => &[0, 1, 3, 2],
+        (Primitive::Quads | Primitive::QuadStrip, Diagonal::ZeroTwo) => &[1, 2, 0, 3],
+    }
+}
+
+/// The input vertex whose colours all vertices of a flat primitive take; `None`: the driver chooses rightly.
+/// Table 13.2, with the order of [`Primitive`].
+fn flat_source(key: &FixedKey) -> Option<u8> {
+    if !key.flat {
+        return None;
+    }
+    match (key.target.primitive, key.provoking) {
+        (Primitive::Points | Primitive::Lines | Primitive::Triangles, _) => None,
+        (Primitive::Polygon, _) => Some(0),
+        (Primitive::Quads, Provoking::Last) => Some(3),
+        (Primitive::QuadStrip, Provoking::Last) => Some(2),
+        (Primitive::Quads | Primitive::QuadStrip, Provoking::First) => Some(0),
+    }
+}
+
+fn input_layout(primitive: Primitive) -> &'static str {
+    match primitive {
+        Primitive::Points => "points",
+        Primitive::Lines => "lines",
+        Primitive::Triangles | Primitive::Polygon => "triangles",
+        Primitive::Quads | Primitive::QuadStrip => "lines_adjacency",
+    }
+}
+
+fn output_layout(primitive: Primitive) -> &'static str {
+    match primitive {
+        Primitive::Points => "points",
+        Primitive::Lines => "line_strip",
+        Primitive::Triangles | Primitive::Polygon | Primitive::Quads | Primitive::QuadStrip => {
+            "triangle_strip"
+        }
+    }
+}
+
+/// Text of the geometry shader of a canonical key.
+pub(super) fn write(key: &FixedKey, limits: &Limits) -> Result<String, Unsupported> {
+    let mut text = Text::default();
+    let views = key.target.views;
+    let primitive = key.target.primitive;
+    let invocations = key.target.amplifier == Amplifier::GeometryInvocations;
+    let extension = invocations && limits.glsl < 400;
+    if invocations && (limits.geometry_invocations == 0 || extension && !limits.gpu_shader5) {
+        return Err(Unsupported::Invocations);
+    }
+    text.line(if invocations && !extension {
+        "#version 400 compatibility"
+    } else {
+        "#version 150 compatibility"
+    });
+    if extension {
+        text.line("#extension GL_ARB_gpu_shader5 : require");
+    }
+    text.line("");
+    let runs = if invocations {
+        format!(", invocations = {views}")
+    } else {
+        String::new()
+    };
+    text.line(format!("layout({}{runs}) in;", input_layout(primitive)));
+    let loops = if invocations { 1 } else { u32::from(views) };
+    text.line(format!(
+        "layout({}, max_vertices = {}) out;",
+        output_layout(primitive),
+        primitive.vertices() * loops
+    ));
+    vertex::write_block(&mut text, key, "in", "mv_in[]");
+    view::write_uniforms(&mut text, key);
+    view::write_outputs(&mut text, key);
+    text.line("");
+    view::write_place(&mut text, key);
+    text.line("");
+    write_emit(&mut text, key);
+    text.line("");
+    write_main(&mut text, key, invocations);
+    Ok(text.finish())
+}
+
+/// `mv_emit(vertex, view)`: one vertex with everything that the fixed fragment stage and the rasteriser read. All of it
+/// is written again each time: outputs are undefined after `EmitVertex()`.
+fn write_emit(text: &mut Text, key: &FixedKey) {
+    text.open("void mv_emit(int vertex, int view) {");
+    text.line("mv_place(view, gl_in[vertex].gl_Position, mv_in[vertex].vertex);");
+    for varying in varyings(key) {
+        let Some(builtin) = varying.builtin(key) else {
+            continue;
+        };
+        let source = match flat_source(key) {
+            Some(source) if varying.is_color() => source.to_string(),
+            _ => "vertex".into(),
+        };
+        text.line(format!("{builtin} = mv_in[{source}].{};", varying.member()));
+    }
+    text.line("gl_PrimitiveID = gl_PrimitiveIDIn;");
+    text.line("EmitVertex();");
+    text.close("}");
+}
+
+fn write_main(text: &mut Text, key: &FixedKey, invocations: bool) {
+    text.open("void main() {");
+    if invocations {
+        text.line(format!("int view = {UNIFORM_FIRST} + gl_InvocationID;"));
+    } else {
+        text.open(format!("for (int i = 0; i < {}; ++i) {{", key.target.views));
+        text.line(format!("int view = {UNIFORM_FIRST} + i;"));
+    }
+    for vertex in order(key) {
+        text.line(format!("mv_emit({vertex}, view);"));
+    }
+    text.line("EndPrimitive();");
+    if !invocations {
+        text.close("}");
+    }
+    text.close("}");
+}

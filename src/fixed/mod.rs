@@ -1,0 +1,96 @@
+//! Fixed-function vertex state in, GLSL out.
+//!
+//! The instanced and geometry strategies need a program where the application has none. Only the vertex stage is
+//! replaced: a program without a fragment shader leaves the fixed fragment stage at work (OpenGL 4.6 compatibility,
+//! chapter 15), so texture environments, fog blending, alpha test and the rest stay the driver's.
+//!
+//! ```text
+//! FixedKey ── canonical ──► vertex ─┬─ lighting   section 12.2.1
+//!  (key)                            ├─ texgen     sections 12.1.1, 12.1.3
+//!                                   └─ view       shift, tile, clip distances, layer
+//!                           geometry ── view      one primitive per view
+//! ```
+//! Everything here is text: no GL call is made, and no state is kept. `tests/fixed_shaders.rs` draws a few hundred
+//! random keys both ways and compares the pixels.
+//!
+//! The shaders read the program's state through the built-in uniforms of the compatibility profile. Their own uniforms
+//! are those of the view, the same for every key:
+//!
+//! | uniform | holds |
+//! |---|---|
+//! | `vec4 mv_view[64]` | per view: row 0 of its projection times the modelview matrix; the other rows are the program's own |
+//! | `vec4 mv_tile[64]` | per view: centre of its tile x and y in NDC of the atlas, layer |
+//! | `vec4 mv_map` | width and height of the program's viewport over those of the atlas |
+//! | `vec4 mv_clip` | left, right, bottom, top of what may be drawn, in NDC of the program's viewport: −1, 1, −1, 1 if the viewport is inside the tile |
+//! | `int mv_first` | index in `mv_view` of the first view of this draw |
+//!
+//! A uniform that a key does not need is absent (location −1).
+#![forbid(unsafe_code)]
+
+mod components;
+mod geometry;
+mod key;
+mod lighting;
+mod limits;
+mod patches;
+mod reason;
+mod texgen;
+mod text;
+mod vertex;
+mod view;
+
+pub use components::batch;
+pub use key::{
+    Amplifier, ColorMaterial, Diagonal, Dialect, FixedKey, FogSource, LIGHTS, Light, Lighting,
+    MaterialFace, MaterialMode, NormalScaling, PointSize, Primitive, Provoking, Target, TexGen,
+    TextureUnit, Tiles, UNITS,
+};
+pub use limits::{Limits, VertexLayer};
+pub use patches::Patches;
+pub use reason::{Rasterised, Surroundings, Unsupported};
+
+/// Views that `mv_view` holds; more go in further draws with other contents.
+pub const VIEWS: u32 = 64;
+/// `uniform vec4 mv_view[VIEWS]`
+pub const UNIFORM_VIEWS: &str = "mv_view";
+/// `uniform vec4 mv_tile[VIEWS]`
+pub const UNIFORM_TILES: &str = "mv_tile";
+/// `uniform vec4 mv_map`
+pub const UNIFORM_MAP: &str = "mv_map";
+/// `uniform vec4 mv_clip`
+pub const UNIFORM_CLIP: &str = "mv_clip";
+/// `uniform int mv_first`
+pub const UNIFORM_FIRST: &str = "mv_first";
+
+/// A program's text, and what has to be set when it is bound.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Shaders {
+    /// The vertex shader.
+    pub vertex: String,
+    /// The geometry shader, if the amplifier is one.
+    pub geometry: Option<String>,
+    /// State around the draw.
+    pub patches: Patches,
+}
+
+/// Writes the program of a key. Equal canonical keys (and limits) give equal text.
+///
+/// # Errors
+/// What the driver cannot run; the draw then has to be replayed. [`Surroundings::allow`] has the reasons that do not
+/// depend on the text.
+pub fn generate(key: &FixedKey, limits: &Limits) -> Result<Shaders, Unsupported> {
+    let key = key.canonical();
+    if key.driver_quirk() {
+        return Err(Unsupported::DriverQuirk);
+    }
+    components::check(&key, limits)?;
+    Ok(Shaders {
+        vertex: vertex::write(&key, limits)?,
+        geometry: if key.geometry() {
+            Some(geometry::write(&key, limits)?)
+        } else {
+            None
+        },
+        patches: Patches::of(&key),
+    })
+}

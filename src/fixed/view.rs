@@ -1,0 +1,82 @@
+//! The shift of a view and its place in the atlas, for whichever stage is last.
+//!
+//! Based on: Q. Luo et al., "GPU-based multi-view rendering" (the tile equation and the two clip distances), with the
+//! shift in the form that is exact for every homogeneous vertex:
+//! ```text
+//! x' = row0(P_i · M) · vertex                            P_i: projection of the view, M: modelview
+//! d0 = x' − left·w      d1 = right·w − x'               d ≥ 0 inside the tile
+//! d2 = y − bottom·w     d3 = top·w − y
+//! X  = x'·scale_x + centre_x·w      Y = y·scale_y + centre_y·w
+//! ```
+//! (x, y, w) is in clip space of the program's own viewport; (X, Y, w) in that of a viewport over the whole atlas. z and w
+//! do not change.
+
+use super::key::{FixedKey, Tiles};
+use super::text::Text;
+use super::{UNIFORM_CLIP, UNIFORM_FIRST, UNIFORM_MAP, UNIFORM_TILES, UNIFORM_VIEWS, VIEWS};
+
+/// Uniforms of the view.
+pub(super) fn write_uniforms(text: &mut Text, key: &FixedKey) {
+    text.line(format!(
+        "uniform vec4 {UNIFORM_VIEWS}[{VIEWS}]; // per view: row 0 of its projection times the modelview matrix"
+    ));
+    if key.target.tiles == Tiles::Layer {
+        text.line(format!(
+            "uniform vec4 {UNIFORM_TILES}[{VIEWS}]; // per view: -, -, layer, -"
+        ));
+    } else {
+        text.line(format!(
+            "uniform vec4 {UNIFORM_TILES}[{VIEWS}]; // per view: centre of the tile x and y, -, -"
+        ));
+        text.line(format!(
+            "uniform vec4 {UNIFORM_MAP}; // scale of a tile x and y, -, -"
+        ));
+        text.line(format!(
+            "uniform vec4 {UNIFORM_CLIP}; // left, right, bottom, top of the tile's inside"
+        ));
+    }
+    text.line(format!(
+        "uniform int {UNIFORM_FIRST}; // first view of this draw"
+    ));
+}
+
+/// The outputs of the view, as declarations.
+pub(super) fn write_outputs(text: &mut Text, key: &FixedKey) {
+    let distances = key.clip_distances();
+    if distances != 0 {
+        text.line(format!("out float gl_ClipDistance[{distances}];"));
+    }
+}
+
+/// `mv_place(view, p, vertex)`: position, clip distances of the tile and layer.
+///
+/// x is summed as the driver sums the rows of `ftransform()`, so that a view has the very position that fixed function gives it
+/// with its own projection loaded (measured on llvmpipe 22.3: equal bits).
+pub(super) fn write_place(text: &mut Text, key: &FixedKey) {
+    text.open("void mv_place(int view, vec4 p, vec4 vertex) {");
+    text.line(format!("vec4 row = {UNIFORM_VIEWS}[view];"));
+    text.line(format!("vec4 tile = {UNIFORM_TILES}[view];"));
+    text.line("p.x = row.x * vertex.x + row.y * vertex.y + row.z * vertex.z + row.w * vertex.w;");
+    match key.target.tiles {
+        Tiles::Layer => text.line("gl_Layer = int(tile.z);"),
+        tiles => {
+            text.line(format!(
+                "gl_ClipDistance[0] = p.x - {UNIFORM_CLIP}.x * p.w;"
+            ));
+            text.line(format!(
+                "gl_ClipDistance[1] = {UNIFORM_CLIP}.y * p.w - p.x;"
+            ));
+            if tiles == Tiles::ClipFourSides {
+                text.line(format!(
+                    "gl_ClipDistance[2] = p.y - {UNIFORM_CLIP}.z * p.w;"
+                ));
+                text.line(format!(
+                    "gl_ClipDistance[3] = {UNIFORM_CLIP}.w * p.w - p.y;"
+                ));
+            }
+            text.line(format!("p.xy = p.xy * {UNIFORM_MAP}.xy + tile.xy * p.w;"));
+        }
+    }
+    text.line("gl_Position = p;");
+    text.close("}");
+}
