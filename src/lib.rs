@@ -15,3 +15,19 @@ pub mod fixed;
 pub mod gl;
 
 pub mod metric;
+
+pub mod report;
+
+pub mod state;
+
+pub mod plan;
+
+pub mod atlas;
+
+pub mod draw;
+
+pub mod interleave;
+
+pub mod present;
+
+pub mod layer;

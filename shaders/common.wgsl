@@ -1,0 +1,84 @@
+// What all output passes share. A pass is this file, then atlas.wgsl, then interleave.wgsl or layout.wgsl.
+//
+// Spaces. naga translates without ADJUST_COORDINATE_SPACE, so nothing is flipped: clip space is OpenGL's, and
+// @builtin(position) is gl_FragCoord, whose y counts UP from the bottom of the window. Pictures and masks count rows DOWN
+// from the top. `top_down` is the only place where the two meet; `texel_row` is the other flip, that of the atlas.
+//
+// All sizes are in pixels. The struct is no buffer: under GLSL an immediate is a set of plain uniforms of our own program,
+// so no binding of the application's is touched.
+
+struct Uniforms {
+    // Size of one view.
+    tile: vec2<u32>,
+    // Size of the picture made.
+    picture: vec2<u32>,
+    // Columns and rows of views in that picture (layout only).
+    grid: vec2<u32>,
+    // Pixels from the left edge of one slot of the atlas to that of the next.
+    stride: u32,
+    // Slots in a layer of the atlas.
+    columns: u32,
+    // N.
+    views: u32,
+    // View in the bottom left cell of the picture (layout only).
+    first: u32,
+    // 1: row 0 of the atlas texture is the top row of its picture (a flipped framebuffer); 0: the bottom row.
+    rows_top_down: u32,
+}
+
+var<immediate> u: Uniforms;
+
+// One triangle that covers the window; needs no vertex arrays.
+@vertex
+fn cover(@builtin(vertex_index) i: u32) -> @builtin(position) vec4<f32> {
+    let corner = vec2<f32>(vec2<u32>((i << 1u) & 2u, i & 2u));
+    return vec4<f32>(corner * 2.0 - 1.0, 0.0, 1.0);
+}
+
+// Column from the left and row from the TOP of a fragment.
+fn top_down(position: vec4<f32>) -> vec2<u32> {
+    let at = vec2<u32>(position.xy);
+    return vec2<u32>(at.x, u.picture.y - 1u - min(at.y, u.picture.y - 1u));
+}
+
+// Row of the texture, given the row counted UP from the bottom of the framebuffer that was drawn into.
+fn texel_row(up: u32, texture_height: u32) -> u32 {
+    return select(up, texture_height - 1u - up, u.rows_top_down != 0u);
+}
+
+// View that has the same centre as the program's own camera, for even N the left one of the two.
+fn middle() -> u32 {
+    return (u.views - 1u) / 2u;
+}
+
+// One axis of a bilinear step: two texels and the weight of the second.
+struct Tap {
+    low: u32,
+    high: u32,
+    weight: f32,
+}
+
+// The place num/den, in (0, 1) across a tile, among `texels` texels with centres at half texels; clamped inside the tile.
+// In whole numbers up to the weight, so that no rounding can pick another texel. 2 · num · texels has to stay below 2^32:
+// any output and tile up to 16384 pixels.
+fn tap(num: u32, den: u32, texels: u32) -> Tap {
+    // Minus half a texel for the centre, plus one to stay positive.
+    let place = 2u * num * texels + den;
+    let above = place / (2u * den);
+    let rest = place - above * 2u * den;
+    let last = texels - 1u;
+    return Tap(min(max(above, 1u) - 1u, last), min(above, last), f32(rest) / f32(2u * den));
+}
+
+// Colour of a view at the place num/den of its tile, from the top left: bilinear, and the texel itself where the place is
+// the centre of one, as it is everywhere when tile and picture have the same size.
+fn colour(view: u32, num: vec2<u32>, den: vec2<u32>) -> vec3<f32> {
+    let x = tap(num.x, den.x, u.tile.x);
+    let y = tap(num.y, den.y, u.tile.y);
+    if x.weight == 0.0 && y.weight == 0.0 {
+        return texel(view, vec2<u32>(x.low, y.low));
+    }
+    let upper = mix(texel(view, vec2<u32>(x.low, y.low)), texel(view, vec2<u32>(x.high, y.low)), x.weight);
+    let lower = mix(texel(view, vec2<u32>(x.low, y.high)), texel(view, vec2<u32>(x.high, y.high)), x.weight);
+    return mix(upper, lower, y.weight);
+}

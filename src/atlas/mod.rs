@@ -1,0 +1,339 @@
+//! The program's framebuffer 0, redirected: one array texture with a tile per view, a framebuffer per layer.
+#![forbid(unsafe_code)]
+
+mod names;
+mod tiles;
+
+pub use names::Names;
+pub use tiles::{Limits, Tiles, TilesError};
+
+use crate::gl::{Gl, consts as c};
+use crate::state::Window;
+
+/// Tiles, textures and framebuffers of one context.
+#[derive(Debug)]
+pub struct Atlas {
+    /// Where the views lie.
+    pub tiles: Tiles,
+    /// Texture rows run top down, as the driver draws windows (GL_MESA_framebuffer_flip_y).
+    pub flipped: bool,
+    /// The colour texture that is sampled: the tiles themselves, or what they are resolved to.
+    pub color: u32,
+    textures: Vec<u32>,
+    rows: Vec<u32>,
+    layered: Option<u32>,
+    resolve: Option<Vec<u32>>,
+    bound_row: u32,
+}
+
+/// What the driver refused.
+#[derive(Debug, thiserror::Error)]
+pub enum AtlasError {
+    /// The tiles do not fit.
+    #[error(transparent)]
+    Tiles(#[from] TilesError),
+    /// A framebuffer is not complete.
+    #[error(
+        "the driver makes no framebuffer for {views} views of {width} x {height} pixels with {samples} samples (status 0x{status:04X}); \
+         it may lack the memory: ask for fewer views or make the window smaller"
+    )]
+    Incomplete {
+        /// N.
+        views: u32,
+        /// Pixels.
+        width: u32,
+        /// Pixels.
+        height: u32,
+        /// 0 for none.
+        samples: u32,
+        /// glCheckFramebufferStatus.
+        status: u32,
+    },
+}
+
+/// Internal format, format and type of the colour texture that holds what the window holds.
+fn color_format(w: &Window) -> (u32, u32, u32) {
+    let [r, _, _, a, _, _] = w.bits;
+    match (r, a) {
+        _ if w.float => (c::RGBA16F, c::RGBA, c::FLOAT),
+        (9..=10, _) => (c::RGB10_A2, c::RGBA, c::UNSIGNED_BYTE),
+        (11.., _) => (c::RGBA16, c::RGBA, c::UNSIGNED_SHORT),
+        (5, 0) => (c::RGB565, c::RGB, c::UNSIGNED_BYTE),
+        (5, 1) => (c::RGB5_A1, c::RGBA, c::UNSIGNED_BYTE),
+        (4, _) => (c::RGBA4, c::RGBA, c::UNSIGNED_BYTE),
+        // A window without alpha reads 1 there, and blending with the destination's alpha sees 1.
+        (_, 0) if w.srgb => (c::SRGB8, c::RGB, c::UNSIGNED_BYTE),
+        (_, 0) => (c::RGB8, c::RGB, c::UNSIGNED_BYTE),
+        _ if w.srgb => (c::SRGB8_ALPHA8, c::RGBA, c::UNSIGNED_BYTE),
+        _ => (c::RGBA8, c::RGBA, c::UNSIGNED_BYTE),
+    }
+}
+
+/// Internal format, format, type and attachment point of depth and stencil.
+fn depth_format(w: &Window) -> Option<(u32, u32, u32, u32)> {
+    let [_, _, _, _, depth, stencil] = w.bits;
+    match (depth, stencil) {
+        (0, 0) => None,
+        (_, 1..) => Some((
+            c::DEPTH24_STENCIL8,
+            c::DEPTH_STENCIL,
+            c::UNSIGNED_INT_24_8,
+            c::DEPTH_STENCIL_ATTACHMENT,
+        )),
+        (1..=16, 0) => Some((
+            c::DEPTH_COMPONENT16,
+            c::DEPTH_COMPONENT,
+            c::UNSIGNED_SHORT,
+            c::DEPTH_ATTACHMENT,
+        )),
+        (25.., 0) => Some((
+            c::DEPTH_COMPONENT32,
+            c::DEPTH_COMPONENT,
+            c::UNSIGNED_INT,
+            c::DEPTH_ATTACHMENT,
+        )),
+        _ => Some((
+            c::DEPTH_COMPONENT24,
+            c::DEPTH_COMPONENT,
+            c::UNSIGNED_INT,
+            c::DEPTH_ATTACHMENT,
+        )),
+    }
+}
+
+impl Atlas {
+    /// Makes the atlas for a window. The caller saves and restores bindings (textures, framebuffers, unpack buffer).
+    pub fn new(
+        gl: &Gl,
+        names: &mut Names,
+        window: &Window,
+        tiles: Tiles,
+        flip: bool,
+    ) -> Result<Atlas, AtlasError> {
+        let samples = window.samples;
+        let (width, height, layers) = (
+            tiles.texture_width() as i32,
+            tiles.height as i32,
+            tiles.rows as i32,
+        );
+        let mut textures = Vec::new();
+        let mut texture = |format: (u32, u32, u32), samples: u32| {
+            let name = names.texture(gl);
+            textures.push(name);
+            if samples > 0 {
+                gl.bind_texture(c::TEXTURE_2D_MULTISAMPLE_ARRAY, name);
+                gl.tex_image_3d_multisample(
+                    c::TEXTURE_2D_MULTISAMPLE_ARRAY,
+                    samples as i32,
+                    format.0,
+                    width,
+                    height,
+                    layers,
+                    1,
+                );
+                gl.bind_texture(c::TEXTURE_2D_MULTISAMPLE_ARRAY, 0);
+            } else {
+                gl.bind_texture(c::TEXTURE_2D_ARRAY, name);
+                gl.tex_storage_3d(format.0, width, height, layers, format.1, format.2);
+                for (p, v) in [
+                    (c::TEXTURE_MIN_FILTER, c::NEAREST),
+                    (c::TEXTURE_MAG_FILTER, c::NEAREST),
+                    (c::TEXTURE_MAX_LEVEL, 0),
+                ] {
+                    gl.tex_parameteri(c::TEXTURE_2D_ARRAY, p, v as i32);
+                }
+                gl.bind_texture(c::TEXTURE_2D_ARRAY, 0);
+            }
+            name
+        };
+        let color = texture(color_format(window), samples);
+        let depth = depth_format(window).map(|f| (texture((f.0, f.1, f.2), samples), f));
+        let (sampled, resolve_depth) = match samples {
+            0 => (color, None),
+            _ => (
+                texture(color_format(window), 0),
+                depth.map(|(_, f)| (texture((f.0, f.1, f.2), 0), f)),
+            ),
+        };
+        let framebuffer =
+            |layer: Option<u32>, color: u32, depth: Option<(u32, (u32, u32, u32, u32))>| {
+                let name = gl.gen_framebuffer();
+                gl.bind_framebuffer(c::FRAMEBUFFER, name);
+                let attach = |point, texture| match layer {
+                    Some(l) => {
+                        gl.framebuffer_texture_layer(c::FRAMEBUFFER, point, texture, 0, l as i32)
+                    }
+                    None => gl.framebuffer_texture(c::FRAMEBUFFER, point, texture, 0),
+                };
+                attach(c::COLOR_ATTACHMENT0, color);
+                if let Some((t, f)) = depth {
+                    attach(f.3, t);
+                }
+                if flip {
+                    gl.framebuffer_parameteri(c::FRAMEBUFFER, c::FRAMEBUFFER_FLIP_Y_MESA, 1);
+                }
+                name
+            };
+        let rows: Vec<u32> = (0..tiles.rows)
+            .map(|l| framebuffer(Some(l), color, depth))
+            .collect();
+        let status = gl.check_framebuffer_status(c::FRAMEBUFFER);
+        let resolve = (samples > 0).then(|| {
+            (0..tiles.rows)
+                .map(|l| framebuffer(Some(l), sampled, resolve_depth))
+                .collect()
+        });
+        let layered =
+            (tiles.rows > 1 && gl.version() >= (3, 2)).then(|| framebuffer(None, color, depth));
+        let atlas = Atlas {
+            tiles,
+            flipped: flip,
+            color: sampled,
+            textures,
+            rows,
+            layered,
+            resolve,
+            bound_row: 0,
+        };
+        if status != c::FRAMEBUFFER_COMPLETE {
+            atlas.delete(gl);
+            return Err(AtlasError::Incomplete {
+                views: tiles.views,
+                width: tiles.width,
+                height: tiles.height,
+                samples,
+                status,
+            });
+        }
+        Ok(atlas)
+    }
+
+    /// Gives everything back; only while its context is current.
+    pub fn delete(self, gl: &Gl) {
+        for f in self
+            .rows
+            .iter()
+            .chain(self.resolve.iter().flatten())
+            .chain(&self.layered)
+        {
+            gl.delete_framebuffer(*f);
+        }
+        for t in self.textures {
+            gl.delete_texture(t);
+        }
+    }
+
+    /// Whether a texture is the atlas's own.
+    pub fn owns(&self, texture: u32) -> bool {
+        self.textures.contains(&texture)
+    }
+
+    /// Copies all that `other`, of the same size and format, holds. Changes the framebuffer bindings; the scissor test must be off.
+    pub fn copy(&self, gl: &Gl, other: &Atlas) {
+        let (w, h) = (self.tiles.texture_width() as i32, self.tiles.height as i32);
+        for (&from, &to) in other.rows.iter().zip(&self.rows) {
+            gl.bind_framebuffer(c::READ_FRAMEBUFFER, from);
+            gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, to);
+            gl.blit_framebuffer(
+                0,
+                0,
+                w,
+                h,
+                0,
+                0,
+                w,
+                h,
+                c::COLOR_BUFFER_BIT | c::DEPTH_BUFFER_BIT | c::STENCIL_BUFFER_BIT,
+                c::NEAREST,
+            );
+        }
+    }
+
+    /// The framebuffer that stands for the program's 0: the layer of its own view.
+    pub fn framebuffer(&self) -> u32 {
+        self.rows.first().copied().unwrap_or(0)
+    }
+
+    /// Every framebuffer that is drawn to.
+    pub fn targets(&self) -> impl Iterator<Item = u32> + '_ {
+        self.rows.iter().chain(&self.layered).copied()
+    }
+
+    /// The framebuffer with all layers, where there is more than one.
+    pub fn layered(&self) -> Option<u32> {
+        self.layered
+    }
+
+    /// Binds the layer of a view for drawing and answers the x offset of its tile in pixels.
+    pub fn enter(&mut self, gl: &Gl, view: u32) -> i32 {
+        let (row, x) = self.tiles.place(view);
+        self.bind_row(gl, row);
+        x as i32
+    }
+
+    /// Binds a layer for drawing.
+    pub fn bind_row(&mut self, gl: &Gl, row: u32) {
+        if row != self.bound_row
+            && let Some(&f) = self.rows.get(row as usize)
+        {
+            gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, f);
+            self.bound_row = row;
+        }
+    }
+
+    /// The caller has bound the framebuffer of the first layer itself.
+    pub fn forget_row(&mut self) {
+        self.bound_row = 0;
+    }
+
+    /// The framebuffer that a view is drawn to, and the x offset of its tile.
+    pub fn target(&self, view: u32) -> (u32, i32) {
+        let (row, x) = self.tiles.place(view);
+        (self.rows.get(row as usize).copied().unwrap_or(0), x as i32)
+    }
+
+    /// Binds all layers for drawing, where there is more than one.
+    pub fn bind_layered(&mut self, gl: &Gl) {
+        if let Some(f) = self.layered {
+            gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, f);
+            self.bound_row = u32::MAX;
+        }
+    }
+
+    /// Whether the tiles are multisampled.
+    pub fn multisampled(&self) -> bool {
+        self.resolve.is_some()
+    }
+
+    /// The framebuffer to read a view's pixels from, single-sampled, and the x offset of its tile.
+    pub fn readable(&self, view: u32) -> (u32, i32) {
+        let (row, x) = self.tiles.place(view);
+        let f = self
+            .resolve
+            .as_ref()
+            .unwrap_or(&self.rows)
+            .get(row as usize)
+            .copied();
+        (f.unwrap_or(0), x as i32)
+    }
+
+    /// Resolves samples: all tiles, or only the own one. Changes the framebuffer bindings; the scissor test must be off.
+    pub fn resolve(&self, gl: &Gl, only_own: bool, mask: u32) {
+        let Some(resolve) = &self.resolve else { return };
+        let t = &self.tiles;
+        let (w, h) = (
+            if only_own { t.width } else { t.texture_width() } as i32,
+            t.height as i32,
+        );
+        for (&from, &to) in
+            self.rows
+                .iter()
+                .zip(resolve)
+                .take(if only_own { 1 } else { usize::MAX })
+        {
+            gl.bind_framebuffer(c::READ_FRAMEBUFFER, from);
+            gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, to);
+            gl.blit_framebuffer(0, 0, w, h, 0, 0, w, h, mask, c::NEAREST);
+        }
+    }
+}

@@ -1,0 +1,188 @@
+//! Where each view lies.
+
+use crate::config::AtlasLayout;
+
+/// Places of N tiles in an array texture: `columns` beside each other in each of `rows` layers. Side by side is one row (several
+/// where a row would pass the driver's limits), layers are one column.
+///
+/// View i lies in slot(i): the program's own (middle) view in slot 0, at the origin of layer 0, so that what the program reads
+/// back was rasterised where its own window would have had it; view 0 takes the middle's slot, the others their own. Rows are
+/// layers rather than higher parts of one texture, because float rounding moves with the offset in y as well.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Tiles {
+    /// N.
+    pub views: u32,
+    /// Pixels.
+    pub width: u32,
+    /// Pixels.
+    pub height: u32,
+    /// Pixels from tile to tile: the width rounded up to 32, so that polygon stipple and dither keep their phase.
+    pub stride: u32,
+    /// Tiles in a row.
+    pub columns: u32,
+    /// Layers of the texture.
+    pub rows: u32,
+}
+
+/// Why views do not fit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum TilesError {
+    /// Too wide or high for one tile.
+    #[error("a window of {0} x {1} pixels is larger than the driver's textures ({2})")]
+    Window(u32, u32, u32),
+    /// Too many.
+    #[error(
+        "{views} views of {width} x {height} pixels need {rows} layers of the atlas and the driver has {layers}; ask for fewer views"
+    )]
+    Views {
+        /// N.
+        views: u32,
+        /// Pixels.
+        width: u32,
+        /// Pixels.
+        height: u32,
+        /// Layers needed.
+        rows: u32,
+        /// Layers there.
+        layers: u32,
+    },
+}
+
+/// The driver's limits, in pixels and layers.
+#[derive(Clone, Copy, Debug)]
+pub struct Limits {
+    /// The smaller of GL_MAX_TEXTURE_SIZE and GL_MAX_VIEWPORT_DIMS.
+    pub side: u32,
+    /// GL_MAX_ARRAY_TEXTURE_LAYERS.
+    pub layers: u32,
+}
+
+impl Tiles {
+    /// Places N tiles of a size.
+    pub fn new(
+        views: u32,
+        width: u32,
+        height: u32,
+        layout: AtlasLayout,
+        limits: Limits,
+    ) -> Result<Tiles, TilesError> {
+        let (width, height) = (width.max(1), height.max(1));
+        let stride = width.next_multiple_of(32);
+        if width > limits.side || height > limits.side {
+            return Err(TilesError::Window(width, height, limits.side));
+        }
+        let columns = match layout {
+            AtlasLayout::SideBySide => (limits.side / stride).clamp(1, views),
+            AtlasLayout::Layers => 1,
+        };
+        let rows = views.div_ceil(columns);
+        if rows > limits.layers {
+            return Err(TilesError::Views {
+                views,
+                width,
+                height,
+                rows,
+                layers: limits.layers,
+            });
+        }
+        Ok(Tiles {
+            views,
+            width,
+            height,
+            stride,
+            columns,
+            rows,
+        })
+    }
+
+    /// The program's own view, of an odd N exactly the middle one.
+    pub fn own(&self) -> u32 {
+        (self.views - 1) / 2
+    }
+
+    /// Slot of a view; its own inverse.
+    pub fn slot(&self, view: u32) -> u32 {
+        match view {
+            v if v == self.own() => 0,
+            0 => self.own(),
+            v => v,
+        }
+    }
+
+    /// Layer and x offset in pixels of a view's tile.
+    pub fn place(&self, view: u32) -> (u32, u32) {
+        let slot = self.slot(view);
+        (slot / self.columns, slot % self.columns * self.stride)
+    }
+
+    /// Width of a layer in pixels: the last tile is not padded.
+    pub fn texture_width(&self) -> u32 {
+        (self.columns - 1) * self.stride + self.width
+    }
+
+    /// All views, the program's own last, so that the state of its tile is what remains.
+    pub fn order(&self) -> impl Iterator<Item = u32> + use<> {
+        let tiles = *self;
+        (1..tiles.views)
+            .chain([0])
+            .map(move |slot| tiles.slot(slot))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const BIG: Limits = Limits {
+        side: 16384,
+        layers: 2048,
+    };
+
+    #[test]
+    fn the_own_view_lies_at_the_origin_and_every_view_somewhere_else() {
+        for views in 1..40 {
+            for (layout, side) in [
+                (AtlasLayout::SideBySide, 16384),
+                (AtlasLayout::SideBySide, 1500),
+                (AtlasLayout::Layers, 16384),
+            ] {
+                let t = Tiles::new(views, 500, 300, layout, Limits { side, layers: 2048 })
+                    .expect("fits");
+                assert_eq!(t.place(t.own()), (0, 0));
+                let mut places: Vec<_> = (0..views).map(|v| t.place(v)).collect();
+                places.sort_unstable();
+                places.dedup();
+                assert_eq!(places.len(), views as usize);
+                assert!(places.iter().all(|&(row, x)| row < t.rows
+                    && x + t.width <= t.texture_width()
+                    && t.texture_width() <= side));
+                assert!((0..views).all(|v| t.slot(t.slot(v)) == v));
+                let order: Vec<_> = t.order().collect();
+                assert_eq!(
+                    (order.len(), order.last()),
+                    (views as usize, Some(&t.own()))
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn what_does_not_fit_is_said() {
+        assert!(Tiles::new(9, 20000, 10, AtlasLayout::SideBySide, BIG).is_err());
+        let e = Tiles::new(
+            200,
+            640,
+            480,
+            AtlasLayout::Layers,
+            Limits {
+                side: 16384,
+                layers: 64,
+            },
+        )
+        .expect_err("too many");
+        assert!(
+            e.to_string().contains("200 views") && e.to_string().contains("64"),
+            "{e}"
+        );
+    }
+}

@@ -1,0 +1,426 @@
+//! One draw for many views, by instances or a geometry shader, with a generated vertex stage.
+//!
+//! Based on: Luo et al. (GBMVR) and de Sorbier et al. for the geometry shader; instances as in ANGLE's multiview emulation.
+
+use super::fixed_state::FixedState;
+use crate::atlas::Atlas;
+use crate::fixed::{
+    self, Amplifier, FixedKey, Limits, Patches, Primitive, Provoking, Tiles, Unsupported, generate,
+};
+use crate::gl::{Gl, consts as c};
+use crate::plan::{Method, Reason, Rig, Shear};
+use crate::state::State;
+use std::collections::HashMap;
+
+/// The uniforms of `fixed`'s shaders.
+#[derive(Debug, Default, PartialEq)]
+struct Uniforms {
+    /// `mv_view`: row 0 of P_i · modelview.
+    rows: Vec<[f32; 4]>,
+    /// `mv_tile`.
+    tiles: Vec<[f32; 4]>,
+    /// `mv_map`.
+    map: [f32; 4],
+    /// `mv_clip`.
+    clip: [f32; 4],
+}
+
+#[derive(Debug)]
+struct Program {
+    name: u32,
+    patches: Patches,
+    views: i32,
+    map: i32,
+    clip: i32,
+    tiles: i32,
+    /// What the uniforms hold.
+    uploaded: Uniforms,
+}
+
+/// The generated programs of one context.
+#[derive(Debug)]
+pub struct Programs {
+    /// What the driver can do.
+    pub limits: Limits,
+    cache: HashMap<FixedKey, Option<Program>>,
+    /// Programs compiled so far.
+    pub compiled: u64,
+}
+
+/// A draw that an amplifier can make, decided.
+#[derive(Clone, Copy, Debug)]
+pub struct Amplified {
+    key: FixedKey,
+    batch: u32,
+    modelview: [f32; 16],
+    /// The mode to draw with instead of the program's.
+    pub mode: u32,
+}
+
+impl Programs {
+    /// For a context.
+    pub fn new(limits: Limits) -> Programs {
+        Programs {
+            limits,
+            cache: HashMap::new(),
+            compiled: 0,
+        }
+    }
+
+    /// Whether and how a draw can be made by an amplifier; the program is compiled if it is new.
+    pub fn prepare(
+        &mut self,
+        gl: &Gl,
+        method: Method,
+        mode: u32,
+        fixed: &FixedState,
+        material: bool,
+        atlas: &Atlas,
+    ) -> Result<Amplified, Reason> {
+        let modelview = gl.get_floats::<16>(c::MODELVIEW_MATRIX);
+        let (mut key, around) = fixed.for_mode(mode, &modelview, material);
+        let geometry = method == Method::Geometry;
+        let (primitive, drawn_mode) = if geometry {
+            primitive(mode, key.flat)?
+        } else {
+            (Primitive::default(), mode)
+        };
+        key.target.tiles = match atlas.tiles.columns {
+            1 => Tiles::Layer,
+            _ => Tiles::ClipLeftRight,
+        };
+        key.target.primitive = primitive;
+        key.target.views = 1;
+        if key.target.tiles == Tiles::Layer && atlas.layered().is_none() {
+            // One view, or a driver without layered framebuffers.
+            return Err(Reason::Fixed(Unsupported::VertexLayer));
+        }
+        let batch = match method {
+            Method::Geometry => {
+                key.target.amplifier = Amplifier::GeometryInvocations;
+                let mut batch = fixed::batch(&key, &self.limits);
+                if batch == 0 {
+                    key.target.amplifier = Amplifier::GeometryLoop;
+                    batch = fixed::batch(&key, &self.limits);
+                }
+                // As few draws as possible, all of the same number of views where that divides evenly.
+                let per_row = atlas
+                    .tiles
+                    .columns
+                    .max(if key.target.tiles == Tiles::Layer {
+                        atlas.tiles.views
+                    } else {
+                        1
+                    });
+                let batch = batch.min(per_row).max(1);
+                key.target.views = u8::try_from(batch).unwrap_or(u8::MAX);
+                batch
+            }
+            _ => {
+                key.target.amplifier = Amplifier::Instanced;
+                fixed::batch(&key, &self.limits).max(1)
+            }
+        };
+        around.allow(&key).map_err(Reason::Fixed)?;
+        // Measured on llvmpipe 22.3: widened after a geometry shader, they come out in shreds.
+        let drawn = around.rasterised;
+        let wide = |size: f32, smooth: bool| size != 1.0 || smooth;
+        if geometry
+            && (drawn.lines && wide(around.line_width, around.line_smooth)
+                || drawn.points && wide(around.point_size, around.point_smooth))
+        {
+            return Err(Reason::Kind(
+                "wide and smooth points and lines under `geometry`",
+            ));
+        }
+        self.compile(gl, &key)?;
+        Ok(Amplified {
+            modelview,
+            key: key.canonical(),
+            batch,
+            mode: drawn_mode,
+        })
+    }
+
+    fn compile(&mut self, gl: &Gl, key: &FixedKey) -> Result<(), Reason> {
+        let canonical = key.canonical();
+        match self.cache.get(&canonical) {
+            Some(Some(_)) => return Ok(()),
+            Some(None) => return Err(Reason::Compile),
+            None => {}
+        }
+        let shaders = generate(key, &self.limits).map_err(Reason::Fixed)?;
+        let build = || -> Result<u32, String> {
+            let mut stages = vec![gl.compile(c::VERTEX_SHADER, &shaders.vertex)?];
+            if let Some(g) = &shaders.geometry {
+                stages.push(gl.compile(c::GEOMETRY_SHADER, g)?);
+            }
+            gl.link(&stages)
+        };
+        let program = build().ok().map(|name| Program {
+            name,
+            patches: shaders.patches,
+            views: gl.uniform_location(name, c"mv_view"),
+            map: gl.uniform_location(name, c"mv_map"),
+            clip: gl.uniform_location(name, c"mv_clip"),
+            tiles: gl.uniform_location(name, c"mv_tile"),
+            uploaded: Uniforms::default(),
+        });
+        self.compiled += 1;
+        let ok = program.is_some();
+        self.cache.insert(canonical, program);
+        if ok { Ok(()) } else { Err(Reason::Compile) }
+    }
+
+    /// Makes the draw. `call` gets the number of views that one call is for: the instance count of an instanced draw.
+    #[allow(
+        clippy::too_many_arguments,
+        reason = "the parts of one draw; a struct of them would be built for this call alone"
+    )]
+    pub fn draw(
+        &mut self,
+        gl: &Gl,
+        atlas: &mut Atlas,
+        state: &State,
+        rig: &Rig,
+        shear: Option<Shear>,
+        fixed: &FixedState,
+        how: &Amplified,
+        call: &mut dyn FnMut(u32),
+    ) {
+        let Some(Some(program)) = self.cache.get_mut(&how.key) else {
+            return;
+        };
+        let around = Around::enter(
+            gl,
+            state,
+            atlas,
+            &how.key,
+            &program.patches,
+            fixed,
+            program.name,
+        );
+        let tiles = atlas.tiles;
+        let layers = how.key.target.tiles == Tiles::Layer;
+        let modelview = how.modelview;
+        let first_row_of = |view: u32| {
+            let p = shear.map_or(state.projection, |s| {
+                s.projection(&state.projection, rig.place(view))
+            });
+            first_row(&p, &modelview)
+        };
+        // Layers are chosen by the shader; a row of tiles is bound.
+        let (rows, per_row) = if layers {
+            (1, tiles.views)
+        } else {
+            (tiles.rows, tiles.columns)
+        };
+        for row in (0..rows).rev() {
+            if layers {
+                atlas.bind_layered(gl);
+            } else {
+                atlas.bind_row(gl, row);
+            }
+            let end = (per_row * (row + 1)).min(tiles.views);
+            let mut slot = per_row * row;
+            while slot < end {
+                let count = how.batch.min(end - slot);
+                let views: Vec<u32> = (slot..slot + count).map(|s| tiles.slot(s)).collect();
+                let mut rows: Vec<[f32; 4]> = views.iter().map(|&v| first_row_of(v)).collect();
+                let mut places: Vec<[f32; 4]> = views
+                    .iter()
+                    .map(|&view| {
+                        let (layer, x) = tiles.place(view);
+                        [around.centre(x), 0.0, layer as f32, 0.0]
+                    })
+                    .collect();
+                // A geometry shader always makes a whole batch: what is too much lands in a place that shows nothing.
+                rows.resize(how.batch as usize, [0.0; 4]);
+                places.resize(how.batch as usize, [4.0, 0.0, f32::from(u16::MAX), 0.0]);
+                program.upload(
+                    gl,
+                    Uniforms {
+                        rows,
+                        tiles: places,
+                        map: [around.scale, 1.0, 0.0, 0.0],
+                        clip: around.clip,
+                    },
+                );
+                call(count);
+                slot += count;
+            }
+        }
+        around.leave(gl, state, atlas, fixed);
+    }
+}
+
+/// Row 0 of P · M, both column-major, summed in single precision in the order of Mesa's `matmul4`: the driver makes its own
+/// product so, and equal bits here make equal pixels.
+fn first_row(p: &[f32; 16], m: &[f32; 16]) -> [f32; 4] {
+    [0, 4, 8, 12].map(|column: usize| {
+        p[0] * m[column] + p[4] * m[column + 1] + p[8] * m[column + 2] + p[12] * m[column + 3]
+    })
+}
+
+impl Program {
+    /// Sets the uniforms that are not set already. `mv_first` stays 0: each call's views begin at index 0.
+    fn upload(&mut self, gl: &Gl, new: Uniforms) {
+        if self.uploaded.rows != new.rows {
+            gl.uniform_4fv(self.views, &new.rows);
+        }
+        if self.uploaded.tiles != new.tiles {
+            gl.uniform_4fv(self.tiles, &new.tiles);
+        }
+        if self.uploaded.map != new.map {
+            gl.uniform_4fv(self.map, &[new.map]);
+        }
+        if self.uploaded.clip != new.clip {
+            gl.uniform_4fv(self.clip, &[new.clip]);
+        }
+        self.uploaded = new;
+    }
+}
+
+/// What a geometry shader is fed with for a mode, and the mode that does it.
+///
+/// Smooth quads and quad strips are not among them: the driver cuts a quad in two along one diagonal or the other, and a smooth
+/// colour shows which. Measured on llvmpipe 22.3 (immediate mode and arrays alike): from 0 to 2 where no vertex of the draw is
+/// outside the frustum, from 1 to 3 where one is, and a geometry shader sees one quad only.
+fn primitive(mode: u32, flat: bool) -> Result<(Primitive, u32), Reason> {
+    Ok(match mode {
+        c::POINTS => (Primitive::Points, mode),
+        c::LINES | c::LINE_STRIP | c::LINE_LOOP => (Primitive::Lines, mode),
+        c::TRIANGLES | c::TRIANGLE_STRIP | c::TRIANGLE_FAN => (Primitive::Triangles, mode),
+        c::POLYGON => (Primitive::Polygon, c::TRIANGLE_FAN),
+        c::QUADS if flat => (Primitive::Quads, c::LINES_ADJACENCY),
+        c::QUADS | c::QUAD_STRIP if !flat => {
+            return Err(Reason::Kind(
+                "smooth quads under `geometry`, which the driver cuts along either diagonal,",
+            ));
+        }
+        c::QUAD_STRIP => return Err(Reason::Kind("flat quad strips under `geometry`")),
+        _ => return Err(Reason::Kind("primitives with adjacency and patches")),
+    })
+}
+
+/// State around an amplified draw.
+struct Around {
+    /// Width of the program's viewport over the atlas's.
+    scale: f32,
+    /// What may be drawn, in NDC of the program's viewport: left, right, bottom, top.
+    clip: [f32; 4],
+    viewport: [i32; 4],
+    width: f64,
+    beside: bool,
+    toggled: Vec<(u32, bool)>,
+    /// The last-vertex convention was set where the program has the first.
+    last: bool,
+}
+
+impl Around {
+    fn enter(
+        gl: &Gl,
+        state: &State,
+        atlas: &Atlas,
+        key: &FixedKey,
+        patches: &Patches,
+        fixed: &FixedState,
+        program: u32,
+    ) -> Around {
+        let beside = key.target.tiles == Tiles::ClipLeftRight;
+        let width = f64::from(atlas.tiles.texture_width());
+        let [vx, vy, vw, vh] = state.viewport;
+        let mut clip = [-1.0, 1.0, -1.0, 1.0];
+        if beside {
+            // x: the viewport spans all tiles and clip distances cut at the tile and at the program's viewport and scissor.
+            // y: viewport and scissor are the program's own.
+            let tile = atlas.tiles.width as i32;
+            let (mut left, mut right) = (vx.max(0), vx.saturating_add(vw).min(tile));
+            let (mut bottom, mut height) = (0, atlas.tiles.height as i32);
+            if state.scissor_test {
+                let [sx, sy, sw, sh] = state.scissor;
+                (left, right) = (left.max(sx), right.min(sx.saturating_add(sw)));
+                (bottom, height) = (sy, sh);
+            }
+            let ndc = |x: i32| (f64::from(x - vx) * 2.0 / f64::from(vw.max(1)) - 1.0) as f32;
+            clip[0] = if left == vx { -1.0 } else { ndc(left) };
+            clip[1] = if right == vx.saturating_add(vw) {
+                1.0
+            } else {
+                ndc(right)
+            };
+            gl.viewport(0, vy, atlas.tiles.texture_width() as i32, vh);
+            if state.scissor_test {
+                gl.scissor(0, bottom, atlas.tiles.texture_width() as i32, height);
+            }
+        }
+        gl.use_program(program);
+        let mut toggled = Vec::new();
+        let mut set = |cap, was: bool, is: bool| {
+            if was != is {
+                if is {
+                    gl.enable(cap)
+                } else {
+                    gl.disable(cap)
+                }
+                toggled.push((cap, was));
+            }
+        };
+        set(c::COLOR_SUM, fixed.color_sum, patches.color_sum);
+        set(
+            c::VERTEX_PROGRAM_TWO_SIDE,
+            fixed.program_two_side,
+            patches.two_side,
+        );
+        set(
+            c::PROGRAM_POINT_SIZE,
+            fixed.program_point_size,
+            patches.point_size,
+        );
+        for i in 0..8u32 {
+            set(
+                c::CLIP_DISTANCE0 + i,
+                fixed.key.clip_planes >> i & 1 != 0,
+                patches.clip_distances >> i & 1 != 0,
+            );
+        }
+        let last = patches.last_vertex_convention && fixed.key.provoking == Provoking::First;
+        if last {
+            gl.provoking_vertex(c::LAST_VERTEX_CONVENTION);
+        }
+        Around {
+            scale: (f64::from(vw) / width) as f32,
+            clip,
+            viewport: state.viewport,
+            width,
+            beside,
+            toggled,
+            last,
+        }
+    }
+
+    /// Centre of the program's viewport inside the tile at x, in NDC of the atlas.
+    fn centre(&self, x: u32) -> f32 {
+        let [vx, _, vw, _] = self.viewport;
+        ((2.0 * (f64::from(x) + f64::from(vx)) + f64::from(vw)) / self.width - 1.0) as f32
+    }
+
+    fn leave(self, gl: &Gl, state: &State, atlas: &mut Atlas, _fixed: &FixedState) {
+        for (cap, was) in self.toggled {
+            if was { gl.enable(cap) } else { gl.disable(cap) }
+        }
+        if self.last {
+            gl.provoking_vertex(c::FIRST_VERTEX_CONVENTION);
+        }
+        gl.use_program(0);
+        if self.beside {
+            let [x, y, w, h] = state.viewport;
+            gl.viewport(x, y, w, h);
+            if state.scissor_test {
+                let [x, y, w, h] = state.scissor;
+                gl.scissor(x, y, w, h);
+            }
+        }
+        atlas.bind_row(gl, 0);
+    }
+}

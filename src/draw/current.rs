@@ -1,0 +1,94 @@
+//! Current values (colour, normal, texture coordinates, material) between two sendings of the same immediate-mode calls.
+
+use crate::gl::{Gl, consts as c};
+use crate::state::Effect;
+
+/// The current values that a sequence of calls starts from.
+///
+/// They are put back by the calls that set them, not by glPopAttrib: measured on Mesa 22.3, a first point whose colour came from
+/// before glBegin got the last colour of the sequence after glPopAttrib.
+#[derive(Debug, Default)]
+pub struct Current {
+    color: Option<[f32; 4]>,
+    normal: Option<[f32; 3]>,
+    texture: Vec<[f32; 4]>,
+    secondary: Option<[f32; 4]>,
+    fog: Option<f32>,
+    edge: Option<bool>,
+    material: Vec<(u32, u32, [f32; 4])>,
+}
+
+impl Current {
+    /// Reads the values of some kinds from the driver.
+    pub fn take(gl: &Gl, kinds: Effect) -> Current {
+        let mut current = Current::default();
+        if kinds.has(Effect::COLOR) {
+            current.color = Some(gl.get_floats(c::CURRENT_COLOR));
+        }
+        if kinds.has(Effect::NORMAL) {
+            current.normal = Some(gl.get_floats(c::CURRENT_NORMAL));
+        }
+        if kinds.has(Effect::SECONDARY) {
+            current.secondary = Some(gl.get_floats(c::CURRENT_SECONDARY_COLOR));
+        }
+        if kinds.has(Effect::FOG) {
+            current.fog = Some(gl.get_floats::<1>(c::CURRENT_FOG_COORD)[0]);
+        }
+        if kinds.has(Effect::EDGE) {
+            current.edge = Some(gl.get_integer(c::EDGE_FLAG) != 0);
+        }
+        if kinds.has(Effect::TEXCOORD) || kinds.has(Effect::MULTITEX) {
+            let active = gl.get_integer(c::ACTIVE_TEXTURE) as u32;
+            let all = gl.get_integer(c::MAX_TEXTURE_COORDS).clamp(1, 32) as u32;
+            let units = if kinds.has(Effect::MULTITEX) { all } else { 1 };
+            for unit in 0..units {
+                gl.active_texture(c::TEXTURE0 + unit);
+                current
+                    .texture
+                    .push(gl.get_floats(c::CURRENT_TEXTURE_COORDS));
+            }
+            gl.active_texture(active);
+        }
+        if kinds.has(Effect::MATERIAL) {
+            for face in [c::FRONT, c::BACK] {
+                for name in [
+                    c::AMBIENT,
+                    c::DIFFUSE,
+                    c::SPECULAR,
+                    c::EMISSION,
+                    c::SHININESS,
+                ] {
+                    current
+                        .material
+                        .push((face, name, gl.get_material(face, name)));
+                }
+            }
+        }
+        current
+    }
+
+    /// Sets them again.
+    pub fn put(&self, gl: &Gl) {
+        for (face, name, v) in &self.material {
+            gl.material(*face, *name, v);
+        }
+        if let Some([r, g, b, a]) = self.color {
+            gl.color_4f(r, g, b, a);
+        }
+        if let Some([x, y, z]) = self.normal {
+            gl.normal_3f(x, y, z);
+        }
+        if let Some([r, g, b, _]) = self.secondary {
+            gl.secondary_color_3f(r, g, b);
+        }
+        if let Some(f) = self.fog {
+            gl.fog_coordf(f);
+        }
+        if let Some(e) = self.edge {
+            gl.edge_flag(e.into());
+        }
+        for (unit, [s, t, r, q]) in (0u32..).zip(self.texture.iter().copied()) {
+            gl.multi_tex_coord_4f(c::TEXTURE0 + unit, s, t, r, q);
+        }
+    }
+}

@@ -1,0 +1,12 @@
+//! Executes a plan: the draw, once per view. Never looks at the program's state again.
+#![forbid(unsafe_code)]
+
+mod amplified;
+mod current;
+mod fixed_state;
+mod replay;
+
+pub use amplified::{Amplified, Programs};
+pub use current::Current;
+pub use fixed_state::{FixedState, limits};
+pub use replay::{Again, place, replay, unplace};

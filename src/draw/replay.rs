@@ -1,0 +1,190 @@
+//! The draw itself again, per view, with P_i and the tile's viewport and scissor. Needs no shader.
+
+use super::current::Current;
+use crate::atlas::Atlas;
+use crate::gl::{Gl, consts as c};
+use crate::plan::{Rig, Shear};
+use crate::state::{Effect, State};
+
+/// What the draw does to the state that its second sending would start from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Again {
+    /// Nothing: it can be sent again as it is.
+    Same,
+    /// Sets current values that its first vertices used.
+    Current(Effect),
+    /// Anything: a display list.
+    Anything {
+        /// Viewport or scissor among it.
+        rects: bool,
+        /// The projection or the matrix mode among it.
+        projection: bool,
+    },
+    /// Draws at the raster position, in window pixels, and may move it.
+    Raster,
+    /// A clear: without a scissor one call does all tiles of a layer.
+    Clear,
+}
+
+/// Sends the draw once per view, the program's own view last, so that all state is as after the program's own call.
+///
+/// Answers false if the draw could not be sent for the other views (the attribute stack is full).
+pub fn replay(
+    gl: &Gl,
+    atlas: &mut Atlas,
+    state: &State,
+    rig: &Rig,
+    shear: Option<Shear>,
+    again: Again,
+    call: &mut dyn FnMut(),
+) -> bool {
+    if again == Again::Clear && !state.scissor_test {
+        for row in (0..atlas.tiles.rows).rev() {
+            atlas.bind_row(gl, row);
+            call();
+        }
+        return true;
+    }
+    let saves = match again {
+        Again::Same | Again::Clear => 0,
+        // What an array element or an evaluator sets is not known here.
+        Again::Current(e) if e.has(Effect::UNKNOWN) || e.has(Effect::ATTRIB) => {
+            c::CURRENT_BIT | c::LIGHTING_BIT
+        }
+        Again::Current(_) => 0,
+        Again::Raster => c::CURRENT_BIT,
+        Again::Anything { .. } => c::ALL_ATTRIB_BITS,
+    };
+    if saves != 0
+        && gl.get_integer(c::ATTRIB_STACK_DEPTH) >= gl.get_integer(c::MAX_ATTRIB_STACK_DEPTH)
+    {
+        call();
+        return false;
+    }
+    let tiles = atlas.tiles;
+    let size = [tiles.width as i32, tiles.height as i32];
+    let beside = tiles.columns > 1;
+    let own = tiles.own();
+    let current = match again {
+        Again::Current(e) => Current::take(gl, e),
+        _ => Current::default(),
+    };
+    let projection = Projection { gl, state, shear };
+    for view in tiles.order() {
+        let x = atlas.enter(gl, view);
+        let free = view == own && matches!(again, Again::Anything { rects: true, .. });
+        if beside && !free {
+            place(gl, state, x, size);
+        } else if beside {
+            unplace(gl, state);
+        }
+        // A list that changes the projection starts from the program's own, also where no view stands in the middle.
+        let keeps = !matches!(
+            again,
+            Again::Anything {
+                projection: true,
+                ..
+            }
+        );
+        if view == own {
+            projection.load(if keeps { rig.place(view) } else { 0.0 });
+            current.put(gl);
+            call();
+            if beside && !free {
+                unplace(gl, state);
+            }
+            if rig.place(own) != 0.0 && keeps {
+                projection.load(0.0);
+            }
+            break;
+        }
+        if saves != 0 {
+            gl.push_attrib(saves);
+        }
+        projection.load(rig.place(view));
+        match again {
+            Again::Raster => {
+                gl.move_raster(x as f32, 0.0);
+                call();
+            }
+            Again::Anything { .. } => {
+                let modelview = gl.get_floats(c::MODELVIEW_MATRIX);
+                let depth = gl.get_integer(c::MODELVIEW_STACK_DEPTH);
+                call();
+                gl.matrix_mode(c::MODELVIEW);
+                let now = gl.get_integer(c::MODELVIEW_STACK_DEPTH);
+                (depth..now).for_each(|_| gl.pop_matrix());
+                (now..depth).for_each(|_| gl.push_matrix());
+                gl.load_matrix(&modelview);
+            }
+            _ => {
+                current.put(gl);
+                call();
+            }
+        }
+        if saves != 0 {
+            gl.pop_attrib();
+        }
+    }
+    true
+}
+
+/// Viewport and scissor of the program, moved by a tile's offset and cut to the tile.
+pub fn place(gl: &Gl, state: &State, offset: i32, size: [i32; 2]) {
+    let [x, y, w, h] = state.viewport;
+    gl.viewport(x + offset, y, w, h);
+    if !state.scissor_test {
+        gl.enable(c::SCISSOR_TEST);
+    }
+    let [x, y, w, h] = cut(state, offset, size);
+    gl.scissor(x, y, w, h);
+}
+
+/// What may be drawn in a tile: all of it, or what the program's scissor leaves.
+pub(super) fn cut(state: &State, offset: i32, size: [i32; 2]) -> [i32; 4] {
+    if !state.scissor_test {
+        return [offset, 0, size[0], size[1]];
+    }
+    let [x, y, w, h] = state.scissor;
+    let end = |a: i32, b: i32, max: i32| a.saturating_add(b).clamp(0, max);
+    let (x0, y0) = (x.clamp(0, size[0]), y.clamp(0, size[1]));
+    [
+        x0 + offset,
+        y0,
+        (end(x, w, size[0]) - x0).max(0),
+        (end(y, h, size[1]) - y0).max(0),
+    ]
+}
+
+/// The program's own viewport and scissor.
+pub fn unplace(gl: &Gl, state: &State) {
+    let [x, y, w, h] = state.viewport;
+    gl.viewport(x, y, w, h);
+    let [x, y, w, h] = state.scissor;
+    gl.scissor(x, y, w, h);
+    if !state.scissor_test {
+        gl.disable(c::SCISSOR_TEST);
+    }
+}
+
+struct Projection<'a> {
+    gl: &'a Gl,
+    state: &'a State,
+    shear: Option<Shear>,
+}
+
+impl Projection<'_> {
+    /// Loads P_i of the view at a place; nothing for a flat draw. The matrix mode stays the program's.
+    fn load(&self, place: f64) {
+        let Some(shear) = &self.shear else { return };
+        let mode = self.state.matrix_mode;
+        if mode != c::PROJECTION {
+            self.gl.matrix_mode(c::PROJECTION);
+        }
+        self.gl
+            .load_matrix(&shear.projection(&self.state.projection, place));
+        if mode != c::PROJECTION {
+            self.gl.matrix_mode(mode);
+        }
+    }
+}

@@ -1,0 +1,92 @@
+//! Where a view lies: its slot in the atlas, its cell in a quilt.
+#![forbid(unsafe_code)]
+
+/// The view nearest to the program's own camera; of an even number the left one of the two. `views` is at least 1.
+pub fn middle(views: u32) -> u32 {
+    views.saturating_sub(1) / 2
+}
+
+/// Slot of a view in the atlas: the middle view lies at the origin and view 0 in its place, all others in order.
+///
+/// Slot s is in column s % columns and row s / columns, from the origin of the framebuffer. The map undoes itself.
+pub fn slot(view: u32, views: u32) -> u32 {
+    let middle = middle(views);
+    match view {
+        0 => middle,
+        _ if view == middle => 0,
+        _ => view,
+    }
+}
+
+/// A picture of whole views beside each other.
+///
+/// Cells are numbered from the bottom left, to the right, then upwards; cells past the last view are black.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Layout {
+    /// One row, view 0 on the left.
+    SideBySide,
+    /// The Looking Glass order: view 0 bottom left, rows upwards.
+    Quilt {
+        /// At least 1.
+        columns: u32,
+        /// At least 1.
+        rows: u32,
+    },
+    /// One view.
+    View(u32),
+}
+
+impl Layout {
+    /// The quilt of N views that wastes no cell and is at most twice as wide as high, counted in cells, such as 4x2, 8x6
+    /// and 9x5 for 8, 48 and 45 views; else the smallest near-square one that holds them.
+    pub fn quilt(views: u32) -> Self {
+        let views = views.max(1);
+        let root = views.isqrt();
+        let full = (1..=root)
+            .rev()
+            .find(|rows| views.is_multiple_of(*rows) && views / rows <= 2 * rows);
+        let columns = match full {
+            Some(rows) => views / rows,
+            None if root * root == views => root,
+            None => root + 1,
+        };
+        Self::Quilt {
+            columns,
+            rows: views.div_ceil(columns),
+        }
+    }
+
+    /// Columns and rows of cells, each at least 1.
+    pub fn grid(self, views: u32) -> (u32, u32) {
+        match self {
+            Self::SideBySide => (views.max(1), 1),
+            Self::Quilt { columns, rows } => (columns.max(1), rows.max(1)),
+            Self::View(_) => (1, 1),
+        }
+    }
+
+    /// The view in the bottom left cell.
+    pub fn first(self) -> u32 {
+        match self {
+            Self::View(view) => view,
+            Self::SideBySide | Self::Quilt { .. } => 0,
+        }
+    }
+
+    /// Size in pixels where each tile keeps its own size.
+    pub fn native_size(self, views: u32, tile: (u32, u32)) -> (u32, u32) {
+        let (columns, rows) = self.grid(views);
+        (tile.0.saturating_mul(columns), tile.1.saturating_mul(rows))
+    }
+
+    /// The view in a cell, counted from the left and from the top; None where the cell is black.
+    pub fn view_at(self, column: u32, row: u32, views: u32) -> Option<u32> {
+        let (columns, rows) = self.grid(views);
+        let upwards = rows.checked_sub(row)?.checked_sub(1)?;
+        let view = upwards
+            .checked_mul(columns)?
+            .checked_add(column)?
+            .checked_add(self.first())?;
+        (column < columns && view < views).then_some(view)
+    }
+}

@@ -1,0 +1,243 @@
+//! The exact picture, on the CPU: the gold standard for the shaders.
+//!
+//! Pictures have row 0 on top. Resampling: a pixel centre at place p in (0, 1) of its cell takes the tile's colour at p,
+//! bilinear between texel centres and clamped inside the tile, in whole numbers, rounded half up to 8 bits. Where tile
+//! and cell have the same size that is the texel itself. Views are never blended with each other.
+#![forbid(unsafe_code)]
+
+use super::Layout;
+use crate::display::{GUARD, Mask};
+use image::{ImageBuffer, Pixel, Rgb, RgbImage};
+
+/// Views of one size, RGB or RGBA with 8 bits; alpha is ignored.
+pub type Tile<P> = ImageBuffer<P, Vec<u8>>;
+
+/// Why there is no picture.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum ReferenceError {
+    /// Nothing to show.
+    #[error("no views were given; give at least one tile")]
+    NoTiles,
+    /// Two sizes, or a tile without pixels.
+    #[error(
+        "tile {index} is {width}x{height} pixels, but tile 0 is {first_width}x{first_height}; \
+         all tiles must have one size, not 0"
+    )]
+    TileSize {
+        /// The view.
+        index: usize,
+        /// Pixels.
+        width: u32,
+        /// Pixels.
+        height: u32,
+        /// Pixels.
+        first_width: u32,
+        /// Pixels.
+        first_height: u32,
+    },
+    /// Grey tiles.
+    #[error("tiles must be RGB or RGBA, found {channels} channels")]
+    Channels {
+        /// Per pixel.
+        channels: u8,
+    },
+    /// The mask names a view that is not there.
+    #[error(
+        "the mask shows view {view}, but there are {views} tiles; give a mask for {views} views"
+    )]
+    View {
+        /// The index found.
+        view: u32,
+        /// N.
+        views: usize,
+    },
+    /// The view asked for is not there.
+    #[error("there is no view {view}; the views are numbered from 0 and there are {views}")]
+    NoView {
+        /// As asked for.
+        view: u32,
+        /// N.
+        views: usize,
+    },
+    /// A picture without pixels or with more than 2^28 of them.
+    #[error("a picture of {width}x{height} pixels cannot be made; give 1 to 2^28 pixels")]
+    Size {
+        /// Pixels.
+        width: u32,
+        /// Pixels.
+        height: u32,
+    },
+}
+
+/// The picture of a panel: each subpixel from the view that the mask names, guard subpixels black. The picture has the
+/// size of the mask.
+pub fn interleave<P: Pixel<Subpixel = u8>>(
+    tiles: &[Tile<P>],
+    mask: &Mask,
+) -> Result<RgbImage, ReferenceError> {
+    let tile = tile_size(tiles)?;
+    let size = (mask.width(), mask.height());
+    let mut out = picture(size)?;
+    let taps = Taps::new(size, (1, 1), tile);
+    for (row, views) in (0..).zip(mask.rows()) {
+        for (x, views) in (0..).zip(views) {
+            let mut pixel = [0; 3];
+            for (channel, &view) in views.iter().enumerate() {
+                if view == GUARD {
+                    continue;
+                }
+                let missing = ReferenceError::View {
+                    view: u32::from(view),
+                    views: tiles.len(),
+                };
+                let tile = tiles.get(usize::from(view)).ok_or(missing)?;
+                if let (Some(value), Some(out)) =
+                    (taps.colour(tile, x, row), pixel.get_mut(channel))
+                {
+                    *out = value.0.get(channel).copied().unwrap_or(0);
+                }
+            }
+            out.put_pixel(x, row, Rgb(pixel));
+        }
+    }
+    Ok(out)
+}
+
+/// Whole views beside each other, in a picture of any size. A pixel belongs to the cell that its centre lies in.
+pub fn arrange<P: Pixel<Subpixel = u8>>(
+    tiles: &[Tile<P>],
+    layout: Layout,
+    size: (u32, u32),
+) -> Result<RgbImage, ReferenceError> {
+    let tile = tile_size(tiles)?;
+    let views = u32::try_from(tiles.len()).unwrap_or(u32::MAX);
+    if let Layout::View(view) = layout
+        && view >= views
+    {
+        return Err(ReferenceError::NoView {
+            view,
+            views: tiles.len(),
+        });
+    }
+    let mut out = picture(size)?;
+    let taps = Taps::new(size, layout.grid(views), tile);
+    for (x, row, pixel) in out.enumerate_pixels_mut() {
+        let tile = taps
+            .cell(x, row)
+            .and_then(|(column, row)| layout.view_at(column, row, views))
+            .and_then(|view| tiles.get(view as usize));
+        if let Some(colour) = tile.and_then(|tile| taps.colour(tile, x, row)) {
+            *pixel = colour;
+        }
+    }
+    Ok(out)
+}
+
+fn tile_size<P: Pixel<Subpixel = u8>>(tiles: &[Tile<P>]) -> Result<(u32, u32), ReferenceError> {
+    let first = tiles.first().ok_or(ReferenceError::NoTiles)?.dimensions();
+    if P::CHANNEL_COUNT < 3 {
+        return Err(ReferenceError::Channels {
+            channels: P::CHANNEL_COUNT,
+        });
+    }
+    for (index, tile) in tiles.iter().enumerate() {
+        let (width, height) = tile.dimensions();
+        if (width, height) != first || width == 0 || height == 0 {
+            let (first_width, first_height) = first;
+            return Err(ReferenceError::TileSize {
+                index,
+                width,
+                height,
+                first_width,
+                first_height,
+            });
+        }
+    }
+    Ok(first)
+}
+
+fn picture((width, height): (u32, u32)) -> Result<RgbImage, ReferenceError> {
+    let pixels = u64::from(width) * u64::from(height);
+    if !(1..=1 << 28).contains(&pixels) {
+        return Err(ReferenceError::Size { width, height });
+    }
+    Ok(RgbImage::new(width, height))
+}
+
+/// Where one column or row of the picture takes its colour from.
+#[derive(Clone, Copy)]
+struct Tap {
+    /// Cell, from the left or the top.
+    cell: u32,
+    low: u32,
+    high: u32,
+    /// Weight of `high`, out of `Taps::full`.
+    weight: u64,
+}
+
+/// All columns and rows of a picture.
+struct Taps {
+    columns: Vec<Tap>,
+    rows: Vec<Tap>,
+    /// The weight 1 of columns and of rows.
+    full: (u64, u64),
+}
+
+impl Taps {
+    fn new(size: (u32, u32), grid: (u32, u32), tile: (u32, u32)) -> Self {
+        Self {
+            columns: (0..size.0)
+                .map(|at| Tap::new(at, size.0, grid.0, tile.0))
+                .collect(),
+            rows: (0..size.1)
+                .map(|at| Tap::new(at, size.1, grid.1, tile.1))
+                .collect(),
+            full: (4 * u64::from(size.0), 4 * u64::from(size.1)),
+        }
+    }
+
+    fn cell(&self, x: u32, row: u32) -> Option<(u32, u32)> {
+        Some((
+            self.columns.get(x as usize)?.cell,
+            self.rows.get(row as usize)?.cell,
+        ))
+    }
+
+    fn colour<P: Pixel<Subpixel = u8>>(&self, tile: &Tile<P>, x: u32, row: u32) -> Option<Rgb<u8>> {
+        let (x, y) = (self.columns.get(x as usize)?, self.rows.get(row as usize)?);
+        let at = |x, y| Some(tile.get_pixel_checked(x, y)?.channels());
+        let (a, b) = (at(x.low, y.low)?, at(x.high, y.low)?);
+        let (c, d) = (at(x.low, y.high)?, at(x.high, y.high)?);
+        let (full_x, full_y) = self.full;
+        let mut out = [0; 3];
+        for (channel, out) in out.iter_mut().enumerate() {
+            let value = |texel: &[u8]| texel.get(channel).copied().map(u64::from);
+            let upper = value(a)? * (full_x - x.weight) + value(b)? * x.weight;
+            let lower = value(c)? * (full_x - x.weight) + value(d)? * x.weight;
+            let sum = upper * (full_y - y.weight) + lower * y.weight;
+            let one = full_x * full_y;
+            // At most 255, as the weights add up to `one`.
+            *out = ((2 * sum + one) / (2 * one)) as u8;
+        }
+        Some(Rgb(out))
+    }
+}
+
+impl Tap {
+    /// Pixel `at` of `size`, cut into `cells` cells of `texels` texels each.
+    fn new(at: u32, size: u32, cells: u32, texels: u32) -> Self {
+        let [at, size, cells, texels] = [at, size, cells, texels].map(i64::from);
+        let centre = (2 * at + 1) * cells;
+        let cell = centre / (2 * size);
+        // Texels from the centre of the first one, over 4 · size.
+        let place = 2 * (centre - cell * 2 * size) * texels - 2 * size;
+        let low = place.div_euclid(4 * size);
+        let clamped = |texel: i64| texel.clamp(0, texels - 1) as u32;
+        Self {
+            cell: cell as u32,
+            low: clamped(low),
+            high: clamped(low + 1),
+            weight: place.rem_euclid(4 * size) as u64,
+        }
+    }
+}

@@ -1,0 +1,285 @@
+//! The output passes of `shaders/*.wgsl`, validated and translated by naga to the GLSL of a program's context.
+//!
+//! The uniforms are a WGSL `var<immediate>`, which naga writes as plain uniforms (`glUniform*` by name), not as a block: so
+//! no buffer and no indexed binding of the application's is touched. Nothing is flipped in translation
+//! (no `ADJUST_COORDINATE_SPACE`): the shaders are written for OpenGL's window space, y upwards.
+#![forbid(unsafe_code)]
+
+use super::Layout;
+use naga::back::glsl;
+use naga::valid::{Capabilities, ValidationFlags, Validator};
+
+const COMMON: &str = include_str!("../../shaders/common.wgsl");
+const ATLAS: &str = include_str!("../../shaders/atlas.wgsl");
+const INTERLEAVE: &str = include_str!("../../shaders/interleave.wgsl");
+const LAYOUT: &str = include_str!("../../shaders/layout.wgsl");
+
+/// Texture unit of the views: a 2D array texture.
+pub const VIEWS_UNIT: u32 = 0;
+/// Texture unit of the mask: RGBA16UI or RGB16UI, NEAREST, row 0 on top.
+pub const MASK_UNIT: u32 = 1;
+
+/// What a pass makes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Pass {
+    /// The panel's picture, through the mask.
+    Interleave,
+    /// Quilt, side by side or a single view.
+    Layout,
+}
+
+/// Which half of the program.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Stage {
+    /// One triangle over the window: three vertices, no attributes.
+    Vertex,
+    /// The pass itself.
+    Fragment,
+}
+
+/// The `#version` of a context.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum GlslVersion {
+    /// As GL_SHADING_LANGUAGE_VERSION × 100, such as 330.
+    Desktop(u16),
+    /// ES, such as 300.
+    Embedded(u16),
+}
+
+impl GlslVersion {
+    /// All that can be written.
+    pub const SUPPORTED: [Self; 14] = [
+        Self::Desktop(130),
+        Self::Desktop(140),
+        Self::Desktop(150),
+        Self::Desktop(330),
+        Self::Desktop(400),
+        Self::Desktop(410),
+        Self::Desktop(420),
+        Self::Desktop(430),
+        Self::Desktop(440),
+        Self::Desktop(450),
+        Self::Desktop(460),
+        Self::Embedded(300),
+        Self::Embedded(310),
+        Self::Embedded(320),
+    ];
+
+    /// The newest version that can be written and is not newer than what the context takes; None below 130 and ES 300.
+    pub fn for_context(self) -> Option<Self> {
+        let rank = |version| match version {
+            Self::Desktop(number) => (0, number),
+            Self::Embedded(number) => (1, number),
+        };
+        let (family, newest) = rank(self);
+        Self::SUPPORTED
+            .into_iter()
+            .filter(|&version| rank(version).0 == family && rank(version).1 <= newest)
+            .max_by_key(|&version| rank(version).1)
+    }
+}
+
+impl std::fmt::Display for GlslVersion {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Desktop(number) => write!(f, "GLSL {number}"),
+            Self::Embedded(number) => write!(f, "GLSL ES {number}"),
+        }
+    }
+}
+
+/// A translated stage.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Translated {
+    /// GLSL, beginning with `#version`.
+    pub source: String,
+    /// Sampler uniforms to be set with `glUniform1i`, sorted by unit.
+    pub textures: Vec<TextureBinding>,
+    /// Plain uniforms to be set with `glUniform1uiv` or `glUniform2uiv` from [`Uniforms::words`].
+    pub uniforms: Vec<UniformSlot>,
+}
+
+/// A sampler of the shader.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct TextureBinding {
+    /// Name in the GLSL.
+    pub name: String,
+    /// [`VIEWS_UNIT`] or [`MASK_UNIT`].
+    pub unit: u32,
+}
+
+/// One uniform of the shader. Those the linker dropped have location -1, which OpenGL ignores.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct UniformSlot {
+    /// Name in the GLSL.
+    pub name: String,
+    /// First of its words.
+    pub first: usize,
+    /// 1 (uint) or 2 (uvec2).
+    pub count: usize,
+}
+
+impl UniformSlot {
+    /// Its part of [`Uniforms::words`].
+    pub fn of<'w>(&self, words: &'w [u32]) -> Option<&'w [u32]> {
+        words.get(self.first..self.first.checked_add(self.count)?)
+    }
+}
+
+/// What the passes need to know; `struct Uniforms` of common.wgsl. Sizes in pixels, width and height.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Uniforms {
+    /// One view.
+    pub tile: [u32; 2],
+    /// From slot to slot of a layer of the atlas; at least the width of the tile.
+    pub stride: u32,
+    /// The picture made.
+    pub picture: [u32; 2],
+    /// Slots in a layer of the atlas, at least 1.
+    pub columns: u32,
+    /// N, at least 1.
+    pub views: u32,
+    /// Whole views beside each other; the interleave pass does not read it.
+    pub layout: Layout,
+    /// True when row 0 of the views' texture is the top row of the picture.
+    pub rows_top_down: bool,
+}
+
+impl Uniforms {
+    /// In the order and alignment of the WGSL struct.
+    pub fn words(&self) -> [u32; 12] {
+        let [tile_x, tile_y] = self.tile;
+        let [out_x, out_y] = self.picture;
+        let (grid_x, grid_y) = self.layout.grid(self.views);
+        let (columns, views) = (self.columns.max(1), self.views.max(1));
+        let (first, top_down) = (self.layout.first(), u32::from(self.rows_top_down));
+        [
+            tile_x,
+            tile_y,
+            out_x,
+            out_y,
+            grid_x,
+            grid_y,
+            self.stride,
+            columns,
+            views,
+            first,
+            top_down,
+            0,
+        ]
+    }
+}
+
+/// Why there is no shader.
+#[derive(Debug, thiserror::Error)]
+pub enum ShaderError {
+    /// Below what naga writes.
+    #[error("{0} is too old for the output passes; they need GLSL 130 or GLSL ES 300")]
+    Version(GlslVersion),
+    /// A mistake in our own WGSL.
+    #[error("the {pass:?} pass is not valid WGSL: {reason}")]
+    Wgsl {
+        /// The pass.
+        pass: Pass,
+        /// From naga.
+        reason: String,
+    },
+    /// A feature the version lacks.
+    #[error("the {pass:?} pass cannot be written as {version}: {reason}")]
+    Glsl {
+        /// The pass.
+        pass: Pass,
+        /// The version asked for.
+        version: GlslVersion,
+        /// From naga.
+        reason: String,
+    },
+}
+
+/// One stage of a pass as GLSL. `version` is what the context takes; the nearest one below that naga knows is written.
+pub fn translate(
+    pass: Pass,
+    stage: Stage,
+    version: GlslVersion,
+) -> Result<Translated, ShaderError> {
+    let version = version.for_context().ok_or(ShaderError::Version(version))?;
+    let wgsl = |reason: String| ShaderError::Wgsl { pass, reason };
+    let glsl_error = |e: glsl::Error| ShaderError::Glsl {
+        pass,
+        version,
+        reason: e.to_string(),
+    };
+    let text = source(pass);
+    let module = naga::front::wgsl::parse_str(&text).map_err(|e| wgsl(e.emit_to_string(&text)))?;
+    let info = Validator::new(ValidationFlags::all(), Capabilities::IMMEDIATES)
+        .validate(&module)
+        .map_err(|e| wgsl(e.emit_to_string(&text)))?;
+    let options = glsl::Options {
+        version: match version {
+            // The oldest that naga writes; what the passes use of it is all in 130 too.
+            GlslVersion::Desktop(number) => glsl::Version::Desktop(number.max(140)),
+            GlslVersion::Embedded(number) => glsl::Version::new_gles(number),
+        },
+        writer_flags: glsl::WriterFlags::empty(),
+        ..glsl::Options::default()
+    };
+    let (shader_stage, entry_point) = match (stage, pass) {
+        (Stage::Vertex, _) => (naga::ShaderStage::Vertex, "cover"),
+        (Stage::Fragment, Pass::Interleave) => (naga::ShaderStage::Fragment, "interleave"),
+        (Stage::Fragment, Pass::Layout) => (naga::ShaderStage::Fragment, "arrange"),
+    };
+    let pipeline = glsl::PipelineOptions {
+        shader_stage,
+        entry_point: entry_point.into(),
+        multiview: None,
+    };
+    let mut source = String::new();
+    // All fetches are inside their textures by construction, see common.wgsl.
+    let bounds = naga::proc::BoundsCheckPolicies::default();
+    let reflection = glsl::Writer::new(&mut source, &module, &info, &options, &pipeline, bounds)
+        .map_err(glsl_error)?
+        .write()
+        .map_err(glsl_error)?;
+
+    if let GlslVersion::Desktop(number @ 130..150) = version {
+        // naga writes "core" here, but profiles begin with GLSL 150 and Mesa refuses the word before.
+        let body = source.split_once('\n').map_or("", |(_, body)| body);
+        source = format!("#version {number}\n{body}");
+    }
+
+    let mut textures: Vec<_> = reflection
+        .texture_mapping
+        .into_iter()
+        .filter_map(|(name, mapping)| {
+            let variable = module.global_variables.try_get(mapping.texture).ok()?;
+            Some(TextureBinding {
+                name,
+                unit: variable.binding?.binding,
+            })
+        })
+        .collect();
+    textures.sort_by_key(|texture| texture.unit);
+    let uniforms = reflection
+        .immediates_items
+        .into_iter()
+        .map(|item| UniformSlot {
+            name: item.access_path,
+            first: item.offset as usize / 4,
+            count: item.size_bytes as usize / 4,
+        })
+        .collect();
+    Ok(Translated {
+        source,
+        textures,
+        uniforms,
+    })
+}
+
+/// The WGSL of a pass, which has no includes.
+fn source(pass: Pass) -> String {
+    let body = match pass {
+        Pass::Interleave => INTERLEAVE,
+        Pass::Layout => LAYOUT,
+    };
+    [COMMON, ATLAS, body].join("\n")
+}

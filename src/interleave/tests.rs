@@ -1,0 +1,318 @@
+//! The CPU reference against pictures that are easy to reason about; the shaders' translation.
+#![forbid(unsafe_code)]
+
+use super::reference::{ReferenceError, arrange, interleave};
+use super::shader::*;
+use super::*;
+use crate::display::{Display, GUARD, Mask, Placement};
+use image::{GrayImage, Rgb, RgbImage, Rgba, RgbaImage};
+use proptest::prelude::*;
+use proptest::test_runner::{RngAlgorithm, RngSeed};
+
+fn seeded(cases: u32) -> ProptestConfig {
+    ProptestConfig {
+        cases,
+        rng_seed: RngSeed::Fixed(20_26),
+        rng_algorithm: RngAlgorithm::ChaCha,
+        failure_persistence: None,
+        ..ProptestConfig::default()
+    }
+}
+
+/// Every subpixel of every view has its own value, as far as 8 bits go.
+fn tiles(views: u32, width: u32, height: u32) -> Vec<RgbImage> {
+    (0..views)
+        .map(|view| {
+            RgbImage::from_fn(width, height, |x, y| {
+                Rgb([0, 1, 2].map(|c| (view * 53 + x * 7 + y * 29 + c * 101) as u8))
+            })
+        })
+        .collect()
+}
+
+#[test]
+fn equal_sizes_show_the_texels_themselves() {
+    let views = tiles(8, 32, 20);
+    let mask = Display::default()
+        .mask(&Placement::full_screen(32, 20), 8)
+        .unwrap();
+    let got = interleave(&views, &mask).unwrap();
+    for (x, y, pixel) in got.enumerate_pixels() {
+        let shown = mask.at(x, y).unwrap();
+        for c in 0..3 {
+            assert_eq!(
+                pixel.0[c],
+                views[usize::from(shown[c])].get_pixel(x, y).0[c]
+            );
+        }
+    }
+}
+
+#[test]
+fn guards_are_black_and_alpha_is_ignored() {
+    let tile = RgbaImage::from_pixel(2, 1, Rgba([10, 20, 30, 0]));
+    let mask = Mask::new(2, 1, vec![[0, GUARD, 0], [GUARD, 0, GUARD]]).unwrap();
+    let got = interleave(&[tile], &mask).unwrap();
+    assert_eq!(got.as_raw(), &[10, 0, 30, 0, 20, 0]);
+}
+
+#[test]
+fn smaller_tiles_are_bilinear_and_clamped() {
+    let tile = RgbImage::from_raw(2, 1, vec![0, 0, 0, 200, 100, 50]).unwrap();
+    let got = arrange(&[tile], Layout::View(0), (4, 2)).unwrap();
+    // Pixel centres at -1/4, 1/4, 3/4 and 5/4 texels from the centre of the first one.
+    let row = [0, 0, 0, 50, 25, 13, 150, 75, 38, 200, 100, 50];
+    assert_eq!(got.as_raw()[..12], row, "12.5 and 37.5 round up");
+    assert_eq!(got.as_raw()[12..], row);
+}
+
+#[test]
+fn quilts_begin_bottom_left() {
+    let views: Vec<_> = (0..5)
+        .map(|i| RgbImage::from_pixel(3, 2, Rgb([10 + i; 3])))
+        .collect();
+    let layout = Layout::quilt(5);
+    assert_eq!(
+        layout,
+        Layout::Quilt {
+            columns: 3,
+            rows: 2
+        }
+    );
+    let size = layout.native_size(5, (3, 2));
+    assert_eq!(size, (9, 4));
+    let got = arrange(&views, layout, size).unwrap();
+    let at = |x, y| got.get_pixel(x, y).0[0];
+    assert_eq!([at(0, 3), at(3, 3), at(8, 2)], [10, 11, 12]);
+    assert_eq!(
+        [at(2, 1), at(5, 0), at(6, 0)],
+        [13, 14, 0],
+        "the last cell stays black"
+    );
+
+    let row = arrange(&views, Layout::SideBySide, (15, 2)).unwrap();
+    for x in 0..15 {
+        assert_eq!(u32::from(row.get_pixel(x, 1).0[0]), 10 + x / 3);
+    }
+    let one = arrange(&views, Layout::View(3), (3, 2)).unwrap();
+    assert_eq!(one, views[3]);
+}
+
+#[test]
+fn quilt_shapes() {
+    let shapes = [
+        (1, 1, 1),
+        (2, 2, 1),
+        (5, 3, 2),
+        (6, 3, 2),
+        (7, 3, 3),
+        (8, 4, 2),
+        (9, 3, 3),
+    ];
+    let more = [
+        (17, 5, 4),
+        (45, 9, 5),
+        (48, 8, 6),
+        (66, 11, 6),
+        (72, 9, 8),
+        (16, 4, 4),
+    ];
+    for (views, columns, rows) in shapes.into_iter().chain(more) {
+        assert_eq!(
+            Layout::quilt(views),
+            Layout::Quilt { columns, rows },
+            "{views} views"
+        );
+    }
+    for views in 1..500 {
+        let (columns, rows) = Layout::quilt(views).grid(views);
+        assert!(columns * rows >= views && columns * (rows - 1) < views && columns <= 2 * rows);
+        let mut seen: Vec<_> = (0..rows)
+            .flat_map(|row| (0..columns).map(move |column| (column, row)))
+            .filter_map(|(column, row)| Layout::quilt(views).view_at(column, row, views))
+            .collect();
+        seen.sort_unstable();
+        assert_eq!(seen, (0..views).collect::<Vec<_>>());
+    }
+    assert_eq!(Layout::SideBySide.view_at(0, 1, 4), None);
+    assert_eq!(Layout::View(3).view_at(0, 0, 4), Some(3));
+}
+
+#[test]
+fn the_middle_view_lies_in_slot_0() {
+    for (views, expected) in [
+        (1, vec![0]),
+        (2, vec![0, 1]),
+        (3, vec![1, 0, 2]),
+        (5, vec![2, 1, 0, 3, 4]),
+        (8, vec![3, 1, 2, 0, 4, 5, 6, 7]),
+    ] {
+        assert_eq!(
+            (0..views).map(|view| slot(view, views)).collect::<Vec<_>>(),
+            expected
+        );
+        assert_eq!(slot(middle(views), views), 0);
+    }
+}
+
+#[test]
+fn messages() {
+    let small = Mask::new(2, 2, vec![[4; 3]; 4]).unwrap();
+    let mut odd = tiles(3, 4, 4);
+    odd.push(RgbImage::new(4, 5));
+    let errors: [ReferenceError; 6] = [
+        interleave::<Rgb<u8>>(&[], &small).unwrap_err(),
+        interleave(&odd, &small).unwrap_err(),
+        interleave(&[GrayImage::new(2, 2)], &small).unwrap_err(),
+        interleave(&tiles(3, 2, 2), &small).unwrap_err(),
+        arrange(&tiles(3, 2, 2), Layout::View(3), (2, 2)).unwrap_err(),
+        arrange(&tiles(3, 2, 2), Layout::SideBySide, (0, 2)).unwrap_err(),
+    ];
+    let mut said: Vec<String> = errors.iter().map(ToString::to_string).collect();
+    for version in [GlslVersion::Desktop(120), GlslVersion::Embedded(100)] {
+        let error = translate(Pass::Layout, Stage::Vertex, version).unwrap_err();
+        said.push(error.to_string());
+    }
+    insta::assert_snapshot!(said.join("\n"));
+}
+
+proptest! {
+    #![proptest_config(seeded(60))]
+
+    /// Bilinear in f64, written another way.
+    #[test]
+    fn resampling_is_bilinear(
+        tile in (1u32..9, 1u32..9), cells in (1u32..4, 1u32..4), size in (1u32..30, 1u32..30),
+    ) {
+        let views = cells.0 * cells.1;
+        let pictures = tiles(views, tile.0, tile.1);
+        let layout = Layout::Quilt { columns: cells.0, rows: cells.1 };
+        let got = arrange(&pictures, layout, size).unwrap();
+        for (x, y, pixel) in got.enumerate_pixels() {
+            let along = |at: u32, size: u32, cells: u32, texels: u32| {
+                let place = (f64::from(at) + 0.5) / f64::from(size) * f64::from(cells);
+                // Centres on the edge between two cells belong to the right or lower one.
+                let cell = (place + 1e-9).floor();
+                let texel = ((place - cell) * f64::from(texels) - 0.5).clamp(0.0, f64::from(texels - 1));
+                (cell as u32, texel)
+            };
+            let (column, u) = along(x, size.0, cells.0, tile.0);
+            let (row, v) = along(y, size.1, cells.1, tile.1);
+            let view = &pictures[((cells.1 - 1 - row) * cells.0 + column) as usize];
+            for c in 0..3 {
+                let at = |x: f64, y: f64| {
+                    let (x, y) = (x.min(f64::from(tile.0 - 1)), y.min(f64::from(tile.1 - 1)));
+                    f64::from(view.get_pixel(x as u32, y as u32).0[c])
+                };
+                let mix = |a: f64, b: f64, t: f64| a + (b - a) * t;
+                let expected = mix(
+                    mix(at(u.floor(), v.floor()), at(u.floor() + 1.0, v.floor()), u.fract()),
+                    mix(at(u.floor(), v.floor() + 1.0), at(u.floor() + 1.0, v.floor() + 1.0), u.fract()),
+                    v.fract(),
+                );
+                prop_assert!((expected - f64::from(pixel.0[c])).abs() <= 0.5 + 1e-6);
+            }
+        }
+    }
+}
+
+const PASSES: [Pass; 2] = [Pass::Interleave, Pass::Layout];
+
+#[test]
+fn every_pass_translates_for_every_version() {
+    for pass in PASSES {
+        for version in GlslVersion::SUPPORTED {
+            let fragment = translate(pass, Stage::Fragment, version).unwrap();
+            let line = match version {
+                GlslVersion::Desktop(number @ ..150) => format!("#version {number}\n"),
+                GlslVersion::Desktop(number) => format!("#version {number} core\n"),
+                GlslVersion::Embedded(number) => format!("#version {number} es\n"),
+            };
+            assert!(fragment.source.starts_with(&line), "{}", fragment.source);
+            let units: Vec<_> = fragment.textures.iter().map(|t| t.unit).collect();
+            let expected = [VIEWS_UNIT, MASK_UNIT];
+            assert_eq!(
+                units,
+                expected[..if pass == Pass::Interleave { 2 } else { 1 }]
+            );
+            for texture in &fragment.textures {
+                assert!(fragment.source.contains(&format!(" {};", texture.name)));
+            }
+            assert_eq!(fragment.uniforms.len(), 8);
+            assert!(!fragment.source.contains("std140"), "no uniform block");
+
+            let vertex = translate(pass, Stage::Vertex, version).unwrap();
+            assert!(vertex.source.starts_with(&line));
+            assert!(
+                !vertex.source.contains("-gl_Position.y"),
+                "nothing is flipped"
+            );
+            assert_eq!((vertex.textures, vertex.uniforms), (vec![], vec![]));
+        }
+    }
+}
+
+#[test]
+fn uniforms_are_found_by_name() {
+    let uniforms = Uniforms {
+        tile: [1, 2],
+        stride: 3,
+        picture: [5, 6],
+        columns: 9,
+        views: 10,
+        layout: Layout::Quilt {
+            columns: 7,
+            rows: 8,
+        },
+        rows_top_down: true,
+    };
+    let version = GlslVersion::Desktop(330);
+    let got = translate(Pass::Layout, Stage::Fragment, version).unwrap();
+    let words = uniforms.words();
+    let of: Vec<_> = got
+        .uniforms
+        .iter()
+        .map(|slot| {
+            (
+                slot.name.rsplit('.').next().unwrap(),
+                slot.of(&words).unwrap(),
+            )
+        })
+        .collect();
+    let expected: [(&str, &[u32]); 8] = [
+        ("tile", &[1, 2]),
+        ("picture", &[5, 6]),
+        ("grid", &[7, 8]),
+        ("stride", &[3]),
+        ("columns", &[9]),
+        ("views", &[10]),
+        ("first", &[0]),
+        ("rows_top_down", &[1]),
+    ];
+    assert_eq!(of, expected);
+}
+
+#[test]
+fn contexts_get_the_nearest_version_below() {
+    use GlslVersion::{Desktop, Embedded};
+    assert_eq!(Desktop(459).for_context(), Some(Desktop(450)));
+    assert_eq!(Desktop(999).for_context(), Some(Desktop(460)));
+    assert_eq!(Desktop(120).for_context(), None);
+    assert_eq!(Embedded(310).for_context(), Some(Embedded(310)));
+    assert_eq!(Embedded(100).for_context(), None);
+}
+
+#[test]
+fn glsl_of_the_panel_pass() {
+    let version = GlslVersion::Desktop(140);
+    let got = translate(Pass::Interleave, Stage::Fragment, version);
+    insta::assert_snapshot!(got.unwrap().source);
+}
+
+#[test]
+fn glsl_of_the_layout_pass() {
+    let version = GlslVersion::Embedded(300);
+    let got = translate(Pass::Layout, Stage::Fragment, version).unwrap();
+    let vertex = translate(Pass::Layout, Stage::Vertex, version).unwrap();
+    insta::assert_snapshot!(format!("{}\n{}", vertex.source, got.source));
+}

@@ -1,0 +1,121 @@
+//! The end of a frame: interleave, capture, report.
+
+use super::Layer;
+use crate::config::CaptureWhat;
+use crate::gl::{Gl, consts as c};
+use crate::interleave::{Layout, Source, reference};
+use crate::present::{Saved, capture};
+use image::RgbImage;
+
+impl Layer {
+    /// Shows the frame in the true framebuffer 0. The caller swaps after it; nothing of the program's state has changed.
+    pub fn show(&mut self, gl: &Gl) {
+        if self.state.list.is_some() || self.state.begin != crate::state::Begin::Outside {
+            return;
+        }
+        let saved = Saved::take(gl, self.state.compatibility);
+        self.atlas.resolve(gl, false, c::COLOR_BUFFER_BIT);
+        gl.bind_framebuffer(c::FRAMEBUFFER, 0);
+        let source = Source {
+            tiles: self.atlas.tiles,
+            texture: self.atlas.color,
+            top_down: self.atlas.flipped,
+            srgb: self.state.window.srgb,
+        };
+        if let Err(e) = self.interleaver.draw(
+            gl,
+            self.config,
+            &source,
+            &mut |view| tile(gl, &self.atlas, view),
+            self.config.output,
+            self.size(),
+        ) {
+            self.report.note(e);
+        }
+        self.capture(gl, &source);
+        saved.restore(gl);
+        let f = &self.state.framebuffers;
+        let (draw, read) = (f.draw, f.read);
+        if draw != 0 {
+            gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, draw);
+        }
+        if read != 0 {
+            gl.bind_framebuffer(c::READ_FRAMEBUFFER, read);
+        }
+        self.bind_draw(gl, true, true);
+        self.drawn = false;
+    }
+
+    /// Counts the frame and writes the report where one is asked for.
+    pub fn count_frame(&mut self) {
+        self.report.frame();
+        if let Some(path) = &self.config.report {
+            self.report.write(path);
+        }
+    }
+
+    /// Whether a flush shows what was drawn: it went to the front buffer, or there is no other.
+    pub fn shows_on_flush(&self) -> bool {
+        self.drawn && (!self.state.window.double_buffered || self.state.framebuffers.draws_front())
+    }
+
+    /// Whether something was drawn since the last frame was shown.
+    pub fn drawn(&self) -> bool {
+        self.drawn
+    }
+
+    fn capture(&mut self, gl: &Gl, source: &Source) {
+        let frame = self.report.frames() + 1;
+        let Some(wanted) = &self.config.capture else {
+            return;
+        };
+        if !(wanted.first..=wanted.last).contains(&frame) {
+            return;
+        }
+        let (width, height) = self.size();
+        self.report.write_status(self.config, frame);
+        let views = || -> Vec<RgbImage> {
+            (0..self.config.views)
+                .map(|v| tile(gl, &self.atlas, v))
+                .collect()
+        };
+        // Layouts are written at the full size of their tiles, whatever the window's size.
+        let whole = |layout: Layout| {
+            let size = layout.native_size(
+                self.config.views,
+                (self.atlas.tiles.width, self.atlas.tiles.height),
+            );
+            reference::arrange(&views(), layout, size)
+                .map_err(|e| e.to_string())
+                .and_then(|i| capture::write(&i, wanted, frame))
+        };
+        let written = match wanted.what {
+            CaptureWhat::Output => match Layout::of(self.config.output, self.config.views) {
+                None => {
+                    gl.bind_framebuffer(c::READ_FRAMEBUFFER, 0);
+                    capture::write(&capture::read_rgb(gl, 0, 0, width, height), wanted, frame)
+                }
+                Some(layout) => whole(layout),
+            },
+            CaptureWhat::Atlas => whole(Layout::SideBySide),
+            CaptureWhat::View(v) => capture::write(&tile(gl, &self.atlas, v), wanted, frame),
+            CaptureWhat::Depth => {
+                self.atlas.resolve(gl, true, c::DEPTH_BUFFER_BIT);
+                let (from, x) = self.atlas.readable(source.tiles.own());
+                gl.bind_framebuffer(c::READ_FRAMEBUFFER, from);
+                capture::write(&capture::read_depth(gl, x, 0, width, height), wanted, frame)
+            }
+        };
+        gl.bind_framebuffer(c::FRAMEBUFFER, 0);
+        if let Err(e) = written {
+            self.report.note(format!("capture of frame {frame}: {e}"));
+        }
+    }
+}
+
+/// One view's picture, row 0 on top. Changes the read framebuffer.
+fn tile(gl: &Gl, atlas: &crate::atlas::Atlas, view: u32) -> RgbImage {
+    let (from, x) = atlas.readable(view);
+    gl.bind_framebuffer(c::READ_FRAMEBUFFER, from);
+    capture::read_rgb(gl, x, 0, atlas.tiles.width, atlas.tiles.height)
+}

@@ -1,0 +1,244 @@
+//! The program's framebuffer 0: bound, drawn to, read from and asked about.
+
+use super::Layer;
+use crate::atlas::Atlas;
+use crate::gl::{Gl, consts as c};
+
+impl Layer {
+    /// glBindFramebuffer. `bind` makes the call for a target and a name.
+    pub fn bind_framebuffer(&mut self, target: u32, name: u32, bind: &mut dyn FnMut(u32, u32)) {
+        let (draw, read) = match target {
+            c::FRAMEBUFFER => (true, true),
+            c::DRAW_FRAMEBUFFER => (true, false),
+            c::READ_FRAMEBUFFER => (false, true),
+            _ => return bind(target, name),
+        };
+        bind(
+            target,
+            if name == 0 {
+                self.atlas.framebuffer()
+            } else {
+                name
+            },
+        );
+        if draw {
+            self.atlas.forget_row();
+            self.state.framebuffers.draw = name;
+        }
+        if read {
+            self.state.framebuffers.read = name;
+        }
+    }
+
+    /// glDeleteFramebuffers of a bound one binds framebuffer 0.
+    pub fn deleted_framebuffers(&mut self, gl: &Gl, names: &[u32]) {
+        let f = &mut self.state.framebuffers;
+        let (draw, read) = (
+            f.draw != 0 && names.contains(&f.draw),
+            f.read != 0 && names.contains(&f.read),
+        );
+        if draw {
+            f.draw = 0;
+        }
+        if read {
+            f.read = 0;
+        }
+        self.bind_draw(gl, draw, read);
+    }
+
+    /// Binds the atlas where the program has framebuffer 0.
+    pub(super) fn bind_draw(&mut self, gl: &Gl, draw: bool, read: bool) {
+        let f = &self.state.framebuffers;
+        if draw && f.draw == 0 {
+            gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, self.atlas.framebuffer());
+            self.atlas.forget_row();
+        }
+        if read && f.read == 0 {
+            gl.bind_framebuffer(c::READ_FRAMEBUFFER, self.atlas.framebuffer());
+        }
+    }
+
+    /// Runs a call with the true framebuffer 0 bound where the program has 0 at `target`.
+    pub fn with_true_zero(&mut self, gl: &Gl, target: u32, call: &mut dyn FnMut()) {
+        let f = &self.state.framebuffers;
+        let draw = [c::FRAMEBUFFER, c::DRAW_FRAMEBUFFER].contains(&target) && f.draw == 0;
+        let read = target == c::READ_FRAMEBUFFER && f.read == 0;
+        if draw {
+            gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, 0);
+        }
+        if read {
+            gl.bind_framebuffer(c::READ_FRAMEBUFFER, 0);
+        }
+        call();
+        self.bind_draw(gl, draw, read);
+    }
+
+    /// glDrawBuffer(s) for framebuffer 0; `None` when a name is one that framebuffer 0 refuses: the caller then asks the
+    /// driver, with the true framebuffer 0 bound, for its error.
+    pub fn draw_buffers(&mut self, gl: &Gl, buffers: &[u32]) -> Option<()> {
+        let f = &mut self.state.framebuffers;
+        if buffers.iter().any(|&b| f.translate(b).is_none()) {
+            return None;
+        }
+        f.draw_buffers = buffers.to_vec();
+        self.apply_buffers(gl);
+        Some(())
+    }
+
+    /// glReadBuffer for framebuffer 0; as [`Layer::draw_buffers`].
+    pub fn read_buffer(&mut self, gl: &Gl, buffer: u32) -> Option<()> {
+        let f = &mut self.state.framebuffers;
+        f.translate(buffer)?;
+        f.read_buffer = buffer;
+        self.apply_buffers(gl);
+        Some(())
+    }
+
+    /// Draw and read buffers are kept in each framebuffer object of the atlas.
+    pub(super) fn apply_buffers(&mut self, gl: &Gl) {
+        let f = &self.state.framebuffers;
+        let draw: Vec<u32> = f
+            .draw_buffers
+            .iter()
+            .filter_map(|&b| f.translate(b))
+            .collect();
+        let read = f.translate(f.read_buffer).unwrap_or(c::COLOR_ATTACHMENT0);
+        let (bound_draw, bound_read) = (
+            gl.get_integer(c::DRAW_FRAMEBUFFER_BINDING) as u32,
+            gl.get_integer(c::READ_FRAMEBUFFER_BINDING) as u32,
+        );
+        let targets: Vec<u32> = self.atlas.targets().collect();
+        for t in targets {
+            gl.bind_framebuffer(c::FRAMEBUFFER, t);
+            gl.draw_buffers(&draw);
+            gl.read_buffer(read);
+        }
+        gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, bound_draw);
+        gl.bind_framebuffer(c::READ_FRAMEBUFFER, bound_read);
+    }
+
+    /// Runs with other framebuffers bound, for commands that name theirs.
+    pub fn with_bound<R>(
+        &mut self,
+        gl: &Gl,
+        draw: u32,
+        read: Option<u32>,
+        f: impl FnOnce(&mut Self) -> R,
+    ) -> R {
+        let old = (self.state.framebuffers.draw, self.state.framebuffers.read);
+        let mut bind = |t, n| gl.bind_framebuffer(t, n);
+        self.bind_framebuffer(c::DRAW_FRAMEBUFFER, draw, &mut bind);
+        if let Some(read) = read {
+            self.bind_framebuffer(c::READ_FRAMEBUFFER, read, &mut bind);
+        }
+        let r = f(self);
+        self.bind_framebuffer(c::DRAW_FRAMEBUFFER, old.0, &mut bind);
+        if read.is_some() {
+            self.bind_framebuffer(c::READ_FRAMEBUFFER, old.1, &mut bind);
+        }
+        r
+    }
+
+    /// Whether a framebuffer binding is the program's 0.
+    pub fn draws_to_zero(&self) -> bool {
+        self.state.framebuffers.draw == 0
+    }
+
+    /// Whether reads come from framebuffer 0.
+    pub fn reads_from_zero(&self) -> bool {
+        self.state.framebuffers.read == 0
+    }
+
+    /// What glGet answers for a name that tells of framebuffer 0, if it is one.
+    pub fn answer(&self, name: u32) -> Option<i64> {
+        let f = &self.state.framebuffers;
+        let zero = f.draw == 0;
+        let buffer = |i: usize| i64::from(f.draw_buffers.get(i).copied().unwrap_or(c::NONE));
+        match name {
+            c::DRAW_FRAMEBUFFER_BINDING => Some(f.draw.into()),
+            c::READ_FRAMEBUFFER_BINDING => Some(f.read.into()),
+            c::DRAW_BUFFER if zero => Some(buffer(0)),
+            c::DRAW_BUFFER0..=c::DRAW_BUFFER15 if zero => {
+                Some(buffer((name - c::DRAW_BUFFER0) as usize))
+            }
+            c::READ_BUFFER if f.read == 0 => Some(f.read_buffer.into()),
+            c::DOUBLEBUFFER if zero => Some(self.state.window.double_buffered.into()),
+            _ => None,
+        }
+    }
+
+    /// A read from framebuffer 0 (glReadPixels, glCopyTex*): from the program's own view, resolved if multisampled.
+    pub fn read(&mut self, gl: &Gl, call: &mut dyn FnMut()) {
+        if self.state.framebuffers.read != 0
+            || !self.atlas.multisampled()
+            || self.state.list.is_some()
+        {
+            return call();
+        }
+        self.state.refresh(gl);
+        if self.state.scissor_test {
+            gl.disable(c::SCISSOR_TEST);
+        }
+        self.atlas.resolve(
+            gl,
+            true,
+            c::COLOR_BUFFER_BIT | c::DEPTH_BUFFER_BIT | c::STENCIL_BUFFER_BIT,
+        );
+        if self.state.scissor_test {
+            gl.enable(c::SCISSOR_TEST);
+        }
+        let (from, _) = self.atlas.readable(self.atlas.tiles.own());
+        let draw = match self.state.framebuffers.draw {
+            0 => self.atlas.framebuffer(),
+            other => other,
+        };
+        gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, draw);
+        gl.bind_framebuffer(c::READ_FRAMEBUFFER, from);
+        call();
+        gl.bind_framebuffer(c::READ_FRAMEBUFFER, self.atlas.framebuffer());
+    }
+
+    /// glBlitFramebuffer: into every view's tile where it draws to framebuffer 0; from the same view's tile where it also reads
+    /// from there. `blit` takes the x offsets of source and destination in pixels.
+    pub fn blit(&mut self, gl: &Gl, blit: &mut dyn FnMut(i32, i32)) {
+        let (draw, read) = (self.draws_to_zero(), self.reads_from_zero());
+        if !draw {
+            if read {
+                return self.read(gl, &mut || blit(0, 0));
+            }
+            return blit(0, 0);
+        }
+        self.state.refresh(gl);
+        for view in self.atlas.tiles.order() {
+            let x = self.atlas.enter(gl, view);
+            if read {
+                let (from, _) = self.atlas.target(view);
+                gl.bind_framebuffer(c::READ_FRAMEBUFFER, from);
+            }
+            self.scissored(gl, x, &mut || blit(if read { x } else { 0 }, x));
+        }
+        self.bind_draw(gl, true, true);
+    }
+
+    /// Runs a call with the scissor cut to a tile, where tiles lie beside each other.
+    fn scissored(&self, gl: &Gl, x: i32, call: &mut dyn FnMut()) {
+        if self.atlas.tiles.columns == 1 {
+            return call();
+        }
+        crate::draw::place(gl, &self.state, x, self.tile_size());
+        call();
+        crate::draw::unplace(gl, &self.state);
+    }
+
+    pub(super) fn tile_size(&self) -> [i32; 2] {
+        [
+            self.atlas.tiles.width as i32,
+            self.atlas.tiles.height as i32,
+        ]
+    }
+
+    /// The atlas, for tests of what it holds.
+    pub fn atlas(&self) -> &Atlas {
+        &self.atlas
+    }
+}

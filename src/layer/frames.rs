@@ -1,0 +1,83 @@
+//! One view: the program draws it itself; frames are only counted and captured.
+
+use crate::config::{CaptureWhat, Config};
+use crate::gl::{Gl, consts as c};
+use crate::present::{Saved, capture};
+use crate::report::Report;
+
+/// What is kept of a context with one view.
+#[derive(Debug)]
+pub struct Frames {
+    config: &'static Config,
+    width: u32,
+    height: u32,
+    report: Report,
+}
+
+impl Frames {
+    /// For a context whose drawable has this size in pixels.
+    pub fn new(config: &'static Config, width: u32, height: u32) -> Self {
+        Frames {
+            config,
+            width,
+            height,
+            report: Report::default(),
+        }
+    }
+
+    /// The drawable's size in pixels.
+    pub fn resize(&mut self, width: u32, height: u32) {
+        (self.width, self.height) = (width, height);
+    }
+
+    /// Captures the frame if it is wanted.
+    pub fn show(&mut self, gl: &Gl) {
+        let frame = self.report.frames() + 1;
+        let Some(wanted) = self
+            .config
+            .capture
+            .as_ref()
+            .filter(|w| (w.first..=w.last).contains(&frame))
+        else {
+            return;
+        };
+        self.report.write_status(self.config, frame);
+        let saved = Saved::take(gl, false);
+        let framebuffers = gl.version() >= (3, 0);
+        let read = if framebuffers {
+            gl.get_integer(c::READ_FRAMEBUFFER_BINDING) as u32
+        } else {
+            0
+        };
+        if read != 0 {
+            gl.bind_framebuffer(c::READ_FRAMEBUFFER, 0);
+        }
+        let written = match wanted.what {
+            CaptureWhat::Depth => capture::write(
+                &capture::read_depth(gl, 0, 0, self.width, self.height),
+                wanted,
+                frame,
+            ),
+            _ => capture::write(
+                &capture::read_rgb(gl, 0, 0, self.width, self.height),
+                wanted,
+                frame,
+            ),
+        };
+        if let Err(e) = written {
+            self.report.note(format!("capture of frame {frame}: {e}"));
+        }
+        if read != 0 {
+            gl.bind_framebuffer(c::READ_FRAMEBUFFER, read);
+        }
+        saved.restore(gl);
+    }
+
+    /// Counts the frame and writes the report where one is asked for.
+    pub fn count_frame(&mut self) {
+        self.report.frame();
+        if let Some(path) = &self.config.report {
+            self.report.write(path);
+        }
+    }
+}

@@ -1,0 +1,179 @@
+//! What a context lets the layer do, and how `manyview-probe` says so to `manyview doctor`.
+#![forbid(unsafe_code)]
+
+use super::LayerError;
+use crate::atlas::Limits;
+use crate::gl::{Gl, consts as c};
+use serde::{Deserialize, Serialize};
+
+/// What a context offers.
+#[derive(Clone, Copy, Debug)]
+pub struct Support {
+    /// Major and minor version.
+    pub version: (u32, u32),
+    /// Whether the context has the fixed-function pipeline.
+    pub compatibility: bool,
+    /// Whether framebuffer objects can be drawn to upside down, as windows are (GL_MESA_framebuffer_flip_y).
+    pub flip: bool,
+    /// The shading language that the layer uses, version × 100.
+    pub glsl: u32,
+    /// GL_MAX_CLIP_DISTANCES; 0 where generated shaders cannot be used.
+    pub clip_distances: u32,
+    /// Whether a generated vertex shader can choose the layer that it draws to.
+    pub layers: bool,
+    /// How large an atlas may be.
+    pub limits: Limits,
+}
+
+impl Support {
+    /// Asks the current context. The error says why it cannot be shown in several views.
+    pub fn ask(gl: &Gl) -> Result<Self, LayerError> {
+        let version = gl.version();
+        if gl.get_string(c::VERSION).starts_with("OpenGL ES") {
+            return Err(LayerError::Es);
+        }
+        let modern = version >= (3, 0)
+            || (gl.has_extension("GL_ARB_framebuffer_object")
+                && gl.has_extension("GL_EXT_texture_array"));
+        if !modern {
+            return Err(LayerError::Version(version.0, version.1));
+        }
+        let compatibility = version < (3, 1)
+            || gl.has_extension("GL_ARB_compatibility")
+            || (version >= (3, 2) && gl.get_integer(c::CONTEXT_PROFILE_MASK) & 2 != 0);
+        // An older context may know newer shading languages, but not all that goes with them.
+        let glsl = if version >= (3, 1) {
+            crate::interleave::glsl_version(gl)
+        } else {
+            120
+        };
+        let clip_distances = if compatibility && glsl >= 150 {
+            gl.get_integer(c::MAX_CLIP_DISTANCES).max(0).unsigned_abs()
+        } else {
+            0
+        };
+        let [width, height] = gl.get_integers::<2>(c::MAX_VIEWPORT_DIMS);
+        let side = gl.get_integer(c::MAX_TEXTURE_SIZE).min(width).min(height);
+        Ok(Self {
+            version,
+            compatibility,
+            flip: gl.has_extension("GL_MESA_framebuffer_flip_y"),
+            glsl,
+            clip_distances,
+            layers: clip_distances >= 2 && crate::draw::limits(gl, glsl).vertex_layer.is_some(),
+            limits: Limits {
+                side: side.max(1).unsigned_abs(),
+                layers: gl
+                    .get_integer(c::MAX_ARRAY_TEXTURE_LAYERS)
+                    .max(1)
+                    .unsigned_abs(),
+            },
+        })
+    }
+
+    /// Whether generated vertex shaders can place views: compatibility shaders (GLSL 1.50) with two clip distances.
+    #[must_use]
+    pub fn instanced(&self) -> bool {
+        self.clip_distances >= 2
+    }
+
+    /// Whether generated geometry shaders can: GLSL 1.50 has them.
+    #[must_use]
+    pub fn geometry(&self) -> bool {
+        self.instanced()
+    }
+
+    /// Names for `--strategy` that do in this context what they say.
+    #[must_use]
+    pub fn strategies(&self) -> Vec<&'static str> {
+        [
+            ("replay", true),
+            ("instanced", self.instanced()),
+            ("geometry", self.geometry()),
+        ]
+        .into_iter()
+        .filter_map(|(name, there)| there.then_some(name))
+        .collect()
+    }
+
+    /// What a user should know about pictures from this context.
+    #[must_use]
+    pub fn notes(&self) -> Vec<String> {
+        let mut notes = Vec::new();
+        if !self.flip {
+            notes.push("the driver has no GL_MESA_framebuffer_flip_y: a view may differ from the window in single pixels".to_owned());
+        }
+        if !self.instanced() {
+            let reason = match (self.compatibility, self.glsl) {
+                (false, _) => "a core profile has no fixed function to generate shaders for",
+                (_, 150..) => "the driver has fewer than two clip distances",
+                _ => "instanced and geometry need GLSL 1.50",
+            };
+            notes.push(format!("{reason}: every draw is replayed"));
+        }
+        notes
+    }
+}
+
+/// What `manyview-probe` prints of one API, as a line of JSON: a context it made, or why it could not.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Probe {
+    /// `glx`, `egl` or `osmesa`.
+    pub api: String,
+    /// GL_VERSION
+    pub version: Option<String>,
+    /// GL_RENDERER
+    pub renderer: Option<String>,
+    /// Whether the layer stands between the probe and the driver.
+    pub hooked: bool,
+    /// What the layer can use in this context, by the names of `--strategy`.
+    pub strategies: Vec<String>,
+    /// Anything else worth a sentence.
+    pub notes: Vec<String>,
+    /// Why there is no context.
+    pub error: Option<String>,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn support(glsl: u32, compatibility: bool, clip_distances: u32) -> Support {
+        Support {
+            version: (3, 2),
+            compatibility,
+            flip: true,
+            glsl,
+            clip_distances,
+            layers: true,
+            limits: Limits {
+                side: 4096,
+                layers: 256,
+            },
+        }
+    }
+
+    #[test]
+    fn what_is_missing_is_said() {
+        let full = support(150, true, 8);
+        assert_eq!(full.strategies(), ["replay", "instanced", "geometry"]);
+        assert!(full.notes().is_empty());
+        for (less, word) in [
+            (support(120, true, 0), "GLSL 1.50"),
+            (support(150, true, 1), "clip distances"),
+            (support(450, false, 0), "core profile"),
+        ] {
+            assert_eq!(less.strategies(), ["replay"]);
+            assert!(less.notes()[0].contains(word), "{:?}", less.notes());
+        }
+    }
+
+    #[test]
+    fn a_short_line_of_the_probe_is_understood() {
+        let probe: Probe =
+            serde_json::from_str(r#"{"api": "glx", "error": "no X server"}"#).expect("JSON");
+        assert_eq!(probe.error.as_deref(), Some("no X server"));
+        assert!(!probe.hooked && probe.strategies.is_empty());
+    }
+}

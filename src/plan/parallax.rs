@@ -1,0 +1,264 @@
+//! The one equation: camera i is the program's camera moved along its x axis, with the frustum sheared so that the focal depth
+//! keeps its place.
+//!
+//! Based on: Luo et al., "GPU-based multi-view rendering for spatial-multiplex autostereoscopic displays" (GBMVR), section III,
+//! Δx = A·κ·(1 − z/ξ), written for homogeneous coordinates:
+//! row0(P_i) = row0(P) + sep_i·row3(P) − sep_i·conv·(0,0,0,1), sep_i = A·e_i/ξ, conv = ξ, e_i = (i − (N−1)/2)·κ.
+
+use crate::config::Camera;
+
+/// The cameras of all views.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rig {
+    /// N.
+    pub views: u32,
+    camera: Camera,
+    latched: Option<(f64, f64)>,
+}
+
+/// The shift of one draw's views in clip space: `x_i = x + sep_i·(w − conv·w_eye)`, `sep_i = a·e_i/focal`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Shear {
+    /// A, per unit of row 3.
+    pub a: f64,
+    /// κ.
+    pub spacing: f64,
+    /// ξ.
+    pub focal: f64,
+    /// Zero parallax, in units of clip-space w.
+    pub conv: f64,
+}
+
+/// Disparity at infinity between the outermost views that [`Camera::Auto`] gives, in units of normalised device coordinates:
+/// 8 views of a 640 px window then differ by 1.8 px from neighbour to neighbour, about the limit of aliasing between views.
+const AUTO_TOTAL_SEPARATION: f64 = 0.04;
+
+impl Rig {
+    /// The cameras for N views.
+    pub fn new(views: u32, camera: Camera) -> Self {
+        Rig {
+            views,
+            camera,
+            latched: None,
+        }
+    }
+
+    /// Position of a view in units of the spacing: −(N−1)/2 … (N−1)/2; 0 is the program's own camera.
+    pub fn place(&self, view: u32) -> f64 {
+        f64::from(view) - (f64::from(self.views) - 1.0) / 2.0
+    }
+
+    /// With [`Camera::Auto`], fixes the focal depth by the first perspective projection that the program draws with: the
+    /// geometric mean of its near and far distance, the far one at most 1000 near distances away.
+    pub fn latch(&mut self, p: &[f32; 16]) {
+        if self.camera != Camera::Auto || self.latched.is_some() || flat(p) {
+            return;
+        }
+        let [a, b, c, d] = [p[10], p[14], p[11], p[15]].map(f64::from);
+        // Depth 0 and 1 of the clip range: z = ∓w along the axis, with z = a·z_e + b and w = c·z_e + d.
+        let at = |sign: f64| ((sign * d - b) / (a - sign * c)).abs();
+        let (z1, z2) = (at(-1.0), at(1.0));
+        let (near, far) = if z1 < z2 { (z1, z2) } else { (z2, z1) };
+        if near.is_finite() && near > 0.0 {
+            let scale = c.hypot(f64::from(p[3])).hypot(f64::from(p[7]));
+            let focal = (near * far.min(1000.0 * near)).sqrt();
+            let step = AUTO_TOTAL_SEPARATION / f64::from(self.views.max(2) - 1);
+            self.latched = Some((step, focal * scale));
+        }
+    }
+
+    /// Separation and convergence in use, once known: of neighbouring views in clip space, and in units of clip-space w.
+    pub fn latched(&self) -> Option<(f64, f64)> {
+        self.latched
+    }
+
+    /// The shift for a projection (column-major); `None` where all views are the same: one view, orthographic, no projection.
+    pub fn shear(&self, p: &[f32; 16]) -> Option<Shear> {
+        if self.views < 2 || flat(p) {
+            return None;
+        }
+        match self.camera {
+            Camera::Clip {
+                separation,
+                convergence,
+            } => Some(Shear::in_clip_space(separation, convergence)),
+            Camera::Auto => self
+                .latched
+                .map(|(separation, conv)| Shear::in_clip_space(separation, conv)),
+            Camera::Eye {
+                spacing,
+                focal_depth,
+            } => {
+                let (a, scale) = focal_length(p);
+                Some(Shear {
+                    a: a / scale,
+                    spacing,
+                    focal: focal_depth,
+                    conv: focal_depth * scale,
+                })
+            }
+        }
+    }
+}
+
+/// Whether row 3 of a projection is (0, 0, 0, k): no perspective, so nothing has a depth to shift by.
+pub fn flat(p: &[f32; 16]) -> bool {
+    p[3] == 0.0 && p[7] == 0.0 && p[11] == 0.0
+}
+
+/// A = P[0][0] = 2·Zn/(r − l), and the length of row 3 (1 for glFrustum), which is what clip-space w has per unit of depth.
+///
+/// A projection that includes the camera's rotation has A spread over row 0; what of it is at a right angle to the viewing
+/// direction (row 3) is A.
+fn focal_length(p: &[f32; 16]) -> (f64, f64) {
+    if p[3] == 0.0 && p[7] == 0.0 {
+        return (f64::from(p[0]), f64::from(p[11]).abs());
+    }
+    let row0 = glam::DVec3::new(p[0].into(), p[4].into(), p[8].into());
+    let row3 = glam::DVec3::new(p[3].into(), p[7].into(), p[11].into());
+    (row0.reject_from(row3).length(), row3.length())
+}
+
+impl Shear {
+    /// From a shift that is given in clip space.
+    fn in_clip_space(separation: f64, convergence: f64) -> Shear {
+        Shear {
+            a: 1.0,
+            spacing: separation,
+            focal: 1.0,
+            conv: convergence,
+        }
+    }
+
+    /// sep of one view, which stands at `place` (see [`Rig::place`]). In the order of the equation: with round numbers another
+    /// order ends on the other side of a tie when P_i is rounded to single precision.
+    pub fn separation(&self, place: f64) -> f64 {
+        self.a * (place * self.spacing) / self.focal
+    }
+
+    /// P_i, rounded once from double precision. The program's own camera (place 0) gets P itself.
+    pub fn projection(&self, p: &[f32; 16], place: f64) -> [f32; 16] {
+        let sep = self.separation(place);
+        let mut out = *p;
+        if sep == 0.0 {
+            return out;
+        }
+        for column in 0..4 {
+            let (x, w) = (f64::from(p[column * 4]), f64::from(p[column * 4 + 3]));
+            let constant = if column == 3 { sep * self.conv } else { 0.0 };
+            out[column * 4] = (x + sep * w - constant) as f32;
+        }
+        out
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::{Mat4, Vec3, Vec4};
+
+    /// glFrustum.
+    fn frustum(l: f32, r: f32, b: f32, t: f32, n: f32, f: f32) -> Mat4 {
+        Mat4::from_cols_array(&[
+            2.0 * n / (r - l),
+            0.0,
+            0.0,
+            0.0,
+            0.0,
+            2.0 * n / (t - b),
+            0.0,
+            0.0,
+            (r + l) / (r - l),
+            (t + b) / (t - b),
+            -(f + n) / (f - n),
+            -1.0,
+            0.0,
+            0.0,
+            -2.0 * f * n / (f - n),
+            0.0,
+        ])
+    }
+
+    fn rig() -> Rig {
+        Rig::new(
+            5,
+            Camera::Eye {
+                spacing: 0.3,
+                focal_depth: 8.0,
+            },
+        )
+    }
+
+    #[test]
+    fn a_view_is_the_camera_moved_along_x_with_the_focal_plane_kept() {
+        let p = frustum(-1.2, 0.8, -0.7, 0.9, 1.0, 60.0);
+        let shear = rig()
+            .shear(&p.to_cols_array())
+            .expect("a perspective projection");
+        let e = 0.6;
+        let pi = Mat4::from_cols_array(&shear.projection(&p.to_cols_array(), 2.0));
+        for point in [Vec3::new(1.0, 2.0, -3.0), Vec3::new(-2.0, 0.5, -30.0)] {
+            let moved = p * (point - Vec3::new(e, 0.0, 0.0)).extend(1.0);
+            let got = pi * point.extend(1.0);
+            let depth = -point.z;
+            // The off-axis shear puts back what the move took at the focal depth: A·e/ξ in units of w.
+            let want = moved.x + p.x_axis.x * e / 8.0 * depth;
+            assert!(
+                (got.x - want).abs() < 1e-5
+                    && got.y == moved.y
+                    && got.z == moved.z
+                    && got.w == moved.w
+            );
+        }
+        let focal = Vec4::new(0.4, 0.3, -8.0, 1.0);
+        assert!(
+            ((pi * focal).x - (p * focal).x).abs() < 1e-6,
+            "depth ξ keeps its place"
+        );
+    }
+
+    #[test]
+    fn the_leftmost_view_shows_near_things_further_right() {
+        let p = frustum(-1.0, 1.0, -1.0, 1.0, 1.0, 60.0).to_cols_array();
+        let shear = rig().shear(&p).expect("a shear");
+        let near = Vec4::new(0.0, 0.0, -2.0, 1.0);
+        let left = Mat4::from_cols_array(&shear.projection(&p, rig().place(0))) * near;
+        let right = Mat4::from_cols_array(&shear.projection(&p, rig().place(4))) * near;
+        assert!(left.x / left.w > right.x / right.w);
+    }
+
+    #[test]
+    fn a_camera_inside_the_projection_matrix_gives_the_same_views() {
+        let p = frustum(-1.0, 1.0, -0.7, 0.7, 1.0, 60.0);
+        let camera = Mat4::from_rotation_y(0.7)
+            * Mat4::from_rotation_x(-0.3)
+            * Mat4::from_translation(Vec3::new(1.0, 2.0, -3.0));
+        let plain = rig().shear(&p.to_cols_array()).expect("a shear");
+        let both = rig().shear(&(p * camera).to_cols_array()).expect("a shear");
+        assert!(
+            (plain.separation(1.0) - both.separation(1.0)).abs() < 1e-6
+                && (plain.conv - both.conv).abs() < 1e-5,
+            "{plain:?} {both:?}"
+        );
+    }
+
+    #[test]
+    fn flat_draws_and_the_own_camera_are_left_alone() {
+        let ortho = (Mat4::from_translation(Vec3::new(-1.0, -1.0, 0.0))
+            * Mat4::from_scale(Vec3::new(2.0 / 640.0, 2.0 / 480.0, -1.0)))
+        .to_cols_array();
+        assert_eq!(rig().shear(&ortho), None);
+        let p = frustum(-1.0, 1.0, -1.0, 1.0, 1.0, 60.0).to_cols_array();
+        assert_eq!(rig().shear(&p).expect("a shear").projection(&p, 0.0), p);
+    }
+
+    #[test]
+    fn auto_takes_the_geometric_mean_of_near_and_far() {
+        let p = frustum(-1.0, 1.0, -1.0, 1.0, 5.0, 60.0).to_cols_array();
+        let mut rig = Rig::new(8, Camera::Auto);
+        assert_eq!(rig.shear(&p), None);
+        rig.latch(&p);
+        let shear = rig.shear(&p).expect("latched");
+        assert!((shear.conv - 300f64.sqrt()).abs() < 1e-3, "{shear:?}");
+    }
+}

@@ -1,0 +1,41 @@
+//! Pictures out of the program, as PNG with row 0 on top.
+
+use crate::config::Capture;
+use crate::gl::Gl;
+use image::{ImageBuffer, Luma, RgbImage};
+
+/// The rectangle of the bound read framebuffer; the pixel-store state must be as [`super::Saved::take`] leaves it.
+pub fn read_rgb(gl: &Gl, x: i32, y: i32, width: u32, height: u32) -> RgbImage {
+    let mut image =
+        RgbImage::from_raw(width, height, gl.read_rgb(x, y, width, height)).unwrap_or_default();
+    image::imageops::flip_vertical_in_place(&mut image);
+    image
+}
+
+/// Depth of the bound read framebuffer, 0 (near) to 65535.
+pub fn read_depth(
+    gl: &Gl,
+    x: i32,
+    y: i32,
+    width: u32,
+    height: u32,
+) -> ImageBuffer<Luma<u16>, Vec<u16>> {
+    let mut image = ImageBuffer::from_raw(width, height, gl.read_depth16(x, y, width, height))
+        .unwrap_or_default();
+    image::imageops::flip_vertical_in_place(&mut image);
+    image
+}
+
+/// Writes one frame beside its file and renames, so that whoever waits for the file never sees half of it.
+pub fn write<P, C>(image: &ImageBuffer<P, C>, capture: &Capture, frame: u64) -> Result<(), String>
+where
+    P: image::Pixel + image::PixelWithColorType,
+    [P::Subpixel]: image::EncodableLayout,
+    C: std::ops::Deref<Target = [P::Subpixel]>,
+{
+    let (partial, path) = (capture.partial_path(frame), capture.path_for(frame));
+    image
+        .save_with_format(&partial, image::ImageFormat::Png)
+        .map_err(|e| format!("{}: {e}", path.display()))?;
+    std::fs::rename(&partial, &path).map_err(|e| format!("{}: {e}", path.display()))
+}

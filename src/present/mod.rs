@@ -1,0 +1,7 @@
+//! The true framebuffer 0, and the state that our own drawing borrows and gives back.
+#![forbid(unsafe_code)]
+
+pub mod capture;
+mod saved;
+
+pub use saved::Saved;

@@ -1,0 +1,159 @@
+//! What the layer did, for `--report`.
+#![forbid(unsafe_code)]
+
+use serde::Serialize;
+use std::collections::BTreeMap;
+use std::time::{Duration, Instant};
+
+/// Counts of one program; written as JSON while it runs.
+#[derive(Debug, Default)]
+pub struct Report {
+    frames: u64,
+    frame_ms: Vec<f32>,
+    draws: BTreeMap<&'static str, u64>,
+    classes: BTreeMap<&'static str, u64>,
+    fallbacks: BTreeMap<String, u64>,
+    notes: Vec<String>,
+    errors: u64,
+    shaders: u64,
+    last_swap: Option<Instant>,
+    last_write: Option<Instant>,
+}
+
+#[derive(Serialize)]
+struct Json<'a> {
+    frames: u64,
+    frame_ms: FrameTimes,
+    draws: &'a BTreeMap<&'static str, u64>,
+    classes: &'a BTreeMap<&'static str, u64>,
+    fallbacks: &'a BTreeMap<String, u64>,
+    generated_shaders: u64,
+    gl_errors: u64,
+    notes: &'a [String],
+}
+
+#[derive(Serialize)]
+struct FrameTimes {
+    median: f32,
+    p95: f32,
+}
+
+/// Frame times kept for the median.
+const KEPT: usize = 4096;
+
+impl Report {
+    /// One draw went by a method; it was of a class.
+    #[inline]
+    pub fn draw(&mut self, method: &'static str, class: &'static str) {
+        *self.draws.entry(method).or_default() += 1;
+        *self.classes.entry(class).or_default() += 1;
+    }
+
+    /// A draw went by replay although something else was asked for.
+    pub fn fallback(&mut self, reason: &dyn std::fmt::Display) {
+        *self.fallbacks.entry(reason.to_string()).or_default() += 1;
+    }
+
+    /// Something the user should know, once.
+    pub fn note(&mut self, text: String) {
+        if !self.notes.contains(&text) {
+            self.notes.push(text);
+        }
+    }
+
+    /// A GL error that our own set-up raised.
+    pub fn error(&mut self) {
+        self.errors += 1;
+    }
+
+    /// Programs generated and compiled so far.
+    pub fn shaders(&mut self, programs: u64) {
+        self.shaders = programs;
+    }
+
+    /// Frames shown so far.
+    pub fn frames(&self) -> u64 {
+        self.frames
+    }
+
+    /// A frame was shown.
+    pub fn frame(&mut self) {
+        let now = Instant::now();
+        if let Some(last) = self.last_swap {
+            let ms = now.duration_since(last).as_secs_f32() * 1e3;
+            if self.frame_ms.len() < KEPT {
+                self.frame_ms.push(ms);
+            } else if let Some(slot) = self.frame_ms.get_mut(self.frames as usize % KEPT) {
+                *slot = ms;
+            }
+        }
+        self.last_swap = Some(now);
+        self.frames += 1;
+    }
+
+    /// Whether it is time to write: the first frames each, then ten times a second (a program gives no sign before it
+    /// ends).
+    fn due(&mut self) -> bool {
+        let due = self.frames <= 10
+            || self
+                .last_write
+                .is_none_or(|t| t.elapsed() > Duration::from_millis(100));
+        if due {
+            self.last_write = Some(Instant::now());
+        }
+        due
+    }
+
+    /// Writes the report when it is due. A report that cannot be written must not disturb the program; the launcher has checked
+    /// the folder.
+    pub fn write(&mut self, path: &std::path::Path) {
+        if self.due() {
+            let mut temporary = path.as_os_str().to_owned();
+            temporary.push(".tmp");
+            let _ = std::fs::write(&temporary, self.json())
+                .and_then(|()| std::fs::rename(&temporary, path));
+        }
+    }
+
+    /// Tells the launcher how far the program is, and writes the report that belongs to a captured frame: the launcher ends the
+    /// program when it has its last picture.
+    pub fn write_status(&mut self, config: &crate::config::Config, frames: u64) {
+        if let Some(path) = &config.status {
+            let _ = crate::config::Status {
+                frames,
+                notes: self.notes.clone(),
+            }
+            .write(path);
+        }
+        if let Some(path) = &config.report {
+            self.last_write = None;
+            self.write(path);
+        }
+    }
+
+    /// The report as JSON.
+    pub fn json(&self) -> String {
+        let mut sorted = self.frame_ms.clone();
+        sorted.sort_by(f32::total_cmp);
+        let at = |q: f64| {
+            sorted
+                .get(((sorted.len().max(1) - 1) as f64 * q) as usize)
+                .copied()
+                .unwrap_or(0.0)
+        };
+        let json = Json {
+            frames: self.frames,
+            frame_ms: FrameTimes {
+                median: at(0.5),
+                p95: at(0.95),
+            },
+            draws: &self.draws,
+            classes: &self.classes,
+            fallbacks: &self.fallbacks,
+            generated_shaders: self.shaders,
+            gl_errors: self.errors,
+            notes: &self.notes,
+        };
+        serde_json::to_string_pretty(&json).unwrap_or_default()
+    }
+}

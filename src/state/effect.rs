@@ -1,0 +1,117 @@
+//! What recorded immediate-mode calls do to the current values.
+
+/// The current value that a call sets, or what else it does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Effect(u32);
+
+impl Effect {
+    /// Emits a vertex.
+    pub const VERTEX: Effect = Effect(1);
+    /// Primary colour (with colour material: the material too).
+    pub const COLOR: Effect = Effect(2);
+    /// Normal.
+    pub const NORMAL: Effect = Effect(4);
+    /// Texture coordinates of some unit.
+    pub const MULTITEX: Effect = Effect(2048);
+    /// Texture coordinates of unit 0.
+    pub const TEXCOORD: Effect = Effect(8);
+    /// Secondary colour.
+    pub const SECONDARY: Effect = Effect(16);
+    /// Fog coordinate.
+    pub const FOG: Effect = Effect(32);
+    /// Edge flag.
+    pub const EDGE: Effect = Effect(64);
+    /// Colour index.
+    pub const INDEX: Effect = Effect(128);
+    /// Material.
+    pub const MATERIAL: Effect = Effect(256);
+    /// Generic attribute; attribute 0 emits a vertex.
+    pub const ATTRIB: Effect = Effect(512);
+    /// Array elements, evaluators: may set anything and emits a vertex.
+    pub const UNKNOWN: Effect = Effect(1024);
+    /// Nothing.
+    pub const NONE: Effect = Effect(0);
+
+    /// Whether any of `other` is in `self`.
+    pub fn has(self, other: Effect) -> bool {
+        self.0 & other.0 != 0
+    }
+}
+
+/// Whether the calls between glBegin and glEnd give the same picture when they are sent a second time.
+///
+/// They do unless a vertex used a current value that a later call changed: then the first vertices of the second sending would
+/// see the new value.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Immediate {
+    before_vertex: u32,
+    after_vertex: u32,
+    vertex_seen: bool,
+}
+
+impl Immediate {
+    /// Takes note of one call.
+    #[inline]
+    pub fn note(&mut self, e: Effect) {
+        if e == Effect::VERTEX {
+            self.vertex_seen = true;
+            return;
+        }
+        if self.vertex_seen {
+            self.after_vertex |= e.0;
+        } else {
+            self.before_vertex |= e.0;
+        }
+        if e == Effect::UNKNOWN || e == Effect::ATTRIB {
+            self.vertex_seen = true;
+            self.after_vertex |= e.0;
+            self.before_vertex &= !e.0;
+        }
+    }
+
+    /// Whether a material changes between glBegin and glEnd, or something may that is not looked into.
+    pub fn changes_material(&self) -> bool {
+        (self.before_vertex | self.after_vertex) & (Effect::MATERIAL.0 | Effect::UNKNOWN.0) != 0
+    }
+
+    /// The current values that must be put back before the calls are sent again; none if they can be sent as they are.
+    pub fn must_restore(&self) -> Effect {
+        // Texture coordinates of several units and materials of two faces share a bit: set before is not "all set before".
+        let shared = Effect::MULTITEX.0 | Effect::MATERIAL.0;
+        Effect(self.after_vertex & (!self.before_vertex | shared))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn run(calls: &[Effect]) -> bool {
+        let mut i = Immediate::default();
+        calls.iter().for_each(|&c| i.note(c));
+        i.must_restore() != Effect::NONE
+    }
+
+    #[test]
+    fn a_value_changed_after_its_first_use_must_be_restored() {
+        assert!(!run(&[
+            Effect::COLOR,
+            Effect::VERTEX,
+            Effect::COLOR,
+            Effect::VERTEX
+        ]));
+        assert!(run(&[Effect::VERTEX, Effect::COLOR, Effect::VERTEX]));
+        assert!(run(&[
+            Effect::NORMAL,
+            Effect::VERTEX,
+            Effect::COLOR,
+            Effect::VERTEX
+        ]));
+        assert!(!run(&[Effect::VERTEX, Effect::VERTEX]));
+        assert!(run(&[Effect::UNKNOWN]), "an evaluator may set anything");
+        assert!(
+            run(&[Effect::MULTITEX, Effect::VERTEX, Effect::MULTITEX]),
+            "it may be another unit"
+        );
+    }
+}

@@ -1,0 +1,120 @@
+//! Framebuffer 0 as the program sees it.
+
+use crate::gl::{Gl, consts as c};
+
+/// The drawable behind framebuffer 0, as the driver describes the true one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Window {
+    /// Pixels.
+    pub width: u32,
+    /// Pixels.
+    pub height: u32,
+    /// Has a back buffer.
+    pub double_buffered: bool,
+    /// Bits of red, green, blue, alpha, depth, stencil.
+    pub bits: [u32; 6],
+    /// Samples per pixel, 0 for none.
+    pub samples: u32,
+    /// Can convert to sRGB when GL_FRAMEBUFFER_SRGB is enabled.
+    pub srgb: bool,
+    /// Colours are floating point.
+    pub float: bool,
+    /// The buffer that a new context draws to. GL_BACK for some drawables without a back buffer too (EGL pbuffers).
+    pub default_buffer: u32,
+    /// The buffer that a new context reads from.
+    pub default_read: u32,
+}
+
+impl Window {
+    /// Asks the driver about the true framebuffer 0, which must be bound for drawing.
+    pub fn ask(gl: &Gl, width: u32, height: u32) -> Window {
+        let bit = |name| gl.get_integer(name).max(0) as u32;
+        let names = [
+            c::RED_BITS,
+            c::GREEN_BITS,
+            c::BLUE_BITS,
+            c::ALPHA_BITS,
+            c::DEPTH_BITS,
+            c::STENCIL_BITS,
+        ];
+        let double_buffered = gl.get_integer(c::DOUBLEBUFFER) != 0;
+        let color = if double_buffered {
+            c::BACK_LEFT
+        } else {
+            c::FRONT_LEFT
+        };
+        let modern = gl.version() >= (3, 0);
+        Window {
+            width,
+            height,
+            double_buffered,
+            default_buffer: gl.get_integer(c::DRAW_BUFFER) as u32,
+            default_read: gl.get_integer(c::READ_BUFFER) as u32,
+            bits: names.map(bit),
+            samples: bit(c::SAMPLES),
+            srgb: modern
+                && gl.attachment_parameter(color, c::FRAMEBUFFER_ATTACHMENT_COLOR_ENCODING) as u32
+                    == c::SRGB,
+            float: modern
+                && gl.attachment_parameter(color, c::FRAMEBUFFER_ATTACHMENT_COMPONENT_TYPE) as u32
+                    == c::FLOAT,
+        }
+    }
+}
+
+/// Which framebuffers are bound and which buffers of framebuffer 0 are drawn to and read from, in the program's words.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Framebuffers {
+    /// GL_DRAW_FRAMEBUFFER_BINDING.
+    pub draw: u32,
+    /// GL_READ_FRAMEBUFFER_BINDING.
+    pub read: u32,
+    /// glDrawBuffers of framebuffer 0.
+    pub draw_buffers: Vec<u32>,
+    /// glReadBuffer of framebuffer 0.
+    pub read_buffer: u32,
+    default: u32,
+}
+
+impl Framebuffers {
+    /// As a new context has them.
+    pub fn new(default: u32, read: u32) -> Self {
+        Framebuffers {
+            draw: 0,
+            read: 0,
+            draw_buffers: vec![default],
+            read_buffer: read,
+            default,
+        }
+    }
+
+    /// What a buffer of framebuffer 0 is called on the atlas; `None` for a name that framebuffer 0 of this window refuses, which
+    /// the driver must be asked about.
+    pub fn translate(&self, buffer: u32) -> Option<u32> {
+        let back = [c::BACK, c::BACK_LEFT].contains(&buffer);
+        let front = [c::FRONT, c::FRONT_LEFT, c::LEFT, c::FRONT_AND_BACK].contains(&buffer);
+        match buffer {
+            c::NONE => Some(c::NONE),
+            _ if front || (back && self.default == c::BACK) => Some(c::COLOR_ATTACHMENT0),
+            _ => None,
+        }
+    }
+
+    /// Whether the program draws to the front buffer, so that a flush must show it.
+    pub fn draws_front(&self) -> bool {
+        let front = [c::FRONT, c::FRONT_LEFT, c::LEFT, c::FRONT_AND_BACK];
+        self.draw_buffers.iter().any(|b| front.contains(b))
+    }
+
+    /// After glPopAttrib the driver may have put back another draw buffer of the atlas.
+    pub(super) fn reread(&mut self, gl: &Gl) {
+        if self.draw != 0 {
+            return;
+        }
+        let none = gl.get_integer(c::DRAW_BUFFER0) as u32 == c::NONE;
+        let was_none = self.draw_buffers.iter().all(|&b| b == c::NONE);
+        if none != was_none {
+            self.draw_buffers = vec![if none { c::NONE } else { self.default }];
+        }
+    }
+}

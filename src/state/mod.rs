@@ -1,0 +1,172 @@
+//! What the program believes about its context: kept only where a plan reads it, refreshed from the driver only when a
+//! command has touched it.
+#![forbid(unsafe_code)]
+
+mod effect;
+mod framebuffer;
+
+pub use effect::{Effect, Immediate};
+pub use framebuffer::{Framebuffers, Window};
+
+use crate::gl::{Gl, consts as c};
+
+/// Groups of driver state that a command may have changed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Touch(u32);
+
+impl Touch {
+    /// The current matrix; which group that is depends on the matrix mode.
+    pub const MATRIX: Touch = Touch(1);
+    /// Some matrix named by the call.
+    pub const DSA_MATRIX: Touch = Touch(2 | 8);
+    /// The projection matrix.
+    pub const PROJECTION: Touch = Touch(2);
+    /// Viewport, scissor rectangle and scissor test.
+    pub const RECTS: Touch = Touch(4);
+    /// What the vertex stage of fixed function reads.
+    pub const FIXED: Touch = Touch(8);
+    /// The matrix mode.
+    pub const MODE: Touch = Touch(16);
+    /// Program and draw buffers.
+    pub const OBJECTS: Touch = Touch(32);
+    /// The material.
+    pub const MATERIAL: Touch = Touch(64);
+    /// Everything.
+    pub const ALL: Touch = Touch(0xffff_fffe);
+    /// Nothing.
+    pub const NONE: Touch = Touch(0);
+
+    /// Whether any group of `other` is in `self`.
+    pub fn has(self, other: Touch) -> bool {
+        self.0 & other.0 != 0
+    }
+
+    /// Without the groups of `other`.
+    pub fn without(self, other: Touch) -> Touch {
+        Touch(self.0 & !other.0)
+    }
+}
+
+impl core::ops::BitOr for Touch {
+    type Output = Touch;
+    fn bitor(self, other: Touch) -> Touch {
+        Touch(self.0 | other.0)
+    }
+}
+
+/// What the program does between glBegin and glEnd.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Begin {
+    /// Not between them.
+    Outside,
+    /// Between them, and the calls are recorded.
+    Recorded(u32),
+    /// Between them, and the calls go to the driver.
+    Direct,
+}
+
+/// One context as the program sees it. Matrices are column-major; rectangles are x, y, width, height in the program's window
+/// space (origin at the lower left).
+#[derive(Debug)]
+pub struct State {
+    /// Groups that must be read again before use.
+    pub touched: Touch,
+    /// glMatrixMode.
+    pub matrix_mode: u32,
+    /// GL_PROJECTION_MATRIX.
+    pub projection: [f32; 16],
+    /// GL_VIEWPORT (of index 0).
+    pub viewport: [i32; 4],
+    /// GL_SCISSOR_BOX (of index 0).
+    pub scissor: [i32; 4],
+    /// GL_SCISSOR_TEST.
+    pub scissor_test: bool,
+    /// Bound framebuffers, draw and read buffers.
+    pub framebuffers: Framebuffers,
+    /// The drawable behind framebuffer 0.
+    pub window: Window,
+    /// The list that is being compiled, and whether it is executed at its end.
+    pub list: Option<(u32, bool)>,
+    /// Immediate mode.
+    pub begin: Begin,
+    /// GL_RENDER, GL_SELECT or GL_FEEDBACK.
+    pub render_mode: u32,
+    /// Between glBeginTransformFeedback and its end.
+    pub transform_feedback: bool,
+    /// glUseProgram.
+    pub program: u32,
+    /// Errors of the program that were taken out of the driver's queue before calls of ours, oldest first.
+    pub errors: std::collections::VecDeque<u32>,
+    /// Whether the context has the fixed-function pipeline.
+    pub compatibility: bool,
+}
+
+impl State {
+    /// The state of a context that was just made current with framebuffer 0 bound.
+    pub fn new(window: Window, compatibility: bool) -> Self {
+        State {
+            touched: Touch::ALL,
+            matrix_mode: c::MODELVIEW,
+            projection: glam::Mat4::IDENTITY.to_cols_array(),
+            viewport: [0; 4],
+            scissor: [0; 4],
+            scissor_test: false,
+            framebuffers: Framebuffers::new(window.default_buffer, window.default_read),
+            window,
+            list: None,
+            begin: Begin::Outside,
+            render_mode: c::RENDER,
+            transform_feedback: false,
+            program: 0,
+            errors: std::collections::VecDeque::new(),
+            compatibility,
+        }
+    }
+
+    /// Notes that state groups changed. `MATRIX` becomes the group that the matrix mode names.
+    #[inline]
+    pub fn touch(&mut self, groups: Touch) {
+        let mut groups = groups;
+        if groups.has(Touch::MATRIX) {
+            groups = groups.without(Touch::MATRIX)
+                | match self.matrix_mode {
+                    c::PROJECTION => Touch::PROJECTION,
+                    c::MODELVIEW => Touch::NONE,
+                    _ => Touch::FIXED,
+                };
+        }
+        if self.list.is_none() {
+            self.touched = self.touched | groups;
+        }
+    }
+
+    /// Reads again what a plan reads and a command has touched, except the fixed-function state (see `draw`).
+    pub fn refresh(&mut self, gl: &Gl) {
+        let touched = self.touched;
+        if touched.has(Touch::RECTS) {
+            self.viewport = gl.get_integers(c::VIEWPORT);
+            self.scissor = gl.get_integers(c::SCISSOR_BOX);
+            self.scissor_test = gl.is_enabled(c::SCISSOR_TEST);
+        }
+        if touched.has(Touch::PROJECTION) && self.compatibility {
+            self.projection = gl.get_floats(c::PROJECTION_MATRIX);
+        }
+        if touched.has(Touch::MODE) && self.compatibility {
+            self.matrix_mode = gl.get_integer(c::MATRIX_MODE) as u32;
+        }
+        if touched.has(Touch::OBJECTS) {
+            self.program = gl.get_integer(c::CURRENT_PROGRAM) as u32;
+            self.framebuffers.reread(gl);
+        }
+        self.touched =
+            touched.without(Touch::RECTS | Touch::PROJECTION | Touch::MODE | Touch::OBJECTS);
+    }
+
+    /// Whether a draw now lands in framebuffer 0 as picture: not in a list, a selection, a feedback or an own framebuffer.
+    pub fn draws_to_window(&self) -> bool {
+        self.framebuffers.draw == 0
+            && self.list.is_none()
+            && self.render_mode == c::RENDER
+            && !self.transform_feedback
+    }
+}
