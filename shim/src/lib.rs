@@ -1,1 +1,22 @@
-//! x
+//! `libmanyview.so`: the exported symbols, the guard around them and the tables of real functions. Decides nothing; what a hook
+//! does is in `manyview_core::layer`.
+
+#[macro_use]
+mod export;
+mod context;
+mod dl;
+#[rustfmt::skip]
+#[allow(non_snake_case, unreachable_pub, unused_unsafe, clippy::missing_safety_doc, clippy::too_many_arguments, clippy::undocumented_unsafe_blocks, clippy::not_unsafe_ptr_arg_deref, reason = "generated; the names and signatures are the API's own, the contract of each is the API's")]
+mod entry;
+mod geometry;
+mod hooks;
+mod provider;
+mod special;
+mod switch;
+
+/// Address of a function, in a static table.
+#[derive(Clone, Copy)]
+pub(crate) struct Address(*const ());
+
+// SAFETY: the address of a function is the same in every thread.
+unsafe impl Sync for Address {}

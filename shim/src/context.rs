@@ -1,0 +1,347 @@
+//! Which context is current on which thread, and the guard that every hook passes.
+
+use crate::geometry;
+use crate::provider::Provider;
+use crate::switch::{self, Mode, say, turn_off};
+use core::cell::Cell;
+use core::ffi::c_ulong;
+use core::panic::AssertUnwindSafe;
+use manyview_core::gl::{Gl, Ptr, Real};
+use manyview_core::layer::{Frames, Layer};
+use std::sync::{Mutex, PoisonError};
+
+/// What a context draws to.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Drawable {
+    /// Display and GLX drawable.
+    Glx(Ptr, c_ulong),
+    /// Display and surface.
+    Egl(Ptr, Ptr),
+    /// The program's memory: width and height.
+    Memory(u32, u32),
+}
+
+/// One context of the program, from its first MakeCurrent to its destruction.
+pub(crate) struct Context {
+    provider: Provider,
+    handle: Ptr,
+    drawable: Drawable,
+    layer: Option<Layer>,
+    /// With one view: only frames are counted and captured.
+    frames: Option<Frames>,
+    destroyed: bool,
+}
+
+struct Registry(Vec<*mut Context>);
+
+// SAFETY: the pointers are to boxes that only the thread with that context current dereferences (a context is current in one
+// thread at a time); the list itself is behind a mutex.
+unsafe impl Send for Registry {}
+
+static CONTEXTS: Mutex<Registry> = Mutex::new(Registry(Vec::new()));
+
+/// Per thread. No destructor: threads may call GL while they are torn down.
+struct Thread {
+    context: Cell<*mut Context>,
+    provider: Cell<Option<Provider>>,
+    depth: Cell<u32>,
+    recording: Cell<bool>,
+}
+
+thread_local! {
+    static THREAD: Thread = const {
+        Thread { context: Cell::new(core::ptr::null_mut()), provider: Cell::new(None), depth: Cell::new(0), recording: Cell::new(false) }
+    };
+}
+
+/// The real functions for this thread: of whoever made its context current.
+pub(crate) fn real() -> &'static Real {
+    let provider = THREAD.with(|t| t.provider.get()).unwrap_or_else(|| {
+        if Provider::Gl.loaded() {
+            Provider::Gl
+        } else {
+            Provider::OsMesa
+        }
+    });
+    provider.real()
+}
+
+/// Whether the calls of this thread are recorded (between glBegin and glEnd).
+#[inline]
+pub(crate) fn recording() -> bool {
+    THREAD.with(|t| t.recording.get())
+}
+
+/// Starts or ends recording on this thread.
+pub(crate) fn set_recording(on: bool) {
+    THREAD.with(|t| t.recording.set(on));
+}
+
+/// Runs with hooks passed through: around real functions that may call exported names, and around our own work.
+pub(crate) fn guarded<R>(f: impl FnOnce() -> R) -> R {
+    THREAD.with(|t| t.depth.set(t.depth.get() + 1));
+    let r = f();
+    THREAD.with(|t| t.depth.set(t.depth.get().saturating_sub(1)));
+    r
+}
+
+/// The layer of the current context, without a guard: for work that can neither panic nor call GL.
+#[inline]
+pub(crate) fn peek<R>(f: impl FnOnce(&mut Layer) -> R) -> Option<R> {
+    THREAD.with(|t| {
+        let context = t.context.get();
+        if context.is_null() || t.depth.get() > 0 {
+            return None;
+        }
+        // SAFETY: the context is current on this thread and no other, so nobody else has a reference; depth 0 says that no frame
+        // below us has one either.
+        unsafe { (*context).layer.as_mut() }.map(f)
+    })
+}
+
+/// The guard of every hook that does something: the current context's layer and driver, unless there is none, the call comes from
+/// inside the layer or the driver, or the layer is off. A panic turns the layer off for good.
+pub(crate) fn enter<R>(f: impl FnOnce(&Gl, &mut Layer) -> R) -> Option<R> {
+    with_context(|gl, context| context.layer.as_mut().map(|l| f(gl, l))).flatten()
+}
+
+fn with_context<R>(f: impl FnOnce(&Gl, &mut Context) -> R) -> Option<R> {
+    let (context, depth) = THREAD.with(|t| (t.context.get(), t.depth.get()));
+    if context.is_null() || depth > 0 || switch::off() {
+        return None;
+    }
+    // SAFETY: as in `peek`.
+    let context = unsafe { &mut *context };
+    // SAFETY: the context is current on this thread while the hook runs.
+    let gl = unsafe { Gl::new(context.provider.real()) };
+    let r = guarded(|| std::panic::catch_unwind(AssertUnwindSafe(|| f(&gl, context))));
+    match r {
+        Ok(r) => Some(r),
+        Err(_) => {
+            set_recording(false);
+            turn_off("internal fault");
+            let _ = std::panic::catch_unwind(AssertUnwindSafe(|| {
+                if let Some(l) = &mut context.layer {
+                    guarded(|| l.abandon(&gl));
+                }
+            }));
+            THREAD.with(|t| t.context.set(core::ptr::null_mut()));
+            None
+        }
+    }
+}
+
+/// The context that was current on this thread with a drawable; used to tell whether MakeCurrent changes anything.
+pub(crate) fn is_current(provider: Provider, handle: Ptr, drawable: Drawable) -> bool {
+    let context = THREAD.with(|t| t.context.get());
+    if context.is_null() {
+        return false;
+    }
+    // SAFETY: as in `peek`; only compared.
+    let c = unsafe { &*context };
+    c.provider == provider && c.handle == handle && c.drawable == drawable && !c.destroyed
+}
+
+/// Whether the current context draws to this drawable.
+pub(crate) fn draws_to(drawable: Drawable) -> bool {
+    let context = THREAD.with(|t| t.context.get());
+    // SAFETY: as in `peek`; only compared.
+    !context.is_null() && unsafe { (*context).drawable == drawable }
+}
+
+fn size(drawable: Drawable) -> Option<(u32, u32)> {
+    match drawable {
+        // SAFETY: the program has just made this drawable current on this thread.
+        Drawable::Glx(display, drawable) => unsafe { geometry::glx_size(display, drawable) },
+        Drawable::Egl(display, surface) => {
+            let ask = |name: i32| {
+                let mut v = 0i32;
+                // SAFETY: the program's display and surface; one integer.
+                let ok = unsafe {
+                    Provider::Gl
+                        .real()
+                        .eglQuerySurface(display, surface, name, (&raw mut v).cast())
+                };
+                (ok != 0 && v > 0).then_some(v as u32)
+            };
+            const EGL_WIDTH: i32 = 0x3057;
+            const EGL_HEIGHT: i32 = 0x3056;
+            Some((ask(EGL_WIDTH)?, ask(EGL_HEIGHT)?))
+        }
+        Drawable::Memory(w, h) => Some((w, h)),
+    }
+}
+
+/// After a successful MakeCurrent of the program: takes the context over, or takes up again what it had. A null handle or no
+/// drawable means that the thread has nothing to draw to.
+pub(crate) fn made_current(provider: Provider, handle: Ptr, drawable: Option<Drawable>) {
+    set_recording(false);
+    release();
+    THREAD.with(|t| t.provider.set((!handle.is_null()).then_some(provider)));
+    let (Some(drawable), false, false) = (drawable, handle.is_null(), switch::off()) else {
+        return;
+    };
+    let context = find(provider, handle, drawable);
+    // SAFETY: the context has just become current on this thread and so on no other.
+    let c = unsafe { &mut *context };
+    let Some((width, height)) = guarded(|| size(drawable)) else {
+        return;
+    };
+    let moved = c.drawable != drawable;
+    c.drawable = drawable;
+    THREAD.with(|t| t.context.set(context));
+    let fresh = c.layer.is_none() && c.frames.is_none();
+    let outcome = with_context(|gl, c| match (&mut c.layer, &mut c.frames) {
+        (None, None) if fresh => attach(gl, c, width, height),
+        (Some(l), _) if moved || l.size() != (width, height) => {
+            l.resize(gl, width, height).map_err(|e| e.to_string())
+        }
+        (_, Some(f)) => {
+            f.resize(width, height);
+            Ok(())
+        }
+        _ => Ok(()),
+    });
+    if let Some(Err(e)) = outcome {
+        say(&format!("{e}; this context is shown as it is"));
+        with_context(|gl, c| {
+            if let Some(l) = &mut c.layer {
+                l.abandon(gl);
+            }
+            c.layer = None;
+        });
+        THREAD.with(|t| t.context.set(core::ptr::null_mut()));
+    }
+}
+
+fn attach(gl: &Gl, c: &mut Context, width: u32, height: u32) -> Result<(), String> {
+    match (switch::mode(), switch::config()) {
+        (Mode::Active, Some(config)) => {
+            c.layer = Some(Layer::new(gl, config, width, height).map_err(|e| e.to_string())?)
+        }
+        (Mode::Observe, Some(config)) => c.frames = Some(Frames::new(config, width, height)),
+        _ => {}
+    }
+    Ok(())
+}
+
+fn find(provider: Provider, handle: Ptr, drawable: Drawable) -> *mut Context {
+    let mut registry = CONTEXTS.lock().unwrap_or_else(PoisonError::into_inner);
+    let known = registry.0.iter().copied().find(|&c| {
+        // SAFETY: boxes in the list live until `release` or `destroyed` takes them out under this lock; these fields do not change
+        // while another thread has the context current.
+        let c = unsafe { &*c };
+        c.provider == provider && c.handle == handle && !c.destroyed
+    });
+    known.unwrap_or_else(|| {
+        let c = Box::into_raw(Box::new(Context {
+            provider,
+            handle,
+            drawable,
+            layer: None,
+            frames: None,
+            destroyed: false,
+        }));
+        registry.0.push(c);
+        c
+    })
+}
+
+/// This thread has no context of ours any more; frees the record of one that was destroyed while it was current. Its GL objects
+/// go with the context.
+fn release() {
+    let context = THREAD.with(|t| t.context.replace(core::ptr::null_mut()));
+    // SAFETY: it was this thread's current context until now.
+    if !context.is_null() && unsafe { (*context).destroyed } {
+        forget(context);
+    }
+}
+
+fn forget(context: *mut Context) {
+    let mut registry = CONTEXTS.lock().unwrap_or_else(PoisonError::into_inner);
+    registry.0.retain(|&c| c != context);
+    // SAFETY: made by Box::into_raw in `find`, out of the list now, current nowhere.
+    drop(unsafe { Box::from_raw(context) });
+}
+
+/// The program destroys a context. GL calls it only when it is current nowhere; until then the handle stays valid.
+pub(crate) fn destroyed(provider: Provider, handle: Ptr) {
+    let current = THREAD.with(|t| t.context.get());
+    let found = {
+        let registry = CONTEXTS.lock().unwrap_or_else(PoisonError::into_inner);
+        // SAFETY: as in `find`.
+        registry.0.iter().copied().find(|&c| unsafe {
+            (*c).provider == provider && (*c).handle == handle && !(*c).destroyed
+        })
+    };
+    let Some(context) = found else { return };
+    if context == current {
+        // SAFETY: current on this thread.
+        unsafe { (*context).destroyed = true };
+    } else {
+        // A context that is current in another thread lives on there; its record is left to it (a few kilobytes).
+        // SAFETY: only the flag that `find` reads under the lock is written.
+        unsafe { (*context).destroyed = true };
+    }
+}
+
+/// End of a frame on a drawable: shows it. `swap` is the program's own call.
+pub(crate) fn frame<R>(drawable: Option<Drawable>, swap: impl FnOnce() -> R) -> R {
+    let ours = drawable.is_none_or(draws_to);
+    if ours {
+        with_context(|gl, c| {
+            if let Some(l) = &mut c.layer {
+                l.show(gl);
+            }
+            if let Some(f) = &mut c.frames {
+                f.show(gl);
+            }
+        });
+    }
+    let r = guarded(swap);
+    if ours {
+        with_context(|_, c| {
+            if let Some(l) = &mut c.layer {
+                l.count_frame();
+            }
+            if let Some(f) = &mut c.frames {
+                f.count_frame();
+            }
+        });
+        check_size();
+    }
+    r
+}
+
+/// Follows the window's size: at the swap and when the program sets its viewport, which are safe moments on the GL thread.
+pub(crate) fn check_size() {
+    let failed = with_context(|gl, c| {
+        let (w, h) = size(c.drawable)?;
+        if let Some(f) = &mut c.frames {
+            f.resize(w, h);
+        }
+        let l = c.layer.as_mut()?;
+        if l.state.begin != manyview_core::state::Begin::Outside || l.state.list.is_some() {
+            return None;
+        }
+        l.resize(gl, w, h).err().map(|e| e.to_string())
+    });
+    if let Some(Some(e)) = failed {
+        turn_off(&e);
+    }
+}
+
+/// Whether the current context draws to the program's memory (OSMesa).
+pub(crate) fn draws_to_memory() -> bool {
+    let context = THREAD.with(|t| t.context.get());
+    // SAFETY: as in `peek`; only compared.
+    !context.is_null() && unsafe { matches!((*context).drawable, Drawable::Memory(..)) }
+}
+
+/// The program leaves an OSMesa context: what it has drawn since its last glFinish is a frame.
+pub(crate) fn finish_memory_frame() {
+    if draws_to_memory() && enter(|_, l| l.drawn()) == Some(true) {
+        // SAFETY: the context is still current.
+        frame(None, || unsafe { Provider::OsMesa.real().glFinish() });
+    }
+}

@@ -1,0 +1,110 @@
+//! dlsym, for programs that load GL at run time (SDL, GLFW, Qt). dlopen is left alone: a wrapper around it changes where the
+//! dynamic linker looks (VirtualGL issue 266).
+
+use crate::entry::EXPORTS;
+use crate::provider::{self, Provider};
+use crate::switch;
+use core::ffi::{CStr, c_char, c_void};
+use manyview_core::gl::Ptr;
+
+/// Our exported function of a name, with its slot.
+pub(crate) fn export(name: &[u8]) -> Option<(usize, Ptr)> {
+    let i = EXPORTS.binary_search_by(|e| e.0.cmp(name)).ok()?;
+    let (_, slot, address) = EXPORTS[i];
+    Some((slot, address.0.cast_mut().cast()))
+}
+
+/// Which function is to answer a dlsym call: the one behind ours, or [`answer`]. No allocation, no lock, no thread-local: this
+/// runs at any time in any thread, for every name.
+unsafe extern "C" fn choose(handle: *mut c_void, name: *const c_char) -> *const c_void {
+    let next = provider::next_dlsym().map_or(core::ptr::null(), |f| f as *const c_void);
+    if name.is_null() || handle == libc::RTLD_NEXT || next.is_null() {
+        return next;
+    }
+    // SAFETY: dlsym's contract: a string that ends in NUL.
+    let name = unsafe { CStr::from_ptr(name) }.to_bytes();
+    let ours = matches!(
+        name,
+        [b'g', b'l', ..] | [b'e', b'g', b'l', ..] | [b'O', b'S', b'M', ..]
+    );
+    if ours && export(name).is_some() {
+        answer as *const c_void
+    } else {
+        next
+    }
+}
+
+/// dlsym for a name that we export.
+unsafe extern "C" fn answer(handle: *mut c_void, name: *const c_char) -> *mut c_void {
+    // SAFETY: `choose` has looked at the name.
+    let name = unsafe { CStr::from_ptr(name) };
+    let real = provider::symbol(handle, name);
+    let Some((slot, ours)) = export(name.to_bytes()) else {
+        return real;
+    };
+    if real.is_null() {
+        return real;
+    }
+    if provider::own(real) {
+        // Found because we are preloaded: the program must not think that it has GL when it has none.
+        let any = Provider::Gl.loaded() || Provider::OsMesa.loaded();
+        return if any { ours } else { core::ptr::null_mut() };
+    }
+    if provider::provider_of(real).is_some() && switch::hooked(slot) {
+        ours
+    } else {
+        real
+    }
+}
+
+/// The exported dlsym. It jumps on with the program's return address in place, because glibc looks up RTLD_NEXT,
+/// RTLD_DEFAULT and $ORIGIN by the address of the caller.
+#[cfg(target_arch = "x86_64")]
+#[unsafe(naked)]
+#[unsafe(no_mangle)]
+unsafe extern "C" fn dlsym(handle: *mut c_void, name: *const c_char) -> *mut c_void {
+    core::arch::naked_asm!(
+        "push rdi",
+        "push rsi",
+        "sub rsp, 8",
+        "call {choose}",
+        "add rsp, 8",
+        "pop rsi",
+        "pop rdi",
+        "jmp rax",
+        choose = sym choose,
+    )
+}
+
+/// The exported dlsym where no tail jump is written yet: RTLD_NEXT is then ours to answer.
+#[cfg(not(target_arch = "x86_64"))]
+#[unsafe(no_mangle)]
+unsafe extern "C" fn dlsym(handle: *mut c_void, name: *const c_char) -> *mut c_void {
+    // SAFETY: the program's own arguments.
+    let f = unsafe { choose(handle, name) };
+    if f.is_null() {
+        return core::ptr::null_mut();
+    }
+    // SAFETY: `choose` gives functions of this signature.
+    unsafe {
+        core::mem::transmute::<
+            *const c_void,
+            unsafe extern "C" fn(*mut c_void, *const c_char) -> *mut c_void,
+        >(f)(handle, name)
+    }
+}
+
+/// What a GetProcAddress function hands out for a name, given what the driver handed out.
+///
+/// # Safety
+/// `name` is null or a string that ends in NUL.
+pub(crate) unsafe fn proc_address(name: *const c_char, real: Ptr) -> Ptr {
+    if name.is_null() || real.is_null() {
+        return real;
+    }
+    // SAFETY: the caller's string.
+    match export(unsafe { CStr::from_ptr(name) }.to_bytes()) {
+        Some((slot, ours)) if switch::hooked(slot) => ours,
+        _ => real,
+    }
+}

@@ -1,0 +1,21 @@
+//! The shape of every exported function.
+
+/// One exported command: the symbol jumps through its slot of `ENTRY`; the slot starts at `first`, which puts the driver's function or
+/// `hook` there. An inactive process pays one jump. No address of an exported name is taken for our own calls: a program may
+/// define a variable of that name.
+macro_rules! export {
+    ($slot:literal, $name:ident, $first:ident, $hook:ident, ($($a:ident: $t:ty),*) -> $r:ty, $body:block) => {
+        #[unsafe(no_mangle)]
+        pub unsafe extern "C" fn $name($($a: $t),*) -> $r {
+            // SAFETY: the slot always holds a function of this signature (`first`, `hook` or the driver's).
+            // SAFETY: the program answers for its arguments.
+            unsafe { core::mem::transmute::<*mut (), unsafe extern "C" fn($($t),*) -> $r>(ENTRY[$slot].load(Relaxed))($($a),*) }
+        }
+        unsafe extern "C" fn $first($($a: $t),*) -> $r {
+            switch::resolve($slot);
+            // SAFETY: as above; the slot now holds something else than `first`.
+            unsafe { core::mem::transmute::<*mut (), unsafe extern "C" fn($($t),*) -> $r>(ENTRY[$slot].load(Relaxed))($($a),*) }
+        }
+        unsafe extern "C" fn $hook($($a: $t),*) -> $r $body
+    };
+}

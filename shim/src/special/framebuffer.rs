@@ -1,0 +1,336 @@
+//! Framebuffer objects and the program's framebuffer 0.
+
+use crate::context::{enter, real};
+use core::slice::from_raw_parts;
+use manyview_core::gl::{Gl, Ptr, consts as c};
+use manyview_core::layer::Layer;
+use manyview_core::plan::Kind;
+
+pub(crate) unsafe fn glBindFramebuffer(target: u32, framebuffer: u32) {
+    // SAFETY: a name that the program or the layer made.
+    let mut bind = |t, n| unsafe { real().glBindFramebuffer(t, n) };
+    if enter(|_, l| l.bind_framebuffer(target, framebuffer, &mut bind)).is_none() {
+        bind(target, framebuffer);
+    }
+}
+
+pub(crate) unsafe fn glBindFramebufferEXT(target: u32, framebuffer: u32) {
+    // SAFETY: a name that the program or the layer made.
+    let mut bind = |t, n| unsafe { real().glBindFramebufferEXT(t, n) };
+    if enter(|_, l| l.bind_framebuffer(target, framebuffer, &mut bind)).is_none() {
+        bind(target, framebuffer);
+    }
+}
+
+pub(crate) unsafe fn glDeleteFramebuffers(n: i32, framebuffers: Ptr) {
+    let names = match usize::try_from(n) {
+        Ok(n) if !framebuffers.is_null() => {
+            // SAFETY: n names (the program's array), copied before the driver runs.
+            unsafe { from_raw_parts(framebuffers as *const u32, n) }.to_vec()
+        }
+        _ => Vec::new(),
+    };
+    // SAFETY: the program's own call.
+    unsafe { real().glDeleteFramebuffers(n, framebuffers) };
+    enter(|gl, l| l.deleted_framebuffers(gl, &names));
+}
+
+/// A choice of buffers: ours for framebuffer 0, else the driver's. In a display list the translated name is compiled.
+fn choose(
+    zero: impl Fn(&Layer) -> bool,
+    ours: impl FnOnce(&Gl, &mut Layer) -> Option<()>,
+    target: u32,
+    call: &mut dyn FnMut(),
+) {
+    let done = enter(|gl, l| {
+        if zero(l) {
+            if ours(gl, l).is_none() {
+                l.with_true_zero(gl, target, call);
+            }
+        } else {
+            call();
+        }
+    });
+    if done.is_none() {
+        call();
+    }
+}
+
+pub(crate) unsafe fn glDrawBuffer(buf: u32) {
+    let list = enter(|_, l| {
+        if l.state.list.is_some() {
+            l.state.framebuffers.translate(buf)
+        } else {
+            None
+        }
+    })
+    .flatten();
+    if let Some(translated) = list {
+        // SAFETY: compiled into the program's list.
+        return unsafe { real().glDrawBuffer(translated) };
+    }
+    // SAFETY: the program's own call.
+    choose(
+        Layer::draws_to_zero,
+        |gl, l| l.draw_buffers(gl, &[buf]),
+        c::DRAW_FRAMEBUFFER,
+        &mut || unsafe { real().glDrawBuffer(buf) },
+    );
+}
+
+/// # Safety
+/// `bufs` points to `n` names.
+unsafe fn buffers(n: i32, bufs: Ptr) -> Option<Vec<u32>> {
+    let n = usize::try_from(n)
+        .ok()
+        .filter(|&n| n > 0 && n <= 16 && !bufs.is_null())?;
+    // SAFETY: n names (caller).
+    Some(unsafe { from_raw_parts(bufs as *const u32, n) }.to_vec())
+}
+
+pub(crate) unsafe fn glDrawBuffers(n: i32, bufs: Ptr) {
+    // SAFETY: the program's array.
+    let names = unsafe { buffers(n, bufs) };
+    // SAFETY: the program's own call.
+    choose(
+        Layer::draws_to_zero,
+        |gl, l| l.draw_buffers(gl, names.as_deref()?),
+        c::DRAW_FRAMEBUFFER,
+        &mut || unsafe { real().glDrawBuffers(n, bufs) },
+    );
+}
+
+pub(crate) unsafe fn glReadBuffer(src: u32) {
+    // SAFETY: the program's own call.
+    choose(
+        Layer::reads_from_zero,
+        |gl, l| l.read_buffer(gl, src),
+        c::READ_FRAMEBUFFER,
+        &mut || unsafe { real().glReadBuffer(src) },
+    );
+}
+
+pub(crate) unsafe fn glNamedFramebufferDrawBuffer(framebuffer: u32, buf: u32) {
+    // SAFETY: the program's own call.
+    choose(
+        |_| framebuffer == 0,
+        |gl, l| l.draw_buffers(gl, &[buf]),
+        0,
+        &mut || unsafe { real().glNamedFramebufferDrawBuffer(framebuffer, buf) },
+    );
+}
+
+pub(crate) unsafe fn glFramebufferDrawBufferEXT(framebuffer: u32, mode: u32) {
+    // SAFETY: the program's own call.
+    choose(
+        |_| framebuffer == 0,
+        |gl, l| l.draw_buffers(gl, &[mode]),
+        0,
+        &mut || unsafe { real().glFramebufferDrawBufferEXT(framebuffer, mode) },
+    );
+}
+
+pub(crate) unsafe fn glNamedFramebufferDrawBuffers(framebuffer: u32, n: i32, bufs: Ptr) {
+    // SAFETY: the program's array.
+    let names = unsafe { buffers(n, bufs) };
+    // SAFETY: the program's own call.
+    choose(
+        |_| framebuffer == 0,
+        |gl, l| l.draw_buffers(gl, names.as_deref()?),
+        0,
+        &mut || unsafe { real().glNamedFramebufferDrawBuffers(framebuffer, n, bufs) },
+    );
+}
+
+pub(crate) unsafe fn glFramebufferDrawBuffersEXT(framebuffer: u32, n: i32, bufs: Ptr) {
+    // SAFETY: the program's array.
+    let names = unsafe { buffers(n, bufs) };
+    // SAFETY: the program's own call.
+    choose(
+        |_| framebuffer == 0,
+        |gl, l| l.draw_buffers(gl, names.as_deref()?),
+        0,
+        &mut || unsafe { real().glFramebufferDrawBuffersEXT(framebuffer, n, bufs) },
+    );
+}
+
+pub(crate) unsafe fn glNamedFramebufferReadBuffer(framebuffer: u32, src: u32) {
+    // SAFETY: the program's own call.
+    choose(
+        |_| framebuffer == 0,
+        |gl, l| l.read_buffer(gl, src),
+        0,
+        &mut || unsafe { real().glNamedFramebufferReadBuffer(framebuffer, src) },
+    );
+}
+
+pub(crate) unsafe fn glFramebufferReadBufferEXT(framebuffer: u32, mode: u32) {
+    // SAFETY: the program's own call.
+    choose(
+        |_| framebuffer == 0,
+        |gl, l| l.read_buffer(gl, mode),
+        0,
+        &mut || unsafe { real().glFramebufferReadBufferEXT(framebuffer, mode) },
+    );
+}
+
+pub(crate) unsafe fn glBlitFramebuffer(
+    srcX0: i32,
+    srcY0: i32,
+    srcX1: i32,
+    srcY1: i32,
+    dstX0: i32,
+    dstY0: i32,
+    dstX1: i32,
+    dstY1: i32,
+    mask: u32,
+    filter: u32,
+) {
+    // SAFETY: the program's own call, moved by a tile's offset.
+    let mut blit = |s: i32, d: i32| unsafe {
+        real().glBlitFramebuffer(
+            srcX0 + s,
+            srcY0,
+            srcX1 + s,
+            srcY1,
+            dstX0 + d,
+            dstY0,
+            dstX1 + d,
+            dstY1,
+            mask,
+            filter,
+        )
+    };
+    if enter(|gl, l| l.blit(gl, &mut blit)).is_none() {
+        blit(0, 0);
+    }
+}
+
+pub(crate) unsafe fn glBlitNamedFramebuffer(
+    readFramebuffer: u32,
+    drawFramebuffer: u32,
+    srcX0: i32,
+    srcY0: i32,
+    srcX1: i32,
+    srcY1: i32,
+    dstX0: i32,
+    dstY0: i32,
+    dstX1: i32,
+    dstY1: i32,
+    mask: u32,
+    filter: u32,
+) {
+    // SAFETY: the program's own call, moved by a tile's offset, with its framebuffers bound.
+    let mut blit = |s: i32, d: i32| unsafe {
+        real().glBlitFramebuffer(
+            srcX0 + s,
+            srcY0,
+            srcX1 + s,
+            srcY1,
+            dstX0 + d,
+            dstY0,
+            dstX1 + d,
+            dstY1,
+            mask,
+            filter,
+        )
+    };
+    let done = readFramebuffer == 0 || drawFramebuffer == 0;
+    let done = done
+        .then(|| {
+            enter(|gl, l| {
+                l.with_bound(gl, drawFramebuffer, Some(readFramebuffer), |l| {
+                    l.blit(gl, &mut blit)
+                })
+            })
+        })
+        .flatten();
+    if done.is_none() {
+        // SAFETY: the program's own call.
+        unsafe {
+            real().glBlitNamedFramebuffer(
+                readFramebuffer,
+                drawFramebuffer,
+                srcX0,
+                srcY0,
+                srcX1,
+                srcY1,
+                dstX0,
+                dstY0,
+                dstX1,
+                dstY1,
+                mask,
+                filter,
+            )
+        };
+    }
+}
+
+/// A clear of framebuffer 0 by name: as if it were bound. Answers whether it was done.
+fn clear_zero(framebuffer: u32, call: &mut dyn FnMut()) -> bool {
+    framebuffer == 0
+        && enter(|gl, l| l.with_bound(gl, 0, None, |l| l.draw(gl, Kind::Clear, call))).is_some()
+}
+
+pub(crate) unsafe fn glClearNamedFramebufferfv(
+    framebuffer: u32,
+    buffer: u32,
+    drawbuffer: i32,
+    value: Ptr,
+) {
+    // SAFETY: the program's own arguments.
+    if !clear_zero(framebuffer, &mut || unsafe {
+        real().glClearBufferfv(buffer, drawbuffer, value)
+    }) {
+        // SAFETY: the program's own call.
+        unsafe { real().glClearNamedFramebufferfv(framebuffer, buffer, drawbuffer, value) };
+    }
+}
+
+pub(crate) unsafe fn glClearNamedFramebufferiv(
+    framebuffer: u32,
+    buffer: u32,
+    drawbuffer: i32,
+    value: Ptr,
+) {
+    // SAFETY: the program's own arguments.
+    if !clear_zero(framebuffer, &mut || unsafe {
+        real().glClearBufferiv(buffer, drawbuffer, value)
+    }) {
+        // SAFETY: the program's own call.
+        unsafe { real().glClearNamedFramebufferiv(framebuffer, buffer, drawbuffer, value) };
+    }
+}
+
+pub(crate) unsafe fn glClearNamedFramebufferuiv(
+    framebuffer: u32,
+    buffer: u32,
+    drawbuffer: i32,
+    value: Ptr,
+) {
+    // SAFETY: the program's own arguments.
+    if !clear_zero(framebuffer, &mut || unsafe {
+        real().glClearBufferuiv(buffer, drawbuffer, value)
+    }) {
+        // SAFETY: the program's own call.
+        unsafe { real().glClearNamedFramebufferuiv(framebuffer, buffer, drawbuffer, value) };
+    }
+}
+
+pub(crate) unsafe fn glClearNamedFramebufferfi(
+    framebuffer: u32,
+    buffer: u32,
+    drawbuffer: i32,
+    depth: f32,
+    stencil: i32,
+) {
+    // SAFETY: the program's own arguments.
+    if !clear_zero(framebuffer, &mut || unsafe {
+        real().glClearBufferfi(buffer, drawbuffer, depth, stencil)
+    }) {
+        // SAFETY: the program's own call.
+        unsafe {
+            real().glClearNamedFramebufferfi(framebuffer, buffer, drawbuffer, depth, stencil)
+        };
+    }
+}

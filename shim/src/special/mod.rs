@@ -1,0 +1,17 @@
+//! Hooks written by hand, each under its command's own name.
+#![allow(
+    non_snake_case,
+    clippy::missing_safety_doc,
+    clippy::too_many_arguments,
+    reason = "the API's names; the contract of each is the API's"
+)]
+
+mod drawing;
+mod framebuffer;
+mod state;
+mod window;
+
+pub(crate) use drawing::*;
+pub(crate) use framebuffer::*;
+pub(crate) use state::*;
+pub(crate) use window::*;

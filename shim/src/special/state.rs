@@ -1,0 +1,161 @@
+//! State that the layer follows call by call, and what the program asks about.
+
+use crate::context::{check_size, draws_to_memory, enter, frame, peek, real};
+use core::sync::atomic::{AtomicI64, Ordering::Relaxed};
+use manyview_core::gl::Ptr;
+use manyview_core::state::Touch;
+
+pub(crate) unsafe fn glMatrixMode(mode: u32) {
+    // SAFETY: the program's own call.
+    unsafe { real().glMatrixMode(mode) };
+    peek(|l| {
+        // GL_MODELVIEW, GL_PROJECTION, GL_TEXTURE are the ones that the driver surely takes.
+        if (0x1700..=0x1702).contains(&mode) && l.state.list.is_none() {
+            l.state.matrix_mode = mode;
+        } else {
+            l.touch(Touch::MODE | Touch::DSA_MATRIX);
+        }
+    });
+}
+
+/// Last viewport size seen, so that the window's size is asked for only when the program may have noticed a change.
+static SEEN: AtomicI64 = AtomicI64::new(-1);
+
+pub(crate) unsafe fn glViewport(x: i32, y: i32, width: i32, height: i32) {
+    let key = i64::from(width) << 32 | i64::from(height as u32);
+    if SEEN.swap(key, Relaxed) != key {
+        check_size();
+    }
+    // SAFETY: the program's own call.
+    unsafe { real().glViewport(x, y, width, height) };
+    peek(|l| l.touch(Touch::RECTS));
+}
+
+pub(crate) unsafe fn glBindTexture(target: u32, texture: u32) {
+    if peek(|l| l.owns_texture(texture)) == Some(true) {
+        enter(|gl, l| l.yield_names(gl));
+    }
+    // SAFETY: the program's own call.
+    unsafe { real().glBindTexture(target, texture) };
+}
+
+pub(crate) unsafe fn glDeleteTextures(n: i32, textures: Ptr) {
+    let names = match usize::try_from(n) {
+        // SAFETY: n names (the program's array).
+        Ok(n) if !textures.is_null() => unsafe {
+            core::slice::from_raw_parts(textures as *const u32, n)
+        },
+        _ => &[],
+    };
+    if names
+        .iter()
+        .any(|&name| peek(|l| l.owns_texture(name)) == Some(true))
+    {
+        enter(|gl, l| l.yield_names(gl));
+    }
+    // SAFETY: the program's own call.
+    unsafe { real().glDeleteTextures(n, textures) };
+}
+
+pub(crate) unsafe fn glRenderMode(mode: u32) -> i32 {
+    // SAFETY: the program's own call.
+    let hits = unsafe { real().glRenderMode(mode) };
+    peek(|l| {
+        if (0x1C00..=0x1C02).contains(&mode) {
+            l.state.render_mode = mode;
+        }
+    });
+    hits
+}
+
+pub(crate) unsafe fn glBeginTransformFeedback(mode: u32) {
+    // SAFETY: the program's own call.
+    unsafe { real().glBeginTransformFeedback(mode) };
+    peek(|l| l.state.transform_feedback = true);
+}
+
+pub(crate) unsafe fn glEndTransformFeedback() {
+    // SAFETY: the program's own call.
+    unsafe { real().glEndTransformFeedback() };
+    peek(|l| l.state.transform_feedback = false);
+}
+
+/// What is special about framebuffer 0 in an answer of glGet.
+fn answer(name: u32) -> Option<i64> {
+    peek(|l| l.answer(name)).flatten()
+}
+
+pub(crate) unsafe fn glGetIntegerv(pname: u32, data: Ptr) {
+    match answer(pname) {
+        // SAFETY: the program's pointer to one value.
+        Some(v) if !data.is_null() => unsafe { *data.cast::<i32>() = v as i32 },
+        // SAFETY: the program's own call.
+        _ => unsafe { real().glGetIntegerv(pname, data) },
+    }
+}
+
+pub(crate) unsafe fn glGetBooleanv(pname: u32, data: Ptr) {
+    match answer(pname) {
+        // SAFETY: the program's pointer to one value.
+        Some(v) if !data.is_null() => unsafe { *data.cast::<u8>() = u8::from(v != 0) },
+        // SAFETY: the program's own call.
+        _ => unsafe { real().glGetBooleanv(pname, data) },
+    }
+}
+
+pub(crate) unsafe fn glGetFloatv(pname: u32, data: Ptr) {
+    match answer(pname) {
+        // SAFETY: the program's pointer to one value.
+        Some(v) if !data.is_null() => unsafe { *data.cast::<f32>() = v as f32 },
+        // SAFETY: the program's own call.
+        _ => unsafe { real().glGetFloatv(pname, data) },
+    }
+}
+
+pub(crate) unsafe fn glGetDoublev(pname: u32, data: Ptr) {
+    match answer(pname) {
+        // SAFETY: the program's pointer to one value.
+        Some(v) if !data.is_null() => unsafe { *data.cast::<f64>() = v as f64 },
+        // SAFETY: the program's own call.
+        _ => unsafe { real().glGetDoublev(pname, data) },
+    }
+}
+
+pub(crate) unsafe fn glGetInteger64v(pname: u32, data: Ptr) {
+    match answer(pname) {
+        // SAFETY: the program's pointer to one value.
+        Some(v) if !data.is_null() => unsafe { *data.cast::<i64>() = v },
+        // SAFETY: the program's own call.
+        _ => unsafe { real().glGetInteger64v(pname, data) },
+    }
+}
+
+pub(crate) unsafe fn glGetError() -> u32 {
+    if let Some(Some(e)) = peek(|l| l.state.errors.pop_front()) {
+        return e;
+    }
+    // SAFETY: the program's own call.
+    unsafe { real().glGetError() }
+}
+
+pub(crate) unsafe fn glFlush() {
+    // SAFETY: the program's own call.
+    let flush = || unsafe { real().glFlush() };
+    if !draws_to_memory() && enter(|_, l| l.shows_on_flush()) == Some(true) {
+        frame(None, flush)
+    } else {
+        flush()
+    }
+}
+
+pub(crate) unsafe fn glFinish() {
+    // SAFETY: the program's own call.
+    let finish = || unsafe { real().glFinish() };
+    let memory = draws_to_memory();
+    // Without windows glFinish is where OSMesa has its picture in the program's memory: the end of a frame.
+    if memory || enter(|_, l| l.shows_on_flush()) == Some(true) {
+        frame(None, finish)
+    } else {
+        finish()
+    }
+}

@@ -1,0 +1,196 @@
+//! GLX, EGL and OSMesa: contexts, swaps, addresses.
+
+use crate::context::{
+    Drawable, destroyed, finish_memory_frame, frame, guarded, is_current, made_current,
+};
+use crate::dl::proc_address;
+use crate::provider::Provider;
+use core::ffi::c_ulong;
+use manyview_core::gl::{Ptr, Real};
+
+fn gl() -> &'static Real {
+    Provider::Gl.real()
+}
+
+fn osmesa() -> &'static Real {
+    Provider::OsMesa.real()
+}
+
+pub(crate) unsafe fn glXSwapBuffers(dpy: Ptr, drawable: c_ulong) {
+    // SAFETY: the program's own call.
+    frame(Some(Drawable::Glx(dpy, drawable)), || unsafe {
+        gl().glXSwapBuffers(dpy, drawable)
+    });
+}
+
+pub(crate) unsafe fn glXSwapBuffersMscOML(
+    dpy: Ptr,
+    drawable: c_ulong,
+    target_msc: i64,
+    divisor: i64,
+    remainder: i64,
+) -> i64 {
+    // SAFETY: the program's own call.
+    frame(Some(Drawable::Glx(dpy, drawable)), || unsafe {
+        gl().glXSwapBuffersMscOML(dpy, drawable, target_msc, divisor, remainder)
+    })
+}
+
+/// The common part of the GLX MakeCurrent family.
+fn glx_current(dpy: Ptr, drawable: c_ulong, ctx: Ptr, call: impl FnOnce() -> i32) -> i32 {
+    let same = is_current(Provider::Gl, ctx, Drawable::Glx(dpy, drawable));
+    finish_memory_frame();
+    let ok = guarded(call);
+    if ok != 0 && !same {
+        made_current(
+            Provider::Gl,
+            ctx,
+            (drawable != 0).then_some(Drawable::Glx(dpy, drawable)),
+        );
+    }
+    ok
+}
+
+pub(crate) unsafe fn glXMakeCurrent(dpy: Ptr, drawable: c_ulong, ctx: Ptr) -> i32 {
+    // SAFETY: the program's own call.
+    glx_current(dpy, drawable, ctx, || unsafe {
+        gl().glXMakeCurrent(dpy, drawable, ctx)
+    })
+}
+
+pub(crate) unsafe fn glXMakeContextCurrent(
+    dpy: Ptr,
+    draw: c_ulong,
+    read: c_ulong,
+    ctx: Ptr,
+) -> i32 {
+    // SAFETY: the program's own call.
+    glx_current(dpy, draw, ctx, || unsafe {
+        gl().glXMakeContextCurrent(dpy, draw, read, ctx)
+    })
+}
+
+pub(crate) unsafe fn glXMakeCurrentReadSGI(
+    dpy: Ptr,
+    draw: c_ulong,
+    read: c_ulong,
+    ctx: Ptr,
+) -> i32 {
+    // SAFETY: the program's own call.
+    glx_current(dpy, draw, ctx, || unsafe {
+        gl().glXMakeCurrentReadSGI(dpy, draw, read, ctx)
+    })
+}
+
+pub(crate) unsafe fn glXDestroyContext(dpy: Ptr, ctx: Ptr) {
+    destroyed(Provider::Gl, ctx);
+    // SAFETY: the program's own call.
+    guarded(|| unsafe { gl().glXDestroyContext(dpy, ctx) });
+}
+
+pub(crate) unsafe fn glXGetProcAddress(name: Ptr) -> Ptr {
+    // SAFETY: the program's own string.
+    unsafe { proc_address(name.cast(), gl().glXGetProcAddress(name)) }
+}
+
+pub(crate) unsafe fn glXGetProcAddressARB(name: Ptr) -> Ptr {
+    // SAFETY: the program's own string.
+    unsafe { proc_address(name.cast(), gl().glXGetProcAddressARB(name)) }
+}
+
+pub(crate) unsafe fn eglSwapBuffers(dpy: Ptr, surface: Ptr) -> u32 {
+    // SAFETY: the program's own call.
+    frame(Some(Drawable::Egl(dpy, surface)), || unsafe {
+        gl().eglSwapBuffers(dpy, surface)
+    })
+}
+
+pub(crate) unsafe fn eglSwapBuffersWithDamageKHR(
+    dpy: Ptr,
+    surface: Ptr,
+    rects: Ptr,
+    n: i32,
+) -> u32 {
+    let _ = (rects, n);
+    // The whole panel changes when a part of the scene does.
+    // SAFETY: the program's display and surface.
+    frame(Some(Drawable::Egl(dpy, surface)), || unsafe {
+        gl().eglSwapBuffersWithDamageKHR(dpy, surface, core::ptr::null_mut(), 0)
+    })
+}
+
+pub(crate) unsafe fn eglSwapBuffersWithDamageEXT(
+    dpy: Ptr,
+    surface: Ptr,
+    rects: Ptr,
+    n: i32,
+) -> u32 {
+    let _ = (rects, n);
+    // SAFETY: the program's display and surface.
+    frame(Some(Drawable::Egl(dpy, surface)), || unsafe {
+        gl().eglSwapBuffersWithDamageEXT(dpy, surface, core::ptr::null_mut(), 0)
+    })
+}
+
+pub(crate) unsafe fn eglMakeCurrent(dpy: Ptr, draw: Ptr, read: Ptr, ctx: Ptr) -> u32 {
+    let same = is_current(Provider::Gl, ctx, Drawable::Egl(dpy, draw));
+    finish_memory_frame();
+    // SAFETY: the program's own call.
+    let ok = guarded(|| unsafe { gl().eglMakeCurrent(dpy, draw, read, ctx) });
+    if ok != 0 && !same {
+        made_current(
+            Provider::Gl,
+            ctx,
+            (!draw.is_null()).then_some(Drawable::Egl(dpy, draw)),
+        );
+    }
+    ok
+}
+
+pub(crate) unsafe fn eglDestroyContext(dpy: Ptr, ctx: Ptr) -> u32 {
+    destroyed(Provider::Gl, ctx);
+    // SAFETY: the program's own call.
+    guarded(|| unsafe { gl().eglDestroyContext(dpy, ctx) })
+}
+
+pub(crate) unsafe fn eglReleaseThread() -> u32 {
+    // SAFETY: the program's own call.
+    let ok = guarded(|| unsafe { gl().eglReleaseThread() });
+    made_current(Provider::Gl, core::ptr::null_mut(), None);
+    ok
+}
+
+pub(crate) unsafe fn eglGetProcAddress(name: Ptr) -> Ptr {
+    // SAFETY: the program's own string.
+    unsafe { proc_address(name.cast(), gl().eglGetProcAddress(name)) }
+}
+
+pub(crate) unsafe fn OSMesaMakeCurrent(
+    ctx: Ptr,
+    buffer: Ptr,
+    kind: u32,
+    width: i32,
+    height: i32,
+) -> u8 {
+    finish_memory_frame();
+    // SAFETY: the program's own call.
+    let ok = guarded(|| unsafe { osmesa().OSMesaMakeCurrent(ctx, buffer, kind, width, height) });
+    if ok != 0 {
+        let drawable = (!buffer.is_null() && width > 0 && height > 0)
+            .then_some(Drawable::Memory(width as u32, height as u32));
+        made_current(Provider::OsMesa, ctx, drawable);
+    }
+    ok
+}
+
+pub(crate) unsafe fn OSMesaDestroyContext(ctx: Ptr) {
+    finish_memory_frame();
+    destroyed(Provider::OsMesa, ctx);
+    // SAFETY: the program's own call.
+    guarded(|| unsafe { osmesa().OSMesaDestroyContext(ctx) });
+}
+
+pub(crate) unsafe fn OSMesaGetProcAddress(name: Ptr) -> Ptr {
+    // SAFETY: the program's own string.
+    unsafe { proc_address(name.cast(), osmesa().OSMesaGetProcAddress(name)) }
+}

@@ -1,0 +1,125 @@
+//! Whether the layer is on in this process, and so where each exported function leads.
+
+use crate::entry::{ENTRY, HOOK};
+use crate::provider;
+use core::sync::atomic::{AtomicBool, Ordering::Relaxed};
+use manyview_core::config::Config;
+use manyview_core::gl::{NAMES, slot};
+use std::io::Write;
+use std::sync::OnceLock;
+
+/// How much of the program the layer watches.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Mode {
+    /// Nothing: every exported function leads to the driver.
+    Passive,
+    /// Frames only: one view is drawn by the program itself, and captured or counted.
+    Observe,
+    /// Everything.
+    Active,
+}
+
+static CONFIG: OnceLock<Option<Config>> = OnceLock::new();
+static OFF: AtomicBool = AtomicBool::new(false);
+
+/// The configuration; none where the layer is off or was given something wrong (said once on stderr).
+pub(crate) fn config() -> Option<&'static Config> {
+    CONFIG
+        .get_or_init(|| {
+            // SAFETY: reads one word of the auxiliary vector.
+            if unsafe { libc::getauxval(libc::AT_SECURE) } != 0
+                || manyview_core::config::disabled(|name| std::env::var(name).ok())
+            {
+                return None;
+            }
+            match Config::from_env(|name| std::env::var(name).ok()) {
+                Ok(config) => Some(config),
+                Err(e) => {
+                    say(&format!("{e}; the program runs without the layer"));
+                    None
+                }
+            }
+        })
+        .as_ref()
+}
+
+/// Mode of this process.
+pub(crate) fn mode() -> Mode {
+    match config() {
+        _ if OFF.load(Relaxed) => Mode::Passive,
+        None => Mode::Passive,
+        Some(c) if c.views > 1 => Mode::Active,
+        Some(c) if c.capture.is_some() || c.report.is_some() => Mode::Observe,
+        Some(_) => Mode::Passive,
+    }
+}
+
+/// One line on stderr. A closed stderr is nobody's fault; a socket there may be the program's connection to its X server, which got
+/// the free number.
+pub(crate) fn say(text: &str) {
+    // SAFETY: all-zero is a valid stat.
+    let mut status: libc::stat = unsafe { core::mem::zeroed() };
+    // SAFETY: status is ours.
+    let known = unsafe { libc::fstat(libc::STDERR_FILENO, &mut status) } == 0;
+    if known && status.st_mode & libc::S_IFMT != libc::S_IFSOCK {
+        let _ = writeln!(std::io::stderr(), "manyview: {text}");
+    }
+}
+
+/// Turns the layer off for the rest of the process.
+pub(crate) fn turn_off(why: &str) {
+    if !OFF.swap(true, Relaxed) {
+        say(&format!(
+            "{why}; the layer is off, the program goes on without it"
+        ));
+    }
+}
+
+/// Whether the layer was turned off.
+pub(crate) fn off() -> bool {
+    OFF.load(Relaxed)
+}
+
+/// The commands that [`Mode::Observe`] hooks.
+const OBSERVED: [usize; 17] = [
+    slot::glXSwapBuffers,
+    slot::glXSwapBuffersMscOML,
+    slot::glXMakeCurrent,
+    slot::glXMakeContextCurrent,
+    slot::glXMakeCurrentReadSGI,
+    slot::glXDestroyContext,
+    slot::glXGetProcAddress,
+    slot::glXGetProcAddressARB,
+    slot::eglSwapBuffers,
+    slot::eglSwapBuffersWithDamageKHR,
+    slot::eglSwapBuffersWithDamageEXT,
+    slot::eglMakeCurrent,
+    slot::eglDestroyContext,
+    slot::eglGetProcAddress,
+    slot::OSMesaMakeCurrent,
+    slot::OSMesaDestroyContext,
+    slot::glFinish,
+];
+
+/// Whether a slot leads to our hook in this process.
+pub(crate) fn hooked(slot: usize) -> bool {
+    match mode() {
+        Mode::Passive => false,
+        Mode::Observe => OBSERVED.contains(&slot),
+        Mode::Active => true,
+    }
+}
+
+/// First call of an exported function: decides where it leads from now on.
+#[cold]
+pub(crate) fn resolve(slot: usize) {
+    let Some(hook) = HOOK[slot] else { return };
+    let driver = if hooked(slot) {
+        None
+    } else {
+        provider::default_symbol(NAMES[slot])
+    };
+    // A command that the driver lacks stays with the hook, which then does nothing.
+    let to = driver.map_or(hook.0.cast_mut(), |p| p.cast());
+    ENTRY[slot].store(to, Relaxed);
+}
