@@ -31,3 +31,6 @@ pub mod interleave;
 pub mod present;
 
 pub mod layer;
+
+#[cfg(feature = "cli")]
+pub mod launch;

@@ -1,2 +1,10 @@
-//! x
-fn main(){}
+//! The `manyview` command.
+#![forbid(unsafe_code)]
+
+mod cli;
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    cli::main()
+}

@@ -1,0 +1,101 @@
+# Every target works on a fresh clone; `make help` lists them.
+
+PREFIX ?= /usr/local
+CARGO ?= cargo
+TARGET := $(abspath $(or $(CARGO_TARGET_DIR),target))
+BIN := $(TARGET)/release
+DEMOS := $(TARGET)/demos
+PICTURES := $(TARGET)/demo
+# What `make demo` shows of each program; the panel needs the panel to be seen in 3D, the others do not.
+OUTPUTS := panel quilt sbs
+# The picture of the README: the views as a quilt, and under it the panel that holds them all.
+README_SCENE := --frame 40 --eye-spacing 0.3 --focal-depth 8
+
+# Debian packages: what building, the demos and the tests need, then what some tests use if it is there.
+PACKAGES := gcc libc6-dev make xvfb libgl1 libegl1 libgl1-mesa-dri libosmesa6 libosmesa6-dev libgl-dev libegl-dev \
+	libx11-dev libpng-dev mesa-utils apitrace khronos-api
+OPTIONAL_PACKAGES := faketime
+# Programs that test-long records and repeats.
+LONG_PACKAGES := gltron xscreensaver-gl
+# Only for those who make the pictures of the documents again.
+PICTURE_PACKAGES := netpbm
+
+.PHONY: help build demos demo pictures test test-long lint packages install uninstall clean
+
+help: ## list the targets
+	@sed -n 's/^\([a-z-]*\):.*## /\1	/p' $(MAKEFILE_LIST) | expand -t 20
+
+# Two calls on purpose: one would give the library the features, and the code, of the command.
+build: rust ## build the command, the library and the probe
+	$(CARGO) build --release -p manyview
+	$(CARGO) build --release -p manyview-shim
+
+demos: packages ## build the demo programs
+	$(MAKE) -C examples OUT=$(DEMOS)
+
+demo: packages build demos ## show glxgears and a demo in 8 views; writes PNGs
+	@mkdir -p $(PICTURES)
+	@set -e; for output in $(OUTPUTS); do \
+		for app in glxgears $(DEMOS)/teapot; do \
+			env -u DISPLAY $(BIN)/manyview capture --frame 30 --output $$output \
+				--out $(PICTURES)/$$(basename $$app)-$$output.png -- $$app >/dev/null; \
+		done; \
+	done
+	@echo "The pictures are in $(PICTURES)"
+
+pictures: packages build demos ## make the picture of the README
+	@sh scripts/packages.sh $(PICTURE_PACKAGES)
+	@mkdir -p $(PICTURES) docs
+	env -u DISPLAY $(BIN)/manyview capture $(README_SCENE) --output quilt --out $(PICTURES)/quilt.png -- \
+		$(DEMOS)/mirror --size 168x126
+	env -u DISPLAY $(BIN)/manyview capture $(README_SCENE) --output panel --out $(PICTURES)/panel.png -- \
+		$(DEMOS)/mirror --size 672x336
+	pngtopnm $(PICTURES)/quilt.png >$(PICTURES)/quilt.ppm
+	pngtopnm $(PICTURES)/panel.png | pnmcat -topbottom $(PICTURES)/quilt.ppm - | pnmtopng -compression 9 >docs/mirror.png
+
+test: packages build demos ## run the tests
+	@if $(CARGO) nextest --version >/dev/null 2>&1; \
+	then $(CARGO) nextest run --release --no-fail-fast --no-tests=warn --workspace; \
+	else $(CARGO) test --release --workspace --lib --bins --tests; fi
+	$(CARGO) test --release -p manyview --doc
+
+test-long: packages build demos ## run the tests that take long as well
+	@sh scripts/packages.sh --optional $(LONG_PACKAGES)
+	@if $(CARGO) nextest --version >/dev/null 2>&1; \
+	then $(CARGO) nextest run --release --no-tests=warn --workspace --run-ignored all; \
+	else $(CARGO) test --release --workspace --lib --bins --tests -- --include-ignored; fi
+	$(CARGO) test --release -p manyview --doc
+
+lint: rust ## check format, clippy and documentation
+	$(CARGO) fmt --all --check
+	$(CARGO) clippy --workspace --all-targets -- -D warnings
+	RUSTDOCFLAGS="-D warnings" $(CARGO) doc --no-deps -p manyview
+
+packages: ## install the Debian packages that are missing
+	@sh scripts/packages.sh $(PACKAGES) --optional $(OPTIONAL_PACKAGES)
+
+.PHONY: rust
+rust:
+	@command -v $(CARGO) >/dev/null 2>&1 || \
+		{ echo "Rust is missing: get it from https://rustup.rs, then run make again" >&2; exit 1; }
+
+# Installing does not build, so that `sudo make install` leaves nothing of root's in target/.
+install: ## install to PREFIX after `make build` (default /usr/local)
+	@test -x $(BIN)/manyview && test -f $(BIN)/libmanyview.so && test -x $(BIN)/manyview-probe || \
+		{ echo "Nothing to install: run make build first" >&2; exit 1; }
+	install -d $(DESTDIR)$(PREFIX)/bin $(DESTDIR)$(PREFIX)/lib/manyview \
+		$(DESTDIR)$(PREFIX)/share/manyview/shaders $(DESTDIR)$(PREFIX)/share/doc/manyview/docs
+	install -m 755 $(BIN)/manyview $(DESTDIR)$(PREFIX)/bin/manyview
+	install -m 644 $(BIN)/libmanyview.so $(DESTDIR)$(PREFIX)/lib/manyview/libmanyview.so
+	install -m 755 $(BIN)/manyview-probe $(DESTDIR)$(PREFIX)/lib/manyview/manyview-probe
+	for shader in $(wildcard shaders/*.wgsl); do \
+		install -m 644 $$shader $(DESTDIR)$(PREFIX)/share/manyview/shaders/ || exit 1; done
+	install -m 644 README.md ARCHITECTURE.md CHANGELOG.md LICENSE $(DESTDIR)$(PREFIX)/share/doc/manyview/
+	install -m 644 docs/mirror.png $(DESTDIR)$(PREFIX)/share/doc/manyview/docs/
+
+uninstall: ## remove what install has put to PREFIX
+	rm -f $(DESTDIR)$(PREFIX)/bin/manyview
+	rm -rf $(DESTDIR)$(PREFIX)/lib/manyview $(DESTDIR)$(PREFIX)/share/manyview $(DESTDIR)$(PREFIX)/share/doc/manyview
+
+clean: ## remove what was built
+	$(CARGO) clean

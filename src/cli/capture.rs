@@ -1,0 +1,105 @@
+//! `manyview capture`
+#![forbid(unsafe_code)]
+
+use super::layer::LayerArguments;
+use super::{Outcome, tell};
+use clap::Args;
+use indicatif::{ProgressBar, ProgressStyle};
+use manyview::config::{OptionId, Origin};
+use manyview::launch::{CaptureJob, Launch, LaunchError};
+use std::ffi::OsString;
+use std::process::ExitCode;
+use std::time::Duration;
+
+#[derive(Args)]
+pub(crate) struct Arguments {
+    /// PNG to write; with several frames %d in it is the frame, else -000030 goes before the extension
+    #[arg(long, value_name = "PATH")]
+    out: Option<String>,
+    /// Frame to write, counted from 1 [default: 30]
+    #[arg(
+        long,
+        value_name = "N",
+        conflicts_with = "frames",
+        allow_hyphen_values = true
+    )]
+    frame: Option<String>,
+    /// Frames to write, both ends included
+    #[arg(long, value_name = "A..B", allow_hyphen_values = true)]
+    frames: Option<String>,
+    /// What a picture holds [default: output]
+    #[arg(long, value_name = "output|atlas|view:I|depth")]
+    what: Option<String>,
+    /// Give up after this many seconds
+    #[arg(long, value_name = "S", default_value_t = 120)]
+    timeout: u64,
+    #[command(flatten)]
+    layer: LayerArguments,
+    /// The program and its arguments
+    #[arg(required = true, trailing_var_arg = true, value_name = "APP")]
+    command: Vec<OsString>,
+}
+
+pub(crate) fn run(arguments: &Arguments) -> Outcome {
+    let scratch = tempfile::tempdir().map_err(|source| LaunchError::System {
+        doing: "making a temporary folder",
+        source,
+    })?;
+    let status = scratch.path().join("status.json");
+    let mut settings = arguments.layer.settings()?;
+    let given = [
+        (OptionId::CaptureOut, &arguments.out),
+        (OptionId::CaptureFrames, &arguments.frame),
+        (OptionId::CaptureFrames, &arguments.frames),
+        (OptionId::CaptureWhat, &arguments.what),
+        (
+            OptionId::Status,
+            &Some(status.to_string_lossy().into_owned()),
+        ),
+    ];
+    for (id, value) in given {
+        if let Some(value) = value {
+            settings.set(id, value, Origin::CommandLine);
+        }
+    }
+    let launch = Launch::prepare(&arguments.command, &settings)?;
+    let Some(capture) = &launch.config.capture else {
+        return Err(LaunchError::NoPicture);
+    };
+    let job = CaptureJob {
+        launch: &launch,
+        capture,
+        status: &status,
+        timeout: Duration::from_secs(arguments.timeout),
+    };
+    let bar = bar(capture.last - capture.first + 1);
+    let outcome = job.run(|pictures, seen| {
+        bar.set_position(pictures);
+        if let Some(seen) = seen {
+            bar.set_message(format!("frame {seen} of {}", capture.last));
+        }
+        bar.tick();
+    });
+    bar.finish_and_clear();
+    for note in job.notes() {
+        tell(&format_args!("note: {note}"));
+    }
+    let captured = outcome?;
+    match captured.files.as_slice() {
+        [file] => tell(&format_args!("wrote {}", file.display())),
+        [first, .., last] => tell(&format_args!(
+            "wrote {} pictures, {} to {}",
+            captured.files.len(),
+            first.display(),
+            last.display()
+        )),
+        [] => {}
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+/// On stderr, and silent when that is no terminal.
+fn bar(pictures: u64) -> ProgressBar {
+    let style = ProgressStyle::with_template("{spinner} {wide_bar} {pos}/{len} pictures  {msg}");
+    ProgressBar::new(pictures).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
+}

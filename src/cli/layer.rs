@@ -1,0 +1,81 @@
+//! The options of the layer, the same for every subcommand that starts a program.
+#![forbid(unsafe_code)]
+
+use clap::Args;
+use manyview::config::{ConfigError, OptionId, Origin, Settings};
+
+/// Values stay as they are written: [`manyview::config`] understands them, wherever they come from.
+#[derive(Args, Default)]
+#[command(next_help_heading = "Layer")]
+pub(crate) struct LayerArguments {
+    /// Panel: a built-in name (see `manyview displays`) or a panel file [default: huebner8]
+    #[arg(long, value_name = "NAME|FILE")]
+    display: Option<String>,
+    /// Number of views, 1 to 256 [default: the panel's own]
+    #[arg(long, value_name = "N", allow_hyphen_values = true)]
+    views: Option<String>,
+    /// What the window shows [default: panel]
+    #[arg(long, value_name = "panel|sbs|quilt|view:I")]
+    output: Option<String>,
+    /// Spacing of neighbouring viewpoints in eye-space units; with --focal-depth
+    #[arg(long, value_name = "K", allow_hyphen_values = true)]
+    eye_spacing: Option<String>,
+    /// Depth of zero parallax in eye-space units; with --eye-spacing
+    #[arg(long, value_name = "X", allow_hyphen_values = true)]
+    focal_depth: Option<String>,
+    /// Shift of neighbouring views in clip space; with --convergence
+    #[arg(long, value_name = "S", allow_hyphen_values = true)]
+    separation: Option<String>,
+    /// Clip-space w of zero parallax; with --separation
+    #[arg(long, value_name = "C", allow_hyphen_values = true)]
+    convergence: Option<String>,
+    /// How draws are repeated per view [default: auto]
+    #[arg(long, value_name = "auto|replay|instanced|geometry")]
+    strategy: Option<String>,
+    /// Where the views lie in memory [default: side-by-side]
+    #[arg(long, value_name = "side-by-side|layers")]
+    atlas: Option<String>,
+    /// Size of a view over the size of the window, above 0 and at most 1 [default: 1]
+    #[arg(long, value_name = "F", allow_hyphen_values = true)]
+    view_scale: Option<String>,
+    /// Write a JSON report of frames, draws and fallbacks
+    #[arg(long, value_name = "FILE.json")]
+    report: Option<String>,
+    /// Read options from a TOML file; variables and the command line win over it
+    #[arg(long, value_name = "FILE.toml")]
+    config: Option<String>,
+}
+
+impl LayerArguments {
+    /// These options over the variables over the TOML file.
+    pub(crate) fn settings(&self) -> Result<Settings, ConfigError> {
+        let given = [
+            (OptionId::Display, &self.display),
+            (OptionId::Views, &self.views),
+            (OptionId::Output, &self.output),
+            (OptionId::EyeSpacing, &self.eye_spacing),
+            (OptionId::FocalDepth, &self.focal_depth),
+            (OptionId::Separation, &self.separation),
+            (OptionId::Convergence, &self.convergence),
+            (OptionId::Strategy, &self.strategy),
+            (OptionId::Atlas, &self.atlas),
+            (OptionId::ViewScale, &self.view_scale),
+            (OptionId::Report, &self.report),
+            (OptionId::Config, &self.config),
+        ];
+        let mut settings = Settings::default();
+        for (id, value) in given {
+            if let Some(value) = value {
+                settings.set(id, value, Origin::CommandLine);
+            }
+        }
+        settings
+            .over(Settings::from_variables(variable))
+            .with_file()
+    }
+}
+
+/// A variable as text; what is not text turns into a value that the checks refuse by name.
+fn variable(name: &str) -> Option<String> {
+    std::env::var_os(name).map(|value| value.to_string_lossy().into_owned())
+}

@@ -1,0 +1,119 @@
+//! The command line: what may be written, and which function answers it.
+//!
+//! Results go to stdout, everything else to stderr.
+#![forbid(unsafe_code)]
+
+mod capture;
+mod displays;
+mod doctor;
+mod layer;
+mod mask;
+mod run;
+
+use clap::{Parser, Subcommand};
+use manyview::launch::LaunchError;
+use std::io::Write;
+use std::process::ExitCode;
+
+const EXIT_STATUS: &str = "\
+Exit status: that of APP for `run` (128 + the signal that killed it); else 0, or
+  2    an option or file that cannot be used
+  3    something missing here: the layer's library, an X server, OpenGL
+  4    the pictures of `capture` were not reached
+  126  APP cannot be executed, or the layer cannot enter it (setuid, static, 32-bit)
+  127  APP is not found";
+
+#[derive(Parser)]
+#[command(
+    name = "manyview",
+    version,
+    about = "Shows unmodified OpenGL programs on glasses-free 3D panels"
+)]
+#[command(after_help = EXIT_STATUS)]
+struct Arguments {
+    #[command(subcommand)]
+    command: Action,
+}
+
+#[derive(Subcommand)]
+enum Action {
+    /// Run a program in N views.
+    Run(run::Arguments),
+    /// Run a program until the frames asked for are written as PNG, then end it.
+    Capture(capture::Arguments),
+    /// Write the mask of a panel: 16-bit RGB PNG, each value the view that the subpixel shows, 65535 for black.
+    Mask(mask::Arguments),
+    /// Say which OpenGL a program would get here and what the layer can do with it.
+    Doctor(doctor::Arguments),
+    /// List the built-in panels.
+    Displays(displays::Arguments),
+}
+
+/// What a subcommand ends with: an exit status, or why it could not do its work.
+type Outcome = Result<ExitCode, LaunchError>;
+
+pub(crate) fn main() -> ExitCode {
+    let outcome = match Arguments::parse().command {
+        Action::Run(arguments) => run::run(&arguments),
+        Action::Capture(arguments) => capture::run(&arguments),
+        Action::Mask(arguments) => mask::run(&arguments),
+        Action::Doctor(arguments) => doctor::run(&arguments),
+        Action::Displays(arguments) => displays::run(&arguments),
+    };
+    outcome.unwrap_or_else(|error| {
+        tell(&error);
+        ExitCode::from(error.exit_status())
+    })
+}
+
+/// One line on stderr.
+fn tell(message: &dyn std::fmt::Display) {
+    // A closed stderr is no reason to fail.
+    let _ = writeln!(std::io::stderr(), "manyview: {message}");
+}
+
+/// The result that was asked for, on stdout.
+fn print(text: &str) -> Outcome {
+    match std::io::stdout().write_all(text.as_bytes()) {
+        // Whoever closed the pipe has read enough.
+        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => Err(LaunchError::System {
+            doing: "writing the result",
+            source: error,
+        }),
+        _ => Ok(ExitCode::SUCCESS),
+    }
+}
+
+/// A result as pretty JSON on stdout.
+fn print_json(value: &impl serde::Serialize) -> Outcome {
+    let text = serde_json::to_string_pretty(value).map_err(|error| LaunchError::System {
+        doing: "writing JSON",
+        source: error.into(),
+    })?;
+    print(&format!("{text}\n"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Arguments;
+    use clap::CommandFactory;
+    use manyview::config::OPTIONS;
+
+    #[test]
+    fn clap_finds_no_contradiction() {
+        Arguments::command().debug_assert();
+    }
+
+    #[test]
+    fn every_option_of_the_table_is_an_option_of_capture() {
+        let command = Arguments::command();
+        let capture = command.find_subcommand("capture").unwrap();
+        for spec in OPTIONS {
+            let Some(flag) = spec.flag else { continue };
+            let known = capture
+                .get_arguments()
+                .find(|argument| argument.get_long() == Some(flag));
+            assert!(known.is_some(), "--{flag} is missing");
+        }
+    }
+}

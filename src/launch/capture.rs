@@ -1,0 +1,197 @@
+//! Running a program until the pictures that were asked for are on disk.
+#![forbid(unsafe_code)]
+
+use super::error::LaunchError;
+use super::program::{Ended, Launch};
+use super::signals;
+use super::xvfb::Xvfb;
+use crate::config::{Capture, Status};
+use rustix::process::{Pid, Signal, WaitId, WaitIdOptions, kill_process_group, waitid};
+use std::collections::HashMap;
+use std::io::IsTerminal;
+use std::os::unix::fs::MetadataExt;
+use std::os::unix::process::CommandExt;
+use std::path::{Path, PathBuf};
+use std::process::{Child, Stdio};
+use std::time::{Duration, Instant};
+
+const POLL: Duration = Duration::from_millis(20);
+const END_LIMIT: Duration = Duration::from_secs(2);
+
+/// One capture.
+#[derive(Debug)]
+pub struct CaptureJob<'a> {
+    /// The program, checked, with the capture among its options.
+    pub launch: &'a Launch,
+    /// The pictures.
+    pub capture: &'a Capture,
+    /// Where the layer reports, if it does.
+    pub status: &'a Path,
+    /// How long the last picture may take.
+    pub timeout: Duration,
+}
+
+/// What came of it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Captured {
+    /// The pictures, in order.
+    pub files: Vec<PathBuf>,
+    /// What the layer wants the user to know.
+    pub notes: Vec<String>,
+}
+
+/// Tells one version of a file from the next: device, inode, seconds and nanoseconds of its last change.
+type Stamp = (u64, u64, i64, i64);
+
+impl CaptureJob<'_> {
+    /// Starts the program, waits for the pictures, ends the program. `progress` gets pictures so far and frames seen.
+    pub fn run(&self, mut progress: impl FnMut(u64, Option<u64>)) -> Result<Captured, LaunchError> {
+        let mut signals = signals::catch()?;
+        let screen = if std::env::var_os("DISPLAY").is_none_or(|d| d.is_empty()) {
+            Some(Xvfb::start()?)
+        } else {
+            None
+        };
+        let before = stamps(self.capture);
+        let mut program = self.start(screen.as_ref())?;
+        let limit = Instant::now() + self.timeout;
+        let mut next = self.capture.first;
+        loop {
+            // Asked before the files are looked at: what the program wrote before its end counts.
+            let ended = program.ended();
+            while next <= self.capture.last && self.is_new(next, &before) {
+                next += 1;
+            }
+            let status = Status::read(self.status);
+            progress(
+                next - self.capture.first,
+                status.as_ref().map(|status| status.frames),
+            );
+            if next > self.capture.last {
+                drop(program);
+                let files = (self.capture.first..=self.capture.last)
+                    .map(|frame| self.capture.path_for(frame));
+                return Ok(Captured {
+                    files: files.collect(),
+                    notes: self.notes(),
+                });
+            }
+            if let Some(ended) = ended {
+                return Err(LaunchError::EndedEarly {
+                    how: ended.describe(),
+                    seen: self.seen(next),
+                    wanted: next,
+                });
+            }
+            if let Some(signal) = signals.pending().next() {
+                return Err(LaunchError::Interrupted(signal));
+            }
+            if Instant::now() > limit {
+                let seconds = self.timeout.as_secs();
+                return Err(LaunchError::TimedOut {
+                    wanted: next,
+                    seconds,
+                    seen: self.seen(next),
+                });
+            }
+            std::thread::sleep(POLL);
+        }
+    }
+
+    /// What the layer said, also after a failure.
+    #[must_use]
+    pub fn notes(&self) -> Vec<String> {
+        Status::read(self.status)
+            .map(|status| status.notes)
+            .unwrap_or_default()
+    }
+
+    fn start(&self, screen: Option<&Xvfb>) -> Result<Program, LaunchError> {
+        let mut command = self.launch.command();
+        if let Some(screen) = screen {
+            command
+                .env("DISPLAY", screen.display())
+                .env_remove("WAYLAND_DISPLAY");
+        }
+        // The program leads its own group, so that ending it ends what it started; a terminal would stop it on a read.
+        command.process_group(0);
+        if std::io::stdin().is_terminal() {
+            command.stdin(Stdio::null());
+        }
+        self.launch
+            .spawn(command)
+            .map(|child| Program { child, ended: None })
+    }
+
+    fn is_new(&self, frame: u64, before: &HashMap<PathBuf, Stamp>) -> bool {
+        let path = self.capture.path_for(frame);
+        stamp(&path).is_some_and(|now| before.get(&path) != Some(&now))
+    }
+
+    /// How many frames the program got, in words.
+    fn seen(&self, next: u64) -> String {
+        let pictures = next - self.capture.first;
+        match Status::read(self.status) {
+            Some(Status { frames: 1, .. }) => "1 frame".to_owned(),
+            Some(status) => format!("{} frames", status.frames),
+            None if pictures > 0 => format!("frame {}", next - 1),
+            None => "an unknown number of frames".to_owned(),
+        }
+    }
+}
+
+/// The program and everything in its process group; ended when dropped.
+struct Program {
+    child: Child,
+    ended: Option<Ended>,
+}
+
+impl Program {
+    fn ended(&mut self) -> Option<Ended> {
+        if self.ended.is_none() {
+            self.ended = self.child.try_wait().ok().flatten().map(Ended);
+        }
+        self.ended
+    }
+}
+
+impl Drop for Program {
+    fn drop(&mut self) {
+        let group = Pid::from_child(&self.child);
+        if self.ended.is_some() {
+            return;
+        }
+        // The program stays a zombie while NOWAIT asks, so its number, and the group's, cannot go to somebody else.
+        let peek = WaitIdOptions::EXITED | WaitIdOptions::NOHANG | WaitIdOptions::NOWAIT;
+        let limit = Instant::now() + END_LIMIT;
+        let _ = kill_process_group(group, Signal::TERM);
+        while Instant::now() < limit && matches!(waitid(WaitId::Pid(group), peek), Ok(None)) {
+            std::thread::sleep(Duration::from_millis(10));
+        }
+        let _ = kill_process_group(group, Signal::KILL);
+        let _ = self.child.wait();
+    }
+}
+
+/// The files that are in the folder of the pictures already.
+fn stamps(capture: &Capture) -> HashMap<PathBuf, Stamp> {
+    let first = capture.path_for(capture.first);
+    let folder = first.parent().unwrap_or(Path::new(""));
+    let listed = if folder == Path::new("") {
+        Path::new(".")
+    } else {
+        folder
+    };
+    let entries = std::fs::read_dir(listed).into_iter().flatten().flatten();
+    entries
+        .filter_map(|entry| {
+            let path = folder.join(entry.file_name());
+            stamp(&path).map(|stamp| (path, stamp))
+        })
+        .collect()
+}
+
+fn stamp(path: &Path) -> Option<Stamp> {
+    let about = std::fs::metadata(path).ok()?;
+    Some((about.dev(), about.ino(), about.mtime(), about.mtime_nsec()))
+}

@@ -1,0 +1,163 @@
+//! What a program would meet here: the layer, the OpenGL libraries, and the contexts they give.
+//!
+//! Contexts are tried by the helper `manyview-probe API` in a process of its own, with the layer preloaded and a time
+//! limit; it answers one line of JSON, a [`Probe`]. A driver that crashes takes only the helper with it.
+#![forbid(unsafe_code)]
+
+use super::elf::Elf;
+use super::error::LaunchError;
+use super::linked::{GlLibrary, linked_gl};
+use super::program::preload_value;
+use super::xvfb::Xvfb;
+use super::{library, preflight};
+use crate::config::{self, OPTIONS};
+pub use crate::layer::support::Probe;
+use serde::Serialize;
+use std::collections::BTreeMap;
+use std::ffi::OsStr;
+use std::io::Read;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
+
+const HELPER: &str = "manyview-probe";
+const APIS: &[&str] = &["glx", "egl", "osmesa"];
+const PROBE_LIMIT: Duration = Duration::from_secs(20);
+/// Prefixes of hooked names; the longer one first where one starts another.
+const FAMILIES: &[&str] = &["OSMesa", "glX", "egl", "gl", "dl"];
+
+/// Everything `doctor` says.
+#[derive(Debug, Serialize)]
+pub struct Findings {
+    /// The program, if one was named.
+    pub app: Option<PathBuf>,
+    /// The layer's library, or why there is none.
+    pub library: Result<PathBuf, String>,
+    /// Number of hooked names by prefix.
+    pub hooks: BTreeMap<String, usize>,
+    /// The OpenGL libraries the program would get.
+    pub libraries: Vec<GlLibrary>,
+    /// `DISPLAY`, if set.
+    pub display: Option<String>,
+    /// Whether the contexts were tried on an Xvfb of our own.
+    pub own_screen: bool,
+    /// Whether `MANYVIEW_DISABLE` keeps the layer out of every program.
+    pub disabled: bool,
+    /// The contexts that were tried.
+    pub probes: Vec<Probe>,
+}
+
+impl Findings {
+    /// Looks at everything. A program that cannot be started under the layer is an error.
+    pub fn gather(app: Option<&OsStr>) -> Result<Self, LaunchError> {
+        let app = app.map(preflight::check_app).transpose()?;
+        let library = library::find();
+        let hooks = library.as_deref().map(hooks).unwrap_or_default();
+        let display = std::env::var("DISPLAY")
+            .ok()
+            .filter(|display| !display.is_empty());
+        let helper = library::find_helper(HELPER);
+        let screen = (display.is_none() && helper.is_some())
+            .then(Xvfb::start)
+            .and_then(Result::ok);
+        let probes = helper.map(|helper| {
+            let probe = |api: &&str| probe(&helper, api, library.as_deref().ok(), screen.as_ref());
+            APIS.iter().map(probe).collect()
+        });
+        Ok(Self {
+            libraries: linked_gl(app.as_deref()),
+            library: library.map_err(|error| error.to_string()),
+            hooks,
+            display,
+            own_screen: screen.is_some(),
+            disabled: config::disabled(|name| std::env::var(name).ok()),
+            probes: probes.unwrap_or_default(),
+            app,
+        })
+    }
+
+    /// What keeps the layer from working here at all.
+    #[must_use]
+    pub fn obstacle(&self) -> Option<String> {
+        if let Err(reason) = &self.library {
+            return Some(reason.clone());
+        }
+        let tried = !self.probes.is_empty();
+        if tried && self.probes.iter().all(|probe| probe.error.is_some()) {
+            return Some(LaunchError::NoOpenGl.to_string());
+        }
+        if tried && self.probes.iter().all(|probe| probe.strategies.is_empty()) {
+            return Some("no OpenGL here can be shown in several views".to_owned());
+        }
+        let linked = self
+            .libraries
+            .iter()
+            .filter(|library| library.linked_by.is_some());
+        let missing = linked.into_iter().find(|library| library.path.is_none());
+        missing.map(|library| format!("{} is linked but not installed", library.name))
+    }
+}
+
+/// Counts the names that the library puts before those of the drivers.
+fn hooks(library: &Path) -> BTreeMap<String, usize> {
+    let mut counts = BTreeMap::new();
+    let exports = Elf::open(library)
+        .ok()
+        .flatten()
+        .map(|elf| elf.exports)
+        .unwrap_or_default();
+    for name in exports {
+        if let Some(family) = FAMILIES.iter().find(|family| name.starts_with(**family)) {
+            *counts.entry(format!("{family}*")).or_insert(0) += 1;
+        }
+    }
+    counts
+}
+
+/// Tries one API with the layer as it is by default, whatever the caller's variables say.
+fn probe(helper: &Path, api: &str, library: Option<&Path>, screen: Option<&Xvfb>) -> Probe {
+    let mut command = Command::new(helper);
+    command.arg(api).env_remove(config::DISABLE);
+    for option in OPTIONS {
+        command.env_remove(option.variable);
+    }
+    if let Some(library) = library {
+        command.env("LD_PRELOAD", preload_value(library));
+    }
+    if let Some(screen) = screen {
+        command.env("DISPLAY", screen.display());
+    }
+    answer(command).unwrap_or_else(|error| Probe {
+        api: api.to_owned(),
+        error: Some(error),
+        ..Probe::default()
+    })
+}
+
+/// Runs the helper to its end and reads its last line.
+fn answer(mut command: Command) -> Result<Probe, String> {
+    command
+        .stdin(Stdio::null())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::null());
+    let mut child = command.spawn().map_err(|error| error.to_string())?;
+    let limit = Instant::now() + PROBE_LIMIT;
+    let status = loop {
+        match child.try_wait() {
+            Ok(Some(status)) => break status,
+            Ok(None) if Instant::now() < limit => std::thread::sleep(Duration::from_millis(10)),
+            _ => {
+                let _ = child.kill();
+                let _ = child.wait();
+                return Err(format!("no answer within {} s", PROBE_LIMIT.as_secs()));
+            }
+        }
+    };
+    let mut text = String::new();
+    if let Some(mut pipe) = child.stdout.take() {
+        pipe.read_to_string(&mut text)
+            .map_err(|error| error.to_string())?;
+    }
+    let line = text.lines().next_back().unwrap_or_default();
+    serde_json::from_str(line).map_err(|_| format!("the probe ended without an answer ({status})"))
+}

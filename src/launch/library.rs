@@ -1,0 +1,76 @@
+//! Where the layer's library is.
+#![forbid(unsafe_code)]
+
+use super::elf::Elf;
+use super::error::LaunchError;
+use crate::config::LIBRARY;
+use std::ffi::OsStr;
+use std::os::unix::ffi::OsStrExt;
+use std::path::{Path, PathBuf};
+
+/// The name of the library, whatever its folder.
+pub const FILE_NAME: &str = "libmanyview.so";
+
+/// Finds the library: `MANYVIEW_LIBRARY`, beside the command, or `../lib/manyview` of the command's folder.
+pub fn find() -> Result<PathBuf, LaunchError> {
+    if let Some(named) = std::env::var_os(LIBRARY).filter(|value| !value.is_empty()) {
+        return check(PathBuf::from(named));
+    }
+    let searched = folders();
+    match searched
+        .iter()
+        .map(|folder| folder.join(FILE_NAME))
+        .find(|path| path.is_file())
+    {
+        Some(path) => check(path),
+        None => Err(LaunchError::NoLibrary { searched }),
+    }
+}
+
+/// Finds a helper program of ours by the same rule.
+#[must_use]
+pub fn find_helper(name: &str) -> Option<PathBuf> {
+    folders()
+        .into_iter()
+        .map(|folder| folder.join(name))
+        .find(|path| path.is_file())
+}
+
+fn folders() -> Vec<PathBuf> {
+    let executable = std::env::current_exe()
+        .and_then(|path| path.canonicalize())
+        .unwrap_or_default();
+    let beside = executable.parent().map(Path::to_owned).unwrap_or_default();
+    let installed = beside
+        .parent()
+        .map(|prefix| prefix.join("lib/manyview"))
+        .unwrap_or_default();
+    vec![beside, installed]
+}
+
+/// A path that `LD_PRELOAD` can hold, of a library that this machine can load.
+fn check(path: PathBuf) -> Result<PathBuf, LaunchError> {
+    let bad = |reason: &str| LaunchError::BadLibrary {
+        path: path.clone(),
+        reason: reason.to_owned(),
+    };
+    let whole = path
+        .canonicalize()
+        .map_err(|error| bad(&error.to_string()))?;
+    if has_separator(whole.as_os_str()) {
+        return Err(bad(
+            "LD_PRELOAD cannot express a path with a space, a colon or a dollar sign",
+        ));
+    }
+    match Elf::open(&whole) {
+        Ok(Some(elf)) if elf.is_native() => Ok(whole),
+        Ok(_) => Err(bad("it is not a shared library for this machine")),
+        Err(error) => Err(bad(&error.to_string())),
+    }
+}
+
+fn has_separator(path: &OsStr) -> bool {
+    path.as_bytes()
+        .iter()
+        .any(|byte| matches!(byte, b' ' | b':' | b'$'))
+}

@@ -1,0 +1,189 @@
+//! Which OpenGL libraries a program would get, read from its files without starting it.
+#![forbid(unsafe_code)]
+
+use super::elf::Elf;
+use std::collections::{HashMap, HashSet, VecDeque};
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// Names of libraries that the layer stands before, and the OpenGL ES one, which it leaves alone.
+const FAMILIES: &[&str] = &[
+    "libGL.so",
+    "libOpenGL.so",
+    "libGLX.so",
+    "libEGL.so",
+    "libOSMesa.so",
+    "libGLESv1_CM.so",
+    "libGLESv2.so",
+];
+/// What programs ask for by name when they link none of them.
+const USUAL: &[&str] = &[
+    "libGL.so.1",
+    "libOpenGL.so.0",
+    "libEGL.so.1",
+    "libOSMesa.so.8",
+];
+/// More libraries than this and the search stops; a browser has some three hundred.
+const MAX_LIBRARIES: usize = 2000;
+
+/// One OpenGL library.
+#[derive(Clone, Debug, PartialEq, Eq, serde::Serialize)]
+pub struct GlLibrary {
+    /// Its name in the program.
+    pub name: String,
+    /// The file, if there is one.
+    pub path: Option<PathBuf>,
+    /// The program or library that links it; nothing if it would be loaded by name.
+    pub linked_by: Option<String>,
+}
+
+/// The OpenGL libraries that `app` links, directly or through others; without `app`, the usual ones by name.
+#[must_use]
+pub fn linked_gl(app: Option<&Path>) -> Vec<GlLibrary> {
+    let cache = Cache::read();
+    let Some(app) = app else {
+        let by_name = |name: &&str| GlLibrary {
+            name: (*name).to_owned(),
+            path: cache.find(name, &[]),
+            linked_by: None,
+        };
+        return USUAL.iter().map(by_name).collect();
+    };
+    let mut found = Vec::new();
+    let mut seen = HashSet::new();
+    let mut queue = VecDeque::from([app.to_owned()]);
+    while let Some(path) = queue.pop_front() {
+        let Ok(Some(elf)) = Elf::open(&path) else {
+            continue;
+        };
+        let origin = path
+            .canonicalize()
+            .ok()
+            .and_then(|whole| whole.parent().map(Path::to_owned))
+            .unwrap_or_default();
+        let search: Vec<_> = elf
+            .search
+            .iter()
+            .map(|folder| expand(folder, &origin))
+            .collect();
+        for name in elf.needed {
+            if seen.len() >= MAX_LIBRARIES || !seen.insert(name.clone()) {
+                continue;
+            }
+            let file = cache.find(&name, &search);
+            if FAMILIES.iter().any(|family| name.starts_with(family)) {
+                let by = path
+                    .file_name()
+                    .map(|file| file.to_string_lossy().into_owned());
+                found.push(GlLibrary {
+                    name,
+                    path: file,
+                    linked_by: by,
+                });
+            } else {
+                queue.extend(file);
+            }
+        }
+    }
+    found
+}
+
+fn expand(folder: &str, origin: &Path) -> PathBuf {
+    let origin = origin.to_string_lossy();
+    PathBuf::from(
+        folder
+            .replace("${ORIGIN}", &origin)
+            .replace("$ORIGIN", &origin),
+    )
+}
+
+/// Where the loader looks: `LD_LIBRARY_PATH` and its cache.
+struct Cache {
+    folders: Vec<PathBuf>,
+    files: HashMap<String, PathBuf>,
+}
+
+impl Cache {
+    fn read() -> Self {
+        let folders = std::env::var_os("LD_LIBRARY_PATH").unwrap_or_default();
+        let printed = ["ldconfig", "/sbin/ldconfig"].iter().find_map(|program| {
+            Command::new(program)
+                .arg("-p")
+                .output()
+                .ok()
+                .filter(|output| output.status.success())
+        });
+        let text = printed
+            .map(|output| String::from_utf8_lossy(&output.stdout).into_owned())
+            .unwrap_or_default();
+        let folders = std::env::split_paths(&folders)
+            .filter(|folder| folder != Path::new(""))
+            .collect();
+        Self {
+            folders,
+            files: parse(&text),
+        }
+    }
+
+    /// The order of ld.so(8), with `DT_RPATH` taken for `DT_RUNPATH`.
+    fn find(&self, name: &str, search: &[PathBuf]) -> Option<PathBuf> {
+        let folders = self.folders.iter().chain(search);
+        let in_folder = folders
+            .map(|folder| folder.join(name))
+            .find(|path| native(path));
+        in_folder.or_else(|| self.files.get(name).cloned())
+    }
+}
+
+fn native(path: &Path) -> bool {
+    matches!(Elf::open(path), Ok(Some(elf)) if elf.is_native())
+}
+
+/// Lines such as `libGL.so.1 (libc6,x86-64) => /lib/x86_64-linux-gnu/libGL.so.1`; the first of our machine wins.
+fn parse(text: &str) -> HashMap<String, PathBuf> {
+    let machine = match std::env::consts::ARCH {
+        "x86_64" => "x86-64",
+        "aarch64" => "AArch64",
+        _ => "",
+    };
+    let mut files = HashMap::new();
+    for line in text.lines() {
+        let Some((left, path)) = line.trim().split_once(" => ") else {
+            continue;
+        };
+        let Some((name, kind)) = left.split_once(" (") else {
+            continue;
+        };
+        if kind.contains(machine) {
+            files
+                .entry(name.to_owned())
+                .or_insert_with(|| PathBuf::from(path));
+        }
+    }
+    files
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    #[cfg(target_arch = "x86_64")]
+    fn the_cache_lists_our_machine_only() {
+        let files = parse(
+            "2 libs found in cache\n\tlibGL.so.1 (libc6) => /lib32/libGL.so.1\n\tlibGL.so.1 (libc6,x86-64) => /lib/libGL.so.1\n",
+        );
+        assert_eq!(
+            files,
+            HashMap::from([("libGL.so.1".to_owned(), PathBuf::from("/lib/libGL.so.1"))])
+        );
+    }
+
+    #[test]
+    fn origin_is_expanded() {
+        assert_eq!(
+            expand("$ORIGIN/../lib", Path::new("/a/bin")),
+            Path::new("/a/bin/../lib")
+        );
+    }
+}

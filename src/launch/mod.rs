@@ -1,0 +1,25 @@
+//! Starting a program under the layer: what must hold before, the environment it gets, and its end.
+//!
+//! Only the command uses this; the preloaded library is built without it.
+#![forbid(unsafe_code)]
+
+mod capture;
+mod doctor;
+pub mod elf;
+mod error;
+pub mod library;
+mod linked;
+mod preflight;
+mod preload;
+mod program;
+mod signals;
+mod xvfb;
+
+pub use capture::{CaptureJob, Captured};
+pub use doctor::{Findings, Probe};
+pub use error::LaunchError;
+pub use linked::{GlLibrary, linked_gl};
+pub use preflight::{check_app, check_files, writable};
+pub use preload::with_library;
+pub use program::{Ended, Launch};
+pub use xvfb::Xvfb;

@@ -1,0 +1,108 @@
+//! What must hold before the program starts, so that a mistake is one line and not a picture that never comes.
+#![forbid(unsafe_code)]
+
+use super::elf::Elf;
+use super::error::LaunchError;
+use crate::config::Config;
+use rustix::fs::{Access, access, getxattr};
+use std::ffi::OsStr;
+use std::os::unix::fs::PermissionsExt;
+use std::path::{Path, PathBuf};
+
+/// Finds the program as a shell would, and refuses one that the layer cannot enter.
+pub fn check_app(name: &OsStr) -> Result<PathBuf, LaunchError> {
+    let path = find(name)?;
+    // A script is not looked into: the programs it starts inherit the layer.
+    if let Ok(Some(elf)) = Elf::open(&path)
+        && let Some(reason) = closed(&path, &elf)
+    {
+        return Err(LaunchError::AppClosed { path, reason });
+    }
+    Ok(path)
+}
+
+/// Why the loader would not preload into this program.
+fn closed(path: &Path, elf: &Elf) -> Option<&'static str> {
+    let mode = std::fs::metadata(path).map_or(0, |about| about.permissions().mode());
+    let capabilities = getxattr(path, "security.capability", &mut [0_u8; 64]).is_ok();
+    if mode & 0o4000 != 0 {
+        Some("it is setuid and the loader ignores LD_PRELOAD")
+    } else if mode & 0o2000 != 0 {
+        Some("it is setgid and the loader ignores LD_PRELOAD")
+    } else if capabilities {
+        Some("it has file capabilities and the loader ignores LD_PRELOAD")
+    } else if elf.bits == 32 {
+        Some("it is a 32-bit program and the layer is a 64-bit library")
+    } else if !elf.is_native() {
+        Some("it is a program for another machine")
+    } else if !elf.has_interpreter {
+        Some("it is statically linked and loads no libraries")
+    } else {
+        None
+    }
+}
+
+fn find(name: &OsStr) -> Result<PathBuf, LaunchError> {
+    let direct = Path::new(name);
+    if name.as_encoded_bytes().contains(&b'/') {
+        if !direct.exists() {
+            return Err(LaunchError::AppNotFound(direct.display().to_string()));
+        }
+        return executable(direct).map(|()| direct.to_owned());
+    }
+    let path = std::env::var_os("PATH").unwrap_or_default();
+    let mut refused = None;
+    for candidate in std::env::split_paths(&path).map(|folder| folder.join(name)) {
+        match executable(&candidate) {
+            Ok(()) => return Ok(candidate),
+            Err(error) if candidate.is_file() => refused = refused.or(Some(error)),
+            Err(_) => {}
+        }
+    }
+    Err(refused.unwrap_or_else(|| LaunchError::AppNotFound(direct.display().to_string())))
+}
+
+fn executable(path: &Path) -> Result<(), LaunchError> {
+    let no = |reason: String| LaunchError::AppNotExecutable {
+        path: path.to_owned(),
+        reason,
+    };
+    let about = std::fs::metadata(path).map_err(|error| no(error.to_string()))?;
+    if !about.is_file() {
+        return Err(no("it is not a file; give the program itself".to_owned()));
+    }
+    access(path, Access::EXEC_OK)
+        .map_err(|_| no("it is not executable; check its permissions".to_owned()))
+}
+
+/// The folders of the report and of the pictures must be there and writable.
+pub fn check_files(config: &Config) -> Result<(), LaunchError> {
+    if let Some(report) = &config.report {
+        writable("the report", report)?;
+    }
+    if let Some(capture) = &config.capture {
+        writable("the picture", &capture.path_for(capture.first))?;
+    }
+    Ok(())
+}
+
+/// Checks that a file can be made or replaced in its folder.
+pub fn writable(purpose: &'static str, path: &Path) -> Result<(), LaunchError> {
+    let no = |reason: String| LaunchError::NotWritable {
+        purpose,
+        path: path.to_owned(),
+        reason,
+    };
+    if path.is_dir() || path.file_name().is_none() {
+        return Err(no("that is a folder; give the name of a file".to_owned()));
+    }
+    let folder = match path.parent() {
+        Some(folder) if folder != Path::new("") => folder,
+        _ => Path::new("."),
+    };
+    if !folder.is_dir() {
+        return Err(no(format!("there is no folder {}", folder.display())));
+    }
+    access(folder, Access::WRITE_OK | Access::EXEC_OK)
+        .map_err(|_| no(format!("the folder {} is not writable", folder.display())))
+}

@@ -1,0 +1,138 @@
+//! The program under the layer: its environment, its start and its exit status.
+#![forbid(unsafe_code)]
+
+use super::error::LaunchError;
+use super::{library, preflight, preload, signals};
+use crate::config::{Config, OPTIONS, Settings};
+use rustix::process::{Pid, Signal, kill_process};
+use std::ffi::OsString;
+use std::io::ErrorKind;
+use std::os::unix::process::{CommandExt, ExitStatusExt};
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, ExitStatus};
+
+/// A program that has passed every check and can be started.
+#[derive(Debug)]
+pub struct Launch {
+    app: PathBuf,
+    name: OsString,
+    arguments: Vec<OsString>,
+    library: PathBuf,
+    variables: Vec<(String, String)>,
+    /// The options, understood.
+    pub config: Config,
+}
+
+/// How a program ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Ended(pub ExitStatus);
+
+impl Ended {
+    /// Its exit status, or 128 + the signal that killed it, as a shell counts.
+    #[must_use]
+    pub fn code(self) -> u8 {
+        let code = self
+            .0
+            .code()
+            .or_else(|| self.0.signal().map(|signal| 128 + signal));
+        code.and_then(|code| u8::try_from(code).ok())
+            .unwrap_or(u8::MAX)
+    }
+
+    /// In words.
+    #[must_use]
+    pub fn describe(self) -> String {
+        match (self.0.code(), self.0.signal()) {
+            (Some(code), _) => format!("with status {code}"),
+            (_, Some(signal)) => format!("by signal {signal}"),
+            _ => "for an unknown reason".to_owned(),
+        }
+    }
+}
+
+impl Launch {
+    /// Checks options, files, program and library, in this order. `command` is the program and its arguments.
+    pub fn prepare(command: &[OsString], settings: &Settings) -> Result<Self, LaunchError> {
+        let config = Config::from_settings(settings)?;
+        preflight::check_files(&config)?;
+        let Some((name, arguments)) = command.split_first() else {
+            return Err(LaunchError::AppNotFound("no program".to_owned()));
+        };
+        let app = preflight::check_app(name)?;
+        let library = library::find()?;
+        let folder = std::env::current_dir().map_err(|source| LaunchError::System {
+            doing: "finding the current folder",
+            source,
+        })?;
+        let variables = settings.to_env(&folder);
+        Ok(Self {
+            app,
+            name: name.clone(),
+            arguments: arguments.to_vec(),
+            library,
+            variables,
+            config,
+        })
+    }
+
+    /// Runs the program to its end, in our place as far as signals and exit status go.
+    pub fn run(&self) -> Result<Ended, LaunchError> {
+        let mut signals = signals::catch()?;
+        let mut child = self.spawn(self.command())?;
+        let pid = Pid::from_child(&child);
+        let handle = signals.handle();
+        let forwarder = std::thread::spawn(move || {
+            for signal in signals.forever() {
+                if !signals::from_keyboard(signal) {
+                    forward(pid, signal);
+                }
+            }
+        });
+        let status = child.wait().map_err(|source| LaunchError::System {
+            doing: "waiting for the program",
+            source,
+        });
+        handle.close();
+        // The thread only forwards; it cannot fail in a way that matters now.
+        let _ = forwarder.join();
+        status.map(Ended)
+    }
+
+    /// The command with the layer in its environment.
+    pub(super) fn command(&self) -> Command {
+        let mut command = Command::new(&self.app);
+        command.arg0(&self.name).args(&self.arguments);
+        for spec in OPTIONS {
+            command.env_remove(spec.variable);
+        }
+        command.envs(self.variables.iter().map(|(name, value)| (name, value)));
+        command.env("LD_PRELOAD", preload_value(&self.library));
+        command
+    }
+
+    /// Starts the command; what the system refuses now is about the program.
+    pub(super) fn spawn(&self, mut command: Command) -> Result<Child, LaunchError> {
+        command.spawn().map_err(|error| {
+            let reason = match error.kind() {
+                ErrorKind::NotFound => "the interpreter it asks for is missing".to_owned(),
+                _ => format!("it cannot be executed ({error})"),
+            };
+            LaunchError::AppNotExecutable {
+                path: self.app.clone(),
+                reason,
+            }
+        })
+    }
+}
+
+/// `LD_PRELOAD` for this environment and this library.
+pub(super) fn preload_value(library: &Path) -> OsString {
+    preload::with_library(library, std::env::var_os("LD_PRELOAD").as_deref())
+}
+
+fn forward(pid: Pid, signal: i32) {
+    if let Some(signal) = Signal::from_named_raw(signal) {
+        // It may have ended in between.
+        let _ = kill_process(pid, signal);
+    }
+}

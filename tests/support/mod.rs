@@ -1,0 +1,359 @@
+//! What the tests share: where the binaries are, a screen, demos bare and under the layer, pictures.
+#![forbid(unsafe_code)]
+#![allow(dead_code, reason = "each test file uses its part")]
+
+use image::{ImageBuffer, RgbImage, Rgba};
+use manyview::config::OPTIONS;
+use manyview::launch::Xvfb;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+use std::sync::Mutex;
+use std::time::{Duration, Instant};
+
+/// An 8-bit picture, row 0 on top.
+pub(crate) type Picture = ImageBuffer<Rgba<u8>, Vec<u8>>;
+
+/// The folder with `manyview` and `libmanyview.so`, of the profile that the tests are built in.
+pub(crate) fn target_folder() -> &'static Path {
+    Path::new(env!("CARGO_BIN_EXE_manyview"))
+        .parent()
+        .expect("a binary lies in a folder")
+}
+
+/// The layer's library.
+pub(crate) fn library() -> PathBuf {
+    let path = target_folder().join("libmanyview.so");
+    assert!(
+        path.is_file(),
+        "{} is missing: run `make build` first",
+        path.display()
+    );
+    path
+}
+
+/// A demo program of `examples/`, such as `gears`.
+pub(crate) fn demo(name: &str) -> PathBuf {
+    let path = target_folder().with_file_name("demos").join(name);
+    assert!(
+        path.is_file(),
+        "{} is missing: run `make demos` first",
+        path.display()
+    );
+    path
+}
+
+/// The command, with nothing of the caller's own settings.
+pub(crate) fn manyview() -> Command {
+    without_layer(Command::new(env!("CARGO_BIN_EXE_manyview")))
+}
+
+/// Any program, with nothing of the caller's own settings.
+pub(crate) fn bare(program: impl AsRef<std::ffi::OsStr>) -> Command {
+    without_layer(Command::new(program))
+}
+
+/// A program with the layer preloaded, by variables only. Pairs are names without `MANYVIEW_` and values.
+pub(crate) fn layered(program: impl AsRef<std::ffi::OsStr>, options: &[(&str, &str)]) -> Command {
+    let mut command = bare(program);
+    command.env("LD_PRELOAD", library());
+    command.envs(
+        options
+            .iter()
+            .map(|(name, value)| (format!("MANYVIEW_{name}"), value)),
+    );
+    command
+}
+
+fn without_layer(mut command: Command) -> Command {
+    command
+        .env_remove("LD_PRELOAD")
+        .env_remove("MANYVIEW_DISABLE")
+        .env_remove("MANYVIEW_LIBRARY");
+    for spec in OPTIONS {
+        command.env_remove(spec.variable);
+    }
+    command
+}
+
+/// Adds a screen: the one of this test process, started with the first call.
+///
+/// It ends with the returned [`Screen`]s: keep one in a variable as long as programs run.
+pub(crate) fn screen() -> Screen {
+    let mut shared = SHARED
+        .lock()
+        .unwrap_or_else(std::sync::PoisonError::into_inner);
+    if shared.users == 0 {
+        shared.server = Some(Xvfb::start().expect("Xvfb; `make packages` installs it"));
+    }
+    shared.users += 1;
+    Screen {
+        display: shared
+            .server
+            .as_ref()
+            .expect("just started")
+            .display()
+            .to_owned(),
+        own: None,
+    }
+}
+
+/// Adds a screen that nothing else is drawn on: the picture of a window is undefined where another one covers it.
+pub(crate) fn own_screen() -> Screen {
+    let server = Xvfb::start().expect("Xvfb; `make packages` installs it");
+    Screen {
+        display: server.display().to_owned(),
+        own: Some(server),
+    }
+}
+
+static SHARED: Mutex<Shared> = Mutex::new(Shared {
+    users: 0,
+    server: None,
+});
+
+struct Shared {
+    users: usize,
+    server: Option<Xvfb>,
+}
+
+/// A share in the screen of this process. The last one to go ends the server: statics are never dropped.
+pub(crate) struct Screen {
+    display: String,
+    own: Option<Xvfb>,
+}
+
+impl Screen {
+    /// Lets a program use this screen.
+    pub(crate) fn give<'a>(&self, command: &'a mut Command) -> &'a mut Command {
+        command
+            .env("DISPLAY", &self.display)
+            .env_remove("WAYLAND_DISPLAY")
+    }
+}
+
+impl Drop for Screen {
+    fn drop(&mut self) {
+        if self.own.is_some() {
+            return;
+        }
+        let mut shared = SHARED
+            .lock()
+            .unwrap_or_else(std::sync::PoisonError::into_inner);
+        shared.users -= 1;
+        if shared.users == 0 {
+            shared.server = None;
+        }
+    }
+}
+
+/// Runs a command to its end; anything but status 0 fails the test with what the command said.
+#[track_caller]
+pub(crate) fn succeed(command: &mut Command) -> Output {
+    let output = command
+        .output()
+        .unwrap_or_else(|error| panic!("{command:?}: {error}"));
+    let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
+    assert!(
+        output.status.success(),
+        "{command:?}\n{}\n{}{}",
+        output.status,
+        text(&output.stdout),
+        text(&output.stderr)
+    );
+    output
+}
+
+/// Reads a picture as 8-bit RGBA.
+#[track_caller]
+pub(crate) fn read_png(path: &Path) -> Picture {
+    image::open(path)
+        .unwrap_or_else(|error| panic!("{}: {error}", path.display()))
+        .into_rgba8()
+}
+
+/// Runs `demo ARGUMENTS --dump PNG` without the layer and reads what it drew.
+#[track_caller]
+pub(crate) fn dump(demo_name: &str, arguments: &[&str]) -> Picture {
+    let folder = tempfile::tempdir().expect("a folder");
+    let out = folder.path().join("out.png");
+    let screen = screen();
+    succeed(
+        screen.give(
+            bare(demo(demo_name))
+                .args(arguments)
+                .arg("--dump")
+                .arg(&out),
+        ),
+    );
+    read_png(&out)
+}
+
+/// Runs `demo ARGUMENTS` under the layer and reads the picture of one frame.
+#[track_caller]
+pub(crate) fn capture(demo_name: &str, arguments: &[&str], frame: u64, layer: &[&str]) -> Picture {
+    let folder = tempfile::tempdir().expect("a folder");
+    let out = folder.path().join("out.png");
+    library();
+    let screen = screen();
+    let mut command = manyview();
+    command
+        .arg("capture")
+        .arg("--out")
+        .arg(&out)
+        .args(["--frame", &frame.to_string()])
+        .args(layer);
+    succeed(screen.give(command.arg("--").arg(demo(demo_name)).args(arguments)));
+    read_png(&out)
+}
+
+/// Reads a picture as 8-bit RGB.
+#[track_caller]
+pub(crate) fn rgb(path: &Path) -> RgbImage {
+    image::open(path)
+        .unwrap_or_else(|error| panic!("{}: {error}", path.display()))
+        .into_rgb8()
+}
+
+/// A folder in `target/` for what a person may want to look at after a test; made if need be.
+pub(crate) fn scratch(name: &str) -> PathBuf {
+    let path = target_folder().with_file_name(name);
+    std::fs::create_dir_all(&path).expect("a folder in target");
+    path
+}
+
+/// Builds `tests/support/c/NAME.c` with the C compiler that the demos need as well; a library to preload, or a program.
+pub(crate) fn compiled(name: &str, kind: Compiled, libraries: &[&str]) -> PathBuf {
+    let source = Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("tests/support/c")
+        .join(name)
+        .with_extension("c");
+    let folder = scratch("test-programs");
+    let out = match kind {
+        Compiled::Library => folder.join(format!("{name}.so")),
+        Compiled::Program => folder.join(name),
+    };
+    // Tests run side by side, also as processes: each builds its own and renames it, which is atomic.
+    let own = tempfile::Builder::new()
+        .tempfile_in(&folder)
+        .expect("a file")
+        .into_temp_path();
+    let mut command = Command::new("cc");
+    command.args(["-O1", "-Wall", "-Wextra"]);
+    if let Compiled::Library = kind {
+        command.args(["-shared", "-fPIC"]);
+    }
+    succeed(command.arg("-o").arg(&own).arg(source).args(libraries));
+    own.persist(&out).expect("renamed");
+    out
+}
+
+/// What [`compiled`] makes.
+#[derive(Clone, Copy)]
+pub(crate) enum Compiled {
+    Library,
+    Program,
+}
+
+/// Lets a command write what its X window really shows after a swap (from 1), to be read by [`window_picture`].
+///
+/// That is the picture itself, without any glReadPixels: Mesa's answers those of multisampled windows unresolved.
+pub(crate) fn watch_window(command: &mut Command, library: &Path, frame: u32, out: &Path) {
+    let before = command
+        .get_envs()
+        .find(|(name, _)| *name == "LD_PRELOAD")
+        .and_then(|(_, value)| value)
+        .map(|value| value.to_os_string());
+    // In front, so that it is called before the layer and looks after it.
+    let mut preload = library.as_os_str().to_os_string();
+    if let Some(before) = before {
+        preload.push(":");
+        preload.push(before);
+    }
+    command
+        .env("LD_PRELOAD", preload)
+        .env("WINDOW_FRAME", frame.to_string())
+        .env("WINDOW_DUMP", out);
+}
+
+/// The library for [`watch_window`].
+pub(crate) fn window_library() -> PathBuf {
+    compiled("window", Compiled::Library, &["-lX11", "-ldl"])
+}
+
+/// Reads what [`watch_window`] had written: a binary PPM.
+#[track_caller]
+pub(crate) fn window_picture(path: &Path) -> RgbImage {
+    let bytes = std::fs::read(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+    let mut lines = bytes.splitn(4, |&byte| byte == b'\n');
+    assert_eq!(lines.next(), Some(&b"P6"[..]), "a binary PPM");
+    let size = std::str::from_utf8(lines.next().expect("a size")).expect("text");
+    let (width, height) = size.split_once(' ').expect("two numbers");
+    assert_eq!(lines.next(), Some(&b"255"[..]), "8 bits");
+    let data = lines.next().expect("pixels").to_vec();
+    RgbImage::from_raw(
+        width.parse().expect("a width"),
+        height.parse().expect("a height"),
+        data,
+    )
+    .expect("all pixels")
+}
+
+/// Whether a program of an optional package is there; says what is left out if not.
+pub(crate) fn has(program: &str) -> bool {
+    let path = std::env::var_os("PATH").unwrap_or_default();
+    let found = std::env::split_paths(&path).any(|folder| folder.join(program).is_file());
+    if !found {
+        eprintln!("skipped: {program} is not installed (make packages)");
+    }
+    found
+}
+
+/// Starts a program that never ends by itself, waits until a file is there, and ends exactly this program.
+#[track_caller]
+pub(crate) fn run_until(command: &mut Command, file: &Path) {
+    let mut child = command
+        .spawn()
+        .unwrap_or_else(|error| panic!("{command:?}: {error}"));
+    let limit = Instant::now() + Duration::from_secs(60);
+    let mut ended = None;
+    while !file.is_file() && ended.is_none() && Instant::now() < limit {
+        std::thread::sleep(Duration::from_millis(10));
+        ended = child.try_wait().expect("a child");
+    }
+    let _ = child.kill();
+    let _ = child.wait();
+    assert!(
+        file.is_file(),
+        "{command:?}: no {} ({ended:?})",
+        file.display()
+    );
+}
+
+/// Records what a program calls with apitrace, cut to the frames 0 to 30. The program is interrupted after some seconds.
+pub(crate) fn record(
+    screen: &Screen,
+    program: &[&str],
+    seconds: u32,
+    api: &str,
+    folder: &Path,
+) -> PathBuf {
+    let (full, cut) = (folder.join("full.trace"), folder.join("cut.trace"));
+    let mut command = bare("timeout");
+    command
+        .args(["-k", "5", "-s", "INT", &seconds.to_string()])
+        .args(["apitrace", "trace", "-a", api, "-o"])
+        .arg(&full)
+        .args(program)
+        // Games find no sound card and need none.
+        .env("SDL_AUDIODRIVER", "dummy")
+        .stdout(Stdio::null())
+        .stderr(Stdio::null());
+    // Interrupted, so its status says nothing; the trace does.
+    let _ = screen.give(&mut command).status().expect("timeout");
+    let mut trim = bare("apitrace");
+    trim.args(["trim", "--frames=0-30", "-o"])
+        .arg(&cut)
+        .arg(&full);
+    succeed(&mut trim);
+    cut
+}
