@@ -56,7 +56,7 @@ pictures: packages build demos ## make the picture of the README
 test: packages build demos ## run the tests
 	@if $(CARGO) nextest --version >/dev/null 2>&1; \
 	then $(CARGO) nextest run --release --no-fail-fast --no-tests=warn --workspace; \
-	else $(CARGO) test --release --workspace --lib --bins --tests; fi
+	else $(CARGO) test --release --no-fail-fast --workspace --lib --bins --tests; fi
 	$(CARGO) test --release -p manyview --doc
 
 test-long: packages build demos ## run the tests that take long as well

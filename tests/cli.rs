@@ -235,8 +235,9 @@ fn signals_reach_the_program() {
     let mut ready = [0; 6];
     let pipe = child.stdout.as_mut().expect("a pipe");
     std::io::Read::read_exact(pipe, &mut ready).expect("ready");
-    let killed = Command::new("kill")
-        .args(["-TERM", &child.id().to_string()])
+    // The shell's own `kill`: a small Debian has no other.
+    let killed = Command::new("sh")
+        .args(["-c", &format!("kill -TERM {}", child.id())])
         .status()
         .expect("kill");
     assert!(killed.success(), "the signal is sent");
