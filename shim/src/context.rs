@@ -266,7 +266,6 @@ fn forget(context: *mut Context) {
 
 /// The program destroys a context. GL calls it only when it is current nowhere; until then the handle stays valid.
 pub(crate) fn destroyed(provider: Provider, handle: Ptr) {
-    let current = THREAD.with(|t| t.context.get());
     let found = {
         let registry = CONTEXTS.lock().unwrap_or_else(PoisonError::into_inner);
         // SAFETY: as in `find`.
@@ -274,13 +273,10 @@ pub(crate) fn destroyed(provider: Provider, handle: Ptr) {
             (*c).provider == provider && (*c).handle == handle && !(*c).destroyed
         })
     };
-    let Some(context) = found else { return };
-    if context == current {
-        // SAFETY: current on this thread.
-        unsafe { (*context).destroyed = true };
-    } else {
-        // A context that is current in another thread lives on there; its record is left to it (a few kilobytes).
-        // SAFETY: only the flag that `find` reads under the lock is written.
+    if let Some(context) = found {
+        // Current on this thread: its record goes when it is released. Current on another: the record (a few kilobytes) is left to
+        // that thread, which may be using it.
+        // SAFETY: boxes of the list live; only the flag that `find` reads under the lock is written.
         unsafe { (*context).destroyed = true };
     }
 }
