@@ -121,7 +121,7 @@ fn flat_quads_in_a_loop() {
     let mut key = FixedKey {
         target: target(
             Amplifier::GeometryLoop,
-            Tiles::ClipFourSides,
+            Tiles::ClipLeftRight,
             Primitive::Quads,
             5,
         ),
@@ -257,16 +257,22 @@ fn refused_with_a_reason() {
     let planes = FixedKey {
         clip_planes: 0b1_1111,
         target: Target {
-            tiles: Tiles::ClipFourSides,
+            tiles: Tiles::ClipLeftRight,
             ..Target::default()
         },
         ..FixedKey::default()
     };
     assert_eq!(
-        generate(&planes, &limits()),
+        generate(
+            &planes,
+            &Limits {
+                clip_distances: 6,
+                ..limits()
+            }
+        ),
         Err(Unsupported::ClipDistances {
-            needed: 9,
-            limit: 8
+            needed: 7,
+            limit: 6
         })
     );
     let dull = Lighting {

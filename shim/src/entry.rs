@@ -2492,2565 +2492,6452 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 771] = [
 ];
 
 export! { 0, glVertex2d, first_glVertex2d, hook_glVertex2d, (x: f64, y: f64) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertex2d, Effect::VERTEX) { unsafe { rec.f64(x); rec.f64(y); } } else { let gl = hooks::real(); unsafe { gl.glVertex2d(x, y) }; }
+    if let Some(rec) = imm::recording(slot::glVertex2d, Effect::VERTEX) {
+        rec.f64(x);
+        rec.f64(y);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertex2d(x, y) };
+    }
 } }
 export! { 1, glVertex2dv, first_glVertex2dv, hook_glVertex2dv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertex2dv, Effect::VERTEX) { unsafe { rec.slice(v as *const f64, 2); } } else { let gl = hooks::real(); unsafe { gl.glVertex2dv(v) }; }
+    if let Some(rec) = imm::recording(slot::glVertex2dv, Effect::VERTEX) {
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const f64, 2) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertex2dv(v) };
+    }
 } }
 export! { 2, glVertex2f, first_glVertex2f, hook_glVertex2f, (x: f32, y: f32) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertex2f, Effect::VERTEX) { unsafe { rec.f32(x); rec.f32(y); } } else { let gl = hooks::real(); unsafe { gl.glVertex2f(x, y) }; }
+    if let Some(rec) = imm::recording(slot::glVertex2f, Effect::VERTEX) {
+        rec.f32(x);
+        rec.f32(y);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertex2f(x, y) };
+    }
 } }
 export! { 3, glVertex2fv, first_glVertex2fv, hook_glVertex2fv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertex2fv, Effect::VERTEX) { unsafe { rec.slice(v as *const f32, 2); } } else { let gl = hooks::real(); unsafe { gl.glVertex2fv(v) }; }
+    if let Some(rec) = imm::recording(slot::glVertex2fv, Effect::VERTEX) {
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const f32, 2) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertex2fv(v) };
+    }
 } }
 export! { 4, glVertex2i, first_glVertex2i, hook_glVertex2i, (x: i32, y: i32) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertex2i, Effect::VERTEX) { unsafe { rec.i32(x); rec.i32(y); } } else { let gl = hooks::real(); unsafe { gl.glVertex2i(x, y) }; }
+    if let Some(rec) = imm::recording(slot::glVertex2i, Effect::VERTEX) {
+        rec.i32(x);
+        rec.i32(y);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertex2i(x, y) };
+    }
 } }
 export! { 5, glVertex2iv, first_glVertex2iv, hook_glVertex2iv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertex2iv, Effect::VERTEX) { unsafe { rec.slice(v as *const i32, 2); } } else { let gl = hooks::real(); unsafe { gl.glVertex2iv(v) }; }
+    if let Some(rec) = imm::recording(slot::glVertex2iv, Effect::VERTEX) {
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const i32, 2) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertex2iv(v) };
+    }
 } }
 export! { 6, glVertex2s, first_glVertex2s, hook_glVertex2s, (x: i16, y: i16) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertex2s, Effect::VERTEX) { unsafe { rec.i16(x); rec.i16(y); } } else { let gl = hooks::real(); unsafe { gl.glVertex2s(x, y) }; }
+    if let Some(rec) = imm::recording(slot::glVertex2s, Effect::VERTEX) {
+        rec.i16(x);
+        rec.i16(y);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertex2s(x, y) };
+    }
 } }
 export! { 7, glVertex2sv, first_glVertex2sv, hook_glVertex2sv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertex2sv, Effect::VERTEX) { unsafe { rec.slice(v as *const i16, 2); } } else { let gl = hooks::real(); unsafe { gl.glVertex2sv(v) }; }
+    if let Some(rec) = imm::recording(slot::glVertex2sv, Effect::VERTEX) {
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const i16, 2) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertex2sv(v) };
+    }
 } }
 export! { 8, glVertex3d, first_glVertex3d, hook_glVertex3d, (x: f64, y: f64, z: f64) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertex3d, Effect::VERTEX) { unsafe { rec.f64(x); rec.f64(y); rec.f64(z); } } else { let gl = hooks::real(); unsafe { gl.glVertex3d(x, y, z) }; }
+    if let Some(rec) = imm::recording(slot::glVertex3d, Effect::VERTEX) {
+        rec.f64(x);
+        rec.f64(y);
+        rec.f64(z);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertex3d(x, y, z) };
+    }
 } }
 export! { 9, glVertex3dv, first_glVertex3dv, hook_glVertex3dv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertex3dv, Effect::VERTEX) { unsafe { rec.slice(v as *const f64, 3); } } else { let gl = hooks::real(); unsafe { gl.glVertex3dv(v) }; }
+    if let Some(rec) = imm::recording(slot::glVertex3dv, Effect::VERTEX) {
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const f64, 3) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertex3dv(v) };
+    }
 } }
 export! { 10, glVertex3f, first_glVertex3f, hook_glVertex3f, (x: f32, y: f32, z: f32) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertex3f, Effect::VERTEX) { unsafe { rec.f32(x); rec.f32(y); rec.f32(z); } } else { let gl = hooks::real(); unsafe { gl.glVertex3f(x, y, z) }; }
+    if let Some(rec) = imm::recording(slot::glVertex3f, Effect::VERTEX) {
+        rec.f32(x);
+        rec.f32(y);
+        rec.f32(z);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertex3f(x, y, z) };
+    }
 } }
 export! { 11, glVertex3fv, first_glVertex3fv, hook_glVertex3fv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertex3fv, Effect::VERTEX) { unsafe { rec.slice(v as *const f32, 3); } } else { let gl = hooks::real(); unsafe { gl.glVertex3fv(v) }; }
+    if let Some(rec) = imm::recording(slot::glVertex3fv, Effect::VERTEX) {
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const f32, 3) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertex3fv(v) };
+    }
 } }
 export! { 12, glVertex3i, first_glVertex3i, hook_glVertex3i, (x: i32, y: i32, z: i32) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertex3i, Effect::VERTEX) { unsafe { rec.i32(x); rec.i32(y); rec.i32(z); } } else { let gl = hooks::real(); unsafe { gl.glVertex3i(x, y, z) }; }
+    if let Some(rec) = imm::recording(slot::glVertex3i, Effect::VERTEX) {
+        rec.i32(x);
+        rec.i32(y);
+        rec.i32(z);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertex3i(x, y, z) };
+    }
 } }
 export! { 13, glVertex3iv, first_glVertex3iv, hook_glVertex3iv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertex3iv, Effect::VERTEX) { unsafe { rec.slice(v as *const i32, 3); } } else { let gl = hooks::real(); unsafe { gl.glVertex3iv(v) }; }
+    if let Some(rec) = imm::recording(slot::glVertex3iv, Effect::VERTEX) {
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const i32, 3) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertex3iv(v) };
+    }
 } }
 export! { 14, glVertex3s, first_glVertex3s, hook_glVertex3s, (x: i16, y: i16, z: i16) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertex3s, Effect::VERTEX) { unsafe { rec.i16(x); rec.i16(y); rec.i16(z); } } else { let gl = hooks::real(); unsafe { gl.glVertex3s(x, y, z) }; }
+    if let Some(rec) = imm::recording(slot::glVertex3s, Effect::VERTEX) {
+        rec.i16(x);
+        rec.i16(y);
+        rec.i16(z);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertex3s(x, y, z) };
+    }
 } }
 export! { 15, glVertex3sv, first_glVertex3sv, hook_glVertex3sv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertex3sv, Effect::VERTEX) { unsafe { rec.slice(v as *const i16, 3); } } else { let gl = hooks::real(); unsafe { gl.glVertex3sv(v) }; }
+    if let Some(rec) = imm::recording(slot::glVertex3sv, Effect::VERTEX) {
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const i16, 3) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertex3sv(v) };
+    }
 } }
 export! { 16, glVertex4d, first_glVertex4d, hook_glVertex4d, (x: f64, y: f64, z: f64, w: f64) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertex4d, Effect::VERTEX) { unsafe { rec.f64(x); rec.f64(y); rec.f64(z); rec.f64(w); } } else { let gl = hooks::real(); unsafe { gl.glVertex4d(x, y, z, w) }; }
+    if let Some(rec) = imm::recording(slot::glVertex4d, Effect::VERTEX) {
+        rec.f64(x);
+        rec.f64(y);
+        rec.f64(z);
+        rec.f64(w);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertex4d(x, y, z, w) };
+    }
 } }
 export! { 17, glVertex4dv, first_glVertex4dv, hook_glVertex4dv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertex4dv, Effect::VERTEX) { unsafe { rec.slice(v as *const f64, 4); } } else { let gl = hooks::real(); unsafe { gl.glVertex4dv(v) }; }
+    if let Some(rec) = imm::recording(slot::glVertex4dv, Effect::VERTEX) {
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const f64, 4) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertex4dv(v) };
+    }
 } }
 export! { 18, glVertex4f, first_glVertex4f, hook_glVertex4f, (x: f32, y: f32, z: f32, w: f32) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertex4f, Effect::VERTEX) { unsafe { rec.f32(x); rec.f32(y); rec.f32(z); rec.f32(w); } } else { let gl = hooks::real(); unsafe { gl.glVertex4f(x, y, z, w) }; }
+    if let Some(rec) = imm::recording(slot::glVertex4f, Effect::VERTEX) {
+        rec.f32(x);
+        rec.f32(y);
+        rec.f32(z);
+        rec.f32(w);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertex4f(x, y, z, w) };
+    }
 } }
 export! { 19, glVertex4fv, first_glVertex4fv, hook_glVertex4fv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertex4fv, Effect::VERTEX) { unsafe { rec.slice(v as *const f32, 4); } } else { let gl = hooks::real(); unsafe { gl.glVertex4fv(v) }; }
+    if let Some(rec) = imm::recording(slot::glVertex4fv, Effect::VERTEX) {
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const f32, 4) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertex4fv(v) };
+    }
 } }
 export! { 20, glVertex4i, first_glVertex4i, hook_glVertex4i, (x: i32, y: i32, z: i32, w: i32) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertex4i, Effect::VERTEX) { unsafe { rec.i32(x); rec.i32(y); rec.i32(z); rec.i32(w); } } else { let gl = hooks::real(); unsafe { gl.glVertex4i(x, y, z, w) }; }
+    if let Some(rec) = imm::recording(slot::glVertex4i, Effect::VERTEX) {
+        rec.i32(x);
+        rec.i32(y);
+        rec.i32(z);
+        rec.i32(w);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertex4i(x, y, z, w) };
+    }
 } }
 export! { 21, glVertex4iv, first_glVertex4iv, hook_glVertex4iv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertex4iv, Effect::VERTEX) { unsafe { rec.slice(v as *const i32, 4); } } else { let gl = hooks::real(); unsafe { gl.glVertex4iv(v) }; }
+    if let Some(rec) = imm::recording(slot::glVertex4iv, Effect::VERTEX) {
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const i32, 4) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertex4iv(v) };
+    }
 } }
 export! { 22, glVertex4s, first_glVertex4s, hook_glVertex4s, (x: i16, y: i16, z: i16, w: i16) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertex4s, Effect::VERTEX) { unsafe { rec.i16(x); rec.i16(y); rec.i16(z); rec.i16(w); } } else { let gl = hooks::real(); unsafe { gl.glVertex4s(x, y, z, w) }; }
+    if let Some(rec) = imm::recording(slot::glVertex4s, Effect::VERTEX) {
+        rec.i16(x);
+        rec.i16(y);
+        rec.i16(z);
+        rec.i16(w);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertex4s(x, y, z, w) };
+    }
 } }
 export! { 23, glVertex4sv, first_glVertex4sv, hook_glVertex4sv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertex4sv, Effect::VERTEX) { unsafe { rec.slice(v as *const i16, 4); } } else { let gl = hooks::real(); unsafe { gl.glVertex4sv(v) }; }
+    if let Some(rec) = imm::recording(slot::glVertex4sv, Effect::VERTEX) {
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const i16, 4) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertex4sv(v) };
+    }
 } }
 export! { 24, glVertex2hNV, first_glVertex2hNV, hook_glVertex2hNV, (x: u16, y: u16) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertex2hNV, Effect::VERTEX) { unsafe { rec.u16(x); rec.u16(y); } } else { let gl = hooks::real(); unsafe { gl.glVertex2hNV(x, y) }; }
+    if let Some(rec) = imm::recording(slot::glVertex2hNV, Effect::VERTEX) {
+        rec.u16(x);
+        rec.u16(y);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertex2hNV(x, y) };
+    }
 } }
 export! { 25, glVertex2hvNV, first_glVertex2hvNV, hook_glVertex2hvNV, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertex2hvNV, Effect::VERTEX) { unsafe { rec.slice(v as *const u16, 2); } } else { let gl = hooks::real(); unsafe { gl.glVertex2hvNV(v) }; }
+    if let Some(rec) = imm::recording(slot::glVertex2hvNV, Effect::VERTEX) {
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const u16, 2) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertex2hvNV(v) };
+    }
 } }
 export! { 26, glVertex3hNV, first_glVertex3hNV, hook_glVertex3hNV, (x: u16, y: u16, z: u16) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertex3hNV, Effect::VERTEX) { unsafe { rec.u16(x); rec.u16(y); rec.u16(z); } } else { let gl = hooks::real(); unsafe { gl.glVertex3hNV(x, y, z) }; }
+    if let Some(rec) = imm::recording(slot::glVertex3hNV, Effect::VERTEX) {
+        rec.u16(x);
+        rec.u16(y);
+        rec.u16(z);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertex3hNV(x, y, z) };
+    }
 } }
 export! { 27, glVertex3hvNV, first_glVertex3hvNV, hook_glVertex3hvNV, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertex3hvNV, Effect::VERTEX) { unsafe { rec.slice(v as *const u16, 3); } } else { let gl = hooks::real(); unsafe { gl.glVertex3hvNV(v) }; }
+    if let Some(rec) = imm::recording(slot::glVertex3hvNV, Effect::VERTEX) {
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const u16, 3) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertex3hvNV(v) };
+    }
 } }
 export! { 28, glVertex4hNV, first_glVertex4hNV, hook_glVertex4hNV, (x: u16, y: u16, z: u16, w: u16) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertex4hNV, Effect::VERTEX) { unsafe { rec.u16(x); rec.u16(y); rec.u16(z); rec.u16(w); } } else { let gl = hooks::real(); unsafe { gl.glVertex4hNV(x, y, z, w) }; }
+    if let Some(rec) = imm::recording(slot::glVertex4hNV, Effect::VERTEX) {
+        rec.u16(x);
+        rec.u16(y);
+        rec.u16(z);
+        rec.u16(w);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertex4hNV(x, y, z, w) };
+    }
 } }
 export! { 29, glVertex4hvNV, first_glVertex4hvNV, hook_glVertex4hvNV, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertex4hvNV, Effect::VERTEX) { unsafe { rec.slice(v as *const u16, 4); } } else { let gl = hooks::real(); unsafe { gl.glVertex4hvNV(v) }; }
+    if let Some(rec) = imm::recording(slot::glVertex4hvNV, Effect::VERTEX) {
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const u16, 4) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertex4hvNV(v) };
+    }
 } }
 export! { 30, glColor3b, first_glColor3b, hook_glColor3b, (red: i8, green: i8, blue: i8) -> (), {
-    if let Some(rec) = imm::recording(slot::glColor3b, Effect::COLOR) { unsafe { rec.i8(red); rec.i8(green); rec.i8(blue); } } else { let gl = hooks::real(); unsafe { gl.glColor3b(red, green, blue) }; }
+    if let Some(rec) = imm::recording(slot::glColor3b, Effect::COLOR) {
+        rec.i8(red);
+        rec.i8(green);
+        rec.i8(blue);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glColor3b(red, green, blue) };
+    }
 } }
 export! { 31, glColor3bv, first_glColor3bv, hook_glColor3bv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glColor3bv, Effect::COLOR) { unsafe { rec.slice(v as *const i8, 3); } } else { let gl = hooks::real(); unsafe { gl.glColor3bv(v) }; }
+    if let Some(rec) = imm::recording(slot::glColor3bv, Effect::COLOR) {
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const i8, 3) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glColor3bv(v) };
+    }
 } }
 export! { 32, glColor3d, first_glColor3d, hook_glColor3d, (red: f64, green: f64, blue: f64) -> (), {
-    if let Some(rec) = imm::recording(slot::glColor3d, Effect::COLOR) { unsafe { rec.f64(red); rec.f64(green); rec.f64(blue); } } else { let gl = hooks::real(); unsafe { gl.glColor3d(red, green, blue) }; }
+    if let Some(rec) = imm::recording(slot::glColor3d, Effect::COLOR) {
+        rec.f64(red);
+        rec.f64(green);
+        rec.f64(blue);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glColor3d(red, green, blue) };
+    }
 } }
 export! { 33, glColor3dv, first_glColor3dv, hook_glColor3dv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glColor3dv, Effect::COLOR) { unsafe { rec.slice(v as *const f64, 3); } } else { let gl = hooks::real(); unsafe { gl.glColor3dv(v) }; }
+    if let Some(rec) = imm::recording(slot::glColor3dv, Effect::COLOR) {
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const f64, 3) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glColor3dv(v) };
+    }
 } }
 export! { 34, glColor3f, first_glColor3f, hook_glColor3f, (red: f32, green: f32, blue: f32) -> (), {
-    if let Some(rec) = imm::recording(slot::glColor3f, Effect::COLOR) { unsafe { rec.f32(red); rec.f32(green); rec.f32(blue); } } else { let gl = hooks::real(); unsafe { gl.glColor3f(red, green, blue) }; }
+    if let Some(rec) = imm::recording(slot::glColor3f, Effect::COLOR) {
+        rec.f32(red);
+        rec.f32(green);
+        rec.f32(blue);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glColor3f(red, green, blue) };
+    }
 } }
 export! { 35, glColor3fv, first_glColor3fv, hook_glColor3fv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glColor3fv, Effect::COLOR) { unsafe { rec.slice(v as *const f32, 3); } } else { let gl = hooks::real(); unsafe { gl.glColor3fv(v) }; }
+    if let Some(rec) = imm::recording(slot::glColor3fv, Effect::COLOR) {
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const f32, 3) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glColor3fv(v) };
+    }
 } }
 export! { 36, glColor3i, first_glColor3i, hook_glColor3i, (red: i32, green: i32, blue: i32) -> (), {
-    if let Some(rec) = imm::recording(slot::glColor3i, Effect::COLOR) { unsafe { rec.i32(red); rec.i32(green); rec.i32(blue); } } else { let gl = hooks::real(); unsafe { gl.glColor3i(red, green, blue) }; }
+    if let Some(rec) = imm::recording(slot::glColor3i, Effect::COLOR) {
+        rec.i32(red);
+        rec.i32(green);
+        rec.i32(blue);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glColor3i(red, green, blue) };
+    }
 } }
 export! { 37, glColor3iv, first_glColor3iv, hook_glColor3iv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glColor3iv, Effect::COLOR) { unsafe { rec.slice(v as *const i32, 3); } } else { let gl = hooks::real(); unsafe { gl.glColor3iv(v) }; }
+    if let Some(rec) = imm::recording(slot::glColor3iv, Effect::COLOR) {
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const i32, 3) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glColor3iv(v) };
+    }
 } }
 export! { 38, glColor3s, first_glColor3s, hook_glColor3s, (red: i16, green: i16, blue: i16) -> (), {
-    if let Some(rec) = imm::recording(slot::glColor3s, Effect::COLOR) { unsafe { rec.i16(red); rec.i16(green); rec.i16(blue); } } else { let gl = hooks::real(); unsafe { gl.glColor3s(red, green, blue) }; }
+    if let Some(rec) = imm::recording(slot::glColor3s, Effect::COLOR) {
+        rec.i16(red);
+        rec.i16(green);
+        rec.i16(blue);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glColor3s(red, green, blue) };
+    }
 } }
 export! { 39, glColor3sv, first_glColor3sv, hook_glColor3sv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glColor3sv, Effect::COLOR) { unsafe { rec.slice(v as *const i16, 3); } } else { let gl = hooks::real(); unsafe { gl.glColor3sv(v) }; }
+    if let Some(rec) = imm::recording(slot::glColor3sv, Effect::COLOR) {
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const i16, 3) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glColor3sv(v) };
+    }
 } }
 export! { 40, glColor3ub, first_glColor3ub, hook_glColor3ub, (red: u8, green: u8, blue: u8) -> (), {
-    if let Some(rec) = imm::recording(slot::glColor3ub, Effect::COLOR) { unsafe { rec.u8(red); rec.u8(green); rec.u8(blue); } } else { let gl = hooks::real(); unsafe { gl.glColor3ub(red, green, blue) }; }
+    if let Some(rec) = imm::recording(slot::glColor3ub, Effect::COLOR) {
+        rec.u8(red);
+        rec.u8(green);
+        rec.u8(blue);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glColor3ub(red, green, blue) };
+    }
 } }
 export! { 41, glColor3ubv, first_glColor3ubv, hook_glColor3ubv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glColor3ubv, Effect::COLOR) { unsafe { rec.slice(v as *const u8, 3); } } else { let gl = hooks::real(); unsafe { gl.glColor3ubv(v) }; }
+    if let Some(rec) = imm::recording(slot::glColor3ubv, Effect::COLOR) {
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const u8, 3) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glColor3ubv(v) };
+    }
 } }
 export! { 42, glColor3ui, first_glColor3ui, hook_glColor3ui, (red: u32, green: u32, blue: u32) -> (), {
-    if let Some(rec) = imm::recording(slot::glColor3ui, Effect::COLOR) { unsafe { rec.u32(red); rec.u32(green); rec.u32(blue); } } else { let gl = hooks::real(); unsafe { gl.glColor3ui(red, green, blue) }; }
+    if let Some(rec) = imm::recording(slot::glColor3ui, Effect::COLOR) {
+        rec.u32(red);
+        rec.u32(green);
+        rec.u32(blue);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glColor3ui(red, green, blue) };
+    }
 } }
 export! { 43, glColor3uiv, first_glColor3uiv, hook_glColor3uiv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glColor3uiv, Effect::COLOR) { unsafe { rec.slice(v as *const u32, 3); } } else { let gl = hooks::real(); unsafe { gl.glColor3uiv(v) }; }
+    if let Some(rec) = imm::recording(slot::glColor3uiv, Effect::COLOR) {
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const u32, 3) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glColor3uiv(v) };
+    }
 } }
 export! { 44, glColor3us, first_glColor3us, hook_glColor3us, (red: u16, green: u16, blue: u16) -> (), {
-    if let Some(rec) = imm::recording(slot::glColor3us, Effect::COLOR) { unsafe { rec.u16(red); rec.u16(green); rec.u16(blue); } } else { let gl = hooks::real(); unsafe { gl.glColor3us(red, green, blue) }; }
+    if let Some(rec) = imm::recording(slot::glColor3us, Effect::COLOR) {
+        rec.u16(red);
+        rec.u16(green);
+        rec.u16(blue);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glColor3us(red, green, blue) };
+    }
 } }
 export! { 45, glColor3usv, first_glColor3usv, hook_glColor3usv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glColor3usv, Effect::COLOR) { unsafe { rec.slice(v as *const u16, 3); } } else { let gl = hooks::real(); unsafe { gl.glColor3usv(v) }; }
+    if let Some(rec) = imm::recording(slot::glColor3usv, Effect::COLOR) {
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const u16, 3) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glColor3usv(v) };
+    }
 } }
 export! { 46, glColor4b, first_glColor4b, hook_glColor4b, (red: i8, green: i8, blue: i8, alpha: i8) -> (), {
-    if let Some(rec) = imm::recording(slot::glColor4b, Effect::COLOR) { unsafe { rec.i8(red); rec.i8(green); rec.i8(blue); rec.i8(alpha); } } else { let gl = hooks::real(); unsafe { gl.glColor4b(red, green, blue, alpha) }; }
+    if let Some(rec) = imm::recording(slot::glColor4b, Effect::COLOR) {
+        rec.i8(red);
+        rec.i8(green);
+        rec.i8(blue);
+        rec.i8(alpha);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glColor4b(red, green, blue, alpha) };
+    }
 } }
 export! { 47, glColor4bv, first_glColor4bv, hook_glColor4bv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glColor4bv, Effect::COLOR) { unsafe { rec.slice(v as *const i8, 4); } } else { let gl = hooks::real(); unsafe { gl.glColor4bv(v) }; }
+    if let Some(rec) = imm::recording(slot::glColor4bv, Effect::COLOR) {
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const i8, 4) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glColor4bv(v) };
+    }
 } }
 export! { 48, glColor4d, first_glColor4d, hook_glColor4d, (red: f64, green: f64, blue: f64, alpha: f64) -> (), {
-    if let Some(rec) = imm::recording(slot::glColor4d, Effect::COLOR) { unsafe { rec.f64(red); rec.f64(green); rec.f64(blue); rec.f64(alpha); } } else { let gl = hooks::real(); unsafe { gl.glColor4d(red, green, blue, alpha) }; }
+    if let Some(rec) = imm::recording(slot::glColor4d, Effect::COLOR) {
+        rec.f64(red);
+        rec.f64(green);
+        rec.f64(blue);
+        rec.f64(alpha);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glColor4d(red, green, blue, alpha) };
+    }
 } }
 export! { 49, glColor4dv, first_glColor4dv, hook_glColor4dv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glColor4dv, Effect::COLOR) { unsafe { rec.slice(v as *const f64, 4); } } else { let gl = hooks::real(); unsafe { gl.glColor4dv(v) }; }
+    if let Some(rec) = imm::recording(slot::glColor4dv, Effect::COLOR) {
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const f64, 4) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glColor4dv(v) };
+    }
 } }
 export! { 50, glColor4f, first_glColor4f, hook_glColor4f, (red: f32, green: f32, blue: f32, alpha: f32) -> (), {
-    if let Some(rec) = imm::recording(slot::glColor4f, Effect::COLOR) { unsafe { rec.f32(red); rec.f32(green); rec.f32(blue); rec.f32(alpha); } } else { let gl = hooks::real(); unsafe { gl.glColor4f(red, green, blue, alpha) }; }
+    if let Some(rec) = imm::recording(slot::glColor4f, Effect::COLOR) {
+        rec.f32(red);
+        rec.f32(green);
+        rec.f32(blue);
+        rec.f32(alpha);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glColor4f(red, green, blue, alpha) };
+    }
 } }
 export! { 51, glColor4fv, first_glColor4fv, hook_glColor4fv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glColor4fv, Effect::COLOR) { unsafe { rec.slice(v as *const f32, 4); } } else { let gl = hooks::real(); unsafe { gl.glColor4fv(v) }; }
+    if let Some(rec) = imm::recording(slot::glColor4fv, Effect::COLOR) {
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const f32, 4) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glColor4fv(v) };
+    }
 } }
 export! { 52, glColor4i, first_glColor4i, hook_glColor4i, (red: i32, green: i32, blue: i32, alpha: i32) -> (), {
-    if let Some(rec) = imm::recording(slot::glColor4i, Effect::COLOR) { unsafe { rec.i32(red); rec.i32(green); rec.i32(blue); rec.i32(alpha); } } else { let gl = hooks::real(); unsafe { gl.glColor4i(red, green, blue, alpha) }; }
+    if let Some(rec) = imm::recording(slot::glColor4i, Effect::COLOR) {
+        rec.i32(red);
+        rec.i32(green);
+        rec.i32(blue);
+        rec.i32(alpha);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glColor4i(red, green, blue, alpha) };
+    }
 } }
 export! { 53, glColor4iv, first_glColor4iv, hook_glColor4iv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glColor4iv, Effect::COLOR) { unsafe { rec.slice(v as *const i32, 4); } } else { let gl = hooks::real(); unsafe { gl.glColor4iv(v) }; }
+    if let Some(rec) = imm::recording(slot::glColor4iv, Effect::COLOR) {
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const i32, 4) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glColor4iv(v) };
+    }
 } }
 export! { 54, glColor4s, first_glColor4s, hook_glColor4s, (red: i16, green: i16, blue: i16, alpha: i16) -> (), {
-    if let Some(rec) = imm::recording(slot::glColor4s, Effect::COLOR) { unsafe { rec.i16(red); rec.i16(green); rec.i16(blue); rec.i16(alpha); } } else { let gl = hooks::real(); unsafe { gl.glColor4s(red, green, blue, alpha) }; }
+    if let Some(rec) = imm::recording(slot::glColor4s, Effect::COLOR) {
+        rec.i16(red);
+        rec.i16(green);
+        rec.i16(blue);
+        rec.i16(alpha);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glColor4s(red, green, blue, alpha) };
+    }
 } }
 export! { 55, glColor4sv, first_glColor4sv, hook_glColor4sv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glColor4sv, Effect::COLOR) { unsafe { rec.slice(v as *const i16, 4); } } else { let gl = hooks::real(); unsafe { gl.glColor4sv(v) }; }
+    if let Some(rec) = imm::recording(slot::glColor4sv, Effect::COLOR) {
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const i16, 4) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glColor4sv(v) };
+    }
 } }
 export! { 56, glColor4ub, first_glColor4ub, hook_glColor4ub, (red: u8, green: u8, blue: u8, alpha: u8) -> (), {
-    if let Some(rec) = imm::recording(slot::glColor4ub, Effect::COLOR) { unsafe { rec.u8(red); rec.u8(green); rec.u8(blue); rec.u8(alpha); } } else { let gl = hooks::real(); unsafe { gl.glColor4ub(red, green, blue, alpha) }; }
+    if let Some(rec) = imm::recording(slot::glColor4ub, Effect::COLOR) {
+        rec.u8(red);
+        rec.u8(green);
+        rec.u8(blue);
+        rec.u8(alpha);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glColor4ub(red, green, blue, alpha) };
+    }
 } }
 export! { 57, glColor4ubv, first_glColor4ubv, hook_glColor4ubv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glColor4ubv, Effect::COLOR) { unsafe { rec.slice(v as *const u8, 4); } } else { let gl = hooks::real(); unsafe { gl.glColor4ubv(v) }; }
+    if let Some(rec) = imm::recording(slot::glColor4ubv, Effect::COLOR) {
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const u8, 4) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glColor4ubv(v) };
+    }
 } }
 export! { 58, glColor4ui, first_glColor4ui, hook_glColor4ui, (red: u32, green: u32, blue: u32, alpha: u32) -> (), {
-    if let Some(rec) = imm::recording(slot::glColor4ui, Effect::COLOR) { unsafe { rec.u32(red); rec.u32(green); rec.u32(blue); rec.u32(alpha); } } else { let gl = hooks::real(); unsafe { gl.glColor4ui(red, green, blue, alpha) }; }
+    if let Some(rec) = imm::recording(slot::glColor4ui, Effect::COLOR) {
+        rec.u32(red);
+        rec.u32(green);
+        rec.u32(blue);
+        rec.u32(alpha);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glColor4ui(red, green, blue, alpha) };
+    }
 } }
 export! { 59, glColor4uiv, first_glColor4uiv, hook_glColor4uiv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glColor4uiv, Effect::COLOR) { unsafe { rec.slice(v as *const u32, 4); } } else { let gl = hooks::real(); unsafe { gl.glColor4uiv(v) }; }
+    if let Some(rec) = imm::recording(slot::glColor4uiv, Effect::COLOR) {
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const u32, 4) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glColor4uiv(v) };
+    }
 } }
 export! { 60, glColor4us, first_glColor4us, hook_glColor4us, (red: u16, green: u16, blue: u16, alpha: u16) -> (), {
-    if let Some(rec) = imm::recording(slot::glColor4us, Effect::COLOR) { unsafe { rec.u16(red); rec.u16(green); rec.u16(blue); rec.u16(alpha); } } else { let gl = hooks::real(); unsafe { gl.glColor4us(red, green, blue, alpha) }; }
+    if let Some(rec) = imm::recording(slot::glColor4us, Effect::COLOR) {
+        rec.u16(red);
+        rec.u16(green);
+        rec.u16(blue);
+        rec.u16(alpha);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glColor4us(red, green, blue, alpha) };
+    }
 } }
 export! { 61, glColor4usv, first_glColor4usv, hook_glColor4usv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glColor4usv, Effect::COLOR) { unsafe { rec.slice(v as *const u16, 4); } } else { let gl = hooks::real(); unsafe { gl.glColor4usv(v) }; }
+    if let Some(rec) = imm::recording(slot::glColor4usv, Effect::COLOR) {
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const u16, 4) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glColor4usv(v) };
+    }
 } }
 export! { 62, glColor3hNV, first_glColor3hNV, hook_glColor3hNV, (red: u16, green: u16, blue: u16) -> (), {
-    if let Some(rec) = imm::recording(slot::glColor3hNV, Effect::COLOR) { unsafe { rec.u16(red); rec.u16(green); rec.u16(blue); } } else { let gl = hooks::real(); unsafe { gl.glColor3hNV(red, green, blue) }; }
+    if let Some(rec) = imm::recording(slot::glColor3hNV, Effect::COLOR) {
+        rec.u16(red);
+        rec.u16(green);
+        rec.u16(blue);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glColor3hNV(red, green, blue) };
+    }
 } }
 export! { 63, glColor3hvNV, first_glColor3hvNV, hook_glColor3hvNV, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glColor3hvNV, Effect::COLOR) { unsafe { rec.slice(v as *const u16, 3); } } else { let gl = hooks::real(); unsafe { gl.glColor3hvNV(v) }; }
+    if let Some(rec) = imm::recording(slot::glColor3hvNV, Effect::COLOR) {
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const u16, 3) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glColor3hvNV(v) };
+    }
 } }
 export! { 64, glColor4hNV, first_glColor4hNV, hook_glColor4hNV, (red: u16, green: u16, blue: u16, alpha: u16) -> (), {
-    if let Some(rec) = imm::recording(slot::glColor4hNV, Effect::COLOR) { unsafe { rec.u16(red); rec.u16(green); rec.u16(blue); rec.u16(alpha); } } else { let gl = hooks::real(); unsafe { gl.glColor4hNV(red, green, blue, alpha) }; }
+    if let Some(rec) = imm::recording(slot::glColor4hNV, Effect::COLOR) {
+        rec.u16(red);
+        rec.u16(green);
+        rec.u16(blue);
+        rec.u16(alpha);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glColor4hNV(red, green, blue, alpha) };
+    }
 } }
 export! { 65, glColor4hvNV, first_glColor4hvNV, hook_glColor4hvNV, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glColor4hvNV, Effect::COLOR) { unsafe { rec.slice(v as *const u16, 4); } } else { let gl = hooks::real(); unsafe { gl.glColor4hvNV(v) }; }
+    if let Some(rec) = imm::recording(slot::glColor4hvNV, Effect::COLOR) {
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const u16, 4) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glColor4hvNV(v) };
+    }
 } }
 export! { 66, glNormal3b, first_glNormal3b, hook_glNormal3b, (nx: i8, ny: i8, nz: i8) -> (), {
-    if let Some(rec) = imm::recording(slot::glNormal3b, Effect::NORMAL) { unsafe { rec.i8(nx); rec.i8(ny); rec.i8(nz); } } else { let gl = hooks::real(); unsafe { gl.glNormal3b(nx, ny, nz) }; }
+    if let Some(rec) = imm::recording(slot::glNormal3b, Effect::NORMAL) {
+        rec.i8(nx);
+        rec.i8(ny);
+        rec.i8(nz);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glNormal3b(nx, ny, nz) };
+    }
 } }
 export! { 67, glNormal3bv, first_glNormal3bv, hook_glNormal3bv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glNormal3bv, Effect::NORMAL) { unsafe { rec.slice(v as *const i8, 3); } } else { let gl = hooks::real(); unsafe { gl.glNormal3bv(v) }; }
+    if let Some(rec) = imm::recording(slot::glNormal3bv, Effect::NORMAL) {
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const i8, 3) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glNormal3bv(v) };
+    }
 } }
 export! { 68, glNormal3d, first_glNormal3d, hook_glNormal3d, (nx: f64, ny: f64, nz: f64) -> (), {
-    if let Some(rec) = imm::recording(slot::glNormal3d, Effect::NORMAL) { unsafe { rec.f64(nx); rec.f64(ny); rec.f64(nz); } } else { let gl = hooks::real(); unsafe { gl.glNormal3d(nx, ny, nz) }; }
+    if let Some(rec) = imm::recording(slot::glNormal3d, Effect::NORMAL) {
+        rec.f64(nx);
+        rec.f64(ny);
+        rec.f64(nz);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glNormal3d(nx, ny, nz) };
+    }
 } }
 export! { 69, glNormal3dv, first_glNormal3dv, hook_glNormal3dv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glNormal3dv, Effect::NORMAL) { unsafe { rec.slice(v as *const f64, 3); } } else { let gl = hooks::real(); unsafe { gl.glNormal3dv(v) }; }
+    if let Some(rec) = imm::recording(slot::glNormal3dv, Effect::NORMAL) {
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const f64, 3) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glNormal3dv(v) };
+    }
 } }
 export! { 70, glNormal3f, first_glNormal3f, hook_glNormal3f, (nx: f32, ny: f32, nz: f32) -> (), {
-    if let Some(rec) = imm::recording(slot::glNormal3f, Effect::NORMAL) { unsafe { rec.f32(nx); rec.f32(ny); rec.f32(nz); } } else { let gl = hooks::real(); unsafe { gl.glNormal3f(nx, ny, nz) }; }
+    if let Some(rec) = imm::recording(slot::glNormal3f, Effect::NORMAL) {
+        rec.f32(nx);
+        rec.f32(ny);
+        rec.f32(nz);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glNormal3f(nx, ny, nz) };
+    }
 } }
 export! { 71, glNormal3fv, first_glNormal3fv, hook_glNormal3fv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glNormal3fv, Effect::NORMAL) { unsafe { rec.slice(v as *const f32, 3); } } else { let gl = hooks::real(); unsafe { gl.glNormal3fv(v) }; }
+    if let Some(rec) = imm::recording(slot::glNormal3fv, Effect::NORMAL) {
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const f32, 3) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glNormal3fv(v) };
+    }
 } }
 export! { 72, glNormal3i, first_glNormal3i, hook_glNormal3i, (nx: i32, ny: i32, nz: i32) -> (), {
-    if let Some(rec) = imm::recording(slot::glNormal3i, Effect::NORMAL) { unsafe { rec.i32(nx); rec.i32(ny); rec.i32(nz); } } else { let gl = hooks::real(); unsafe { gl.glNormal3i(nx, ny, nz) }; }
+    if let Some(rec) = imm::recording(slot::glNormal3i, Effect::NORMAL) {
+        rec.i32(nx);
+        rec.i32(ny);
+        rec.i32(nz);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glNormal3i(nx, ny, nz) };
+    }
 } }
 export! { 73, glNormal3iv, first_glNormal3iv, hook_glNormal3iv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glNormal3iv, Effect::NORMAL) { unsafe { rec.slice(v as *const i32, 3); } } else { let gl = hooks::real(); unsafe { gl.glNormal3iv(v) }; }
+    if let Some(rec) = imm::recording(slot::glNormal3iv, Effect::NORMAL) {
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const i32, 3) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glNormal3iv(v) };
+    }
 } }
 export! { 74, glNormal3s, first_glNormal3s, hook_glNormal3s, (nx: i16, ny: i16, nz: i16) -> (), {
-    if let Some(rec) = imm::recording(slot::glNormal3s, Effect::NORMAL) { unsafe { rec.i16(nx); rec.i16(ny); rec.i16(nz); } } else { let gl = hooks::real(); unsafe { gl.glNormal3s(nx, ny, nz) }; }
+    if let Some(rec) = imm::recording(slot::glNormal3s, Effect::NORMAL) {
+        rec.i16(nx);
+        rec.i16(ny);
+        rec.i16(nz);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glNormal3s(nx, ny, nz) };
+    }
 } }
 export! { 75, glNormal3sv, first_glNormal3sv, hook_glNormal3sv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glNormal3sv, Effect::NORMAL) { unsafe { rec.slice(v as *const i16, 3); } } else { let gl = hooks::real(); unsafe { gl.glNormal3sv(v) }; }
+    if let Some(rec) = imm::recording(slot::glNormal3sv, Effect::NORMAL) {
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const i16, 3) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glNormal3sv(v) };
+    }
 } }
 export! { 76, glNormal3hNV, first_glNormal3hNV, hook_glNormal3hNV, (nx: u16, ny: u16, nz: u16) -> (), {
-    if let Some(rec) = imm::recording(slot::glNormal3hNV, Effect::NORMAL) { unsafe { rec.u16(nx); rec.u16(ny); rec.u16(nz); } } else { let gl = hooks::real(); unsafe { gl.glNormal3hNV(nx, ny, nz) }; }
+    if let Some(rec) = imm::recording(slot::glNormal3hNV, Effect::NORMAL) {
+        rec.u16(nx);
+        rec.u16(ny);
+        rec.u16(nz);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glNormal3hNV(nx, ny, nz) };
+    }
 } }
 export! { 77, glNormal3hvNV, first_glNormal3hvNV, hook_glNormal3hvNV, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glNormal3hvNV, Effect::NORMAL) { unsafe { rec.slice(v as *const u16, 3); } } else { let gl = hooks::real(); unsafe { gl.glNormal3hvNV(v) }; }
+    if let Some(rec) = imm::recording(slot::glNormal3hvNV, Effect::NORMAL) {
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const u16, 3) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glNormal3hvNV(v) };
+    }
 } }
 export! { 78, glTexCoord1d, first_glTexCoord1d, hook_glTexCoord1d, (s: f64) -> (), {
-    if let Some(rec) = imm::recording(slot::glTexCoord1d, Effect::TEXCOORD) { unsafe { rec.f64(s); } } else { let gl = hooks::real(); unsafe { gl.glTexCoord1d(s) }; }
+    if let Some(rec) = imm::recording(slot::glTexCoord1d, Effect::TEXCOORD) {
+        rec.f64(s);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glTexCoord1d(s) };
+    }
 } }
 export! { 79, glTexCoord1dv, first_glTexCoord1dv, hook_glTexCoord1dv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glTexCoord1dv, Effect::TEXCOORD) { unsafe { rec.slice(v as *const f64, 1); } } else { let gl = hooks::real(); unsafe { gl.glTexCoord1dv(v) }; }
+    if let Some(rec) = imm::recording(slot::glTexCoord1dv, Effect::TEXCOORD) {
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const f64, 1) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glTexCoord1dv(v) };
+    }
 } }
 export! { 80, glTexCoord1f, first_glTexCoord1f, hook_glTexCoord1f, (s: f32) -> (), {
-    if let Some(rec) = imm::recording(slot::glTexCoord1f, Effect::TEXCOORD) { unsafe { rec.f32(s); } } else { let gl = hooks::real(); unsafe { gl.glTexCoord1f(s) }; }
+    if let Some(rec) = imm::recording(slot::glTexCoord1f, Effect::TEXCOORD) {
+        rec.f32(s);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glTexCoord1f(s) };
+    }
 } }
 export! { 81, glTexCoord1fv, first_glTexCoord1fv, hook_glTexCoord1fv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glTexCoord1fv, Effect::TEXCOORD) { unsafe { rec.slice(v as *const f32, 1); } } else { let gl = hooks::real(); unsafe { gl.glTexCoord1fv(v) }; }
+    if let Some(rec) = imm::recording(slot::glTexCoord1fv, Effect::TEXCOORD) {
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const f32, 1) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glTexCoord1fv(v) };
+    }
 } }
 export! { 82, glTexCoord1i, first_glTexCoord1i, hook_glTexCoord1i, (s: i32) -> (), {
-    if let Some(rec) = imm::recording(slot::glTexCoord1i, Effect::TEXCOORD) { unsafe { rec.i32(s); } } else { let gl = hooks::real(); unsafe { gl.glTexCoord1i(s) }; }
+    if let Some(rec) = imm::recording(slot::glTexCoord1i, Effect::TEXCOORD) {
+        rec.i32(s);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glTexCoord1i(s) };
+    }
 } }
 export! { 83, glTexCoord1iv, first_glTexCoord1iv, hook_glTexCoord1iv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glTexCoord1iv, Effect::TEXCOORD) { unsafe { rec.slice(v as *const i32, 1); } } else { let gl = hooks::real(); unsafe { gl.glTexCoord1iv(v) }; }
+    if let Some(rec) = imm::recording(slot::glTexCoord1iv, Effect::TEXCOORD) {
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const i32, 1) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glTexCoord1iv(v) };
+    }
 } }
 export! { 84, glTexCoord1s, first_glTexCoord1s, hook_glTexCoord1s, (s: i16) -> (), {
-    if let Some(rec) = imm::recording(slot::glTexCoord1s, Effect::TEXCOORD) { unsafe { rec.i16(s); } } else { let gl = hooks::real(); unsafe { gl.glTexCoord1s(s) }; }
+    if let Some(rec) = imm::recording(slot::glTexCoord1s, Effect::TEXCOORD) {
+        rec.i16(s);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glTexCoord1s(s) };
+    }
 } }
 export! { 85, glTexCoord1sv, first_glTexCoord1sv, hook_glTexCoord1sv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glTexCoord1sv, Effect::TEXCOORD) { unsafe { rec.slice(v as *const i16, 1); } } else { let gl = hooks::real(); unsafe { gl.glTexCoord1sv(v) }; }
+    if let Some(rec) = imm::recording(slot::glTexCoord1sv, Effect::TEXCOORD) {
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const i16, 1) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glTexCoord1sv(v) };
+    }
 } }
 export! { 86, glTexCoord2d, first_glTexCoord2d, hook_glTexCoord2d, (s: f64, t: f64) -> (), {
-    if let Some(rec) = imm::recording(slot::glTexCoord2d, Effect::TEXCOORD) { unsafe { rec.f64(s); rec.f64(t); } } else { let gl = hooks::real(); unsafe { gl.glTexCoord2d(s, t) }; }
+    if let Some(rec) = imm::recording(slot::glTexCoord2d, Effect::TEXCOORD) {
+        rec.f64(s);
+        rec.f64(t);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glTexCoord2d(s, t) };
+    }
 } }
 export! { 87, glTexCoord2dv, first_glTexCoord2dv, hook_glTexCoord2dv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glTexCoord2dv, Effect::TEXCOORD) { unsafe { rec.slice(v as *const f64, 2); } } else { let gl = hooks::real(); unsafe { gl.glTexCoord2dv(v) }; }
+    if let Some(rec) = imm::recording(slot::glTexCoord2dv, Effect::TEXCOORD) {
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const f64, 2) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glTexCoord2dv(v) };
+    }
 } }
 export! { 88, glTexCoord2f, first_glTexCoord2f, hook_glTexCoord2f, (s: f32, t: f32) -> (), {
-    if let Some(rec) = imm::recording(slot::glTexCoord2f, Effect::TEXCOORD) { unsafe { rec.f32(s); rec.f32(t); } } else { let gl = hooks::real(); unsafe { gl.glTexCoord2f(s, t) }; }
+    if let Some(rec) = imm::recording(slot::glTexCoord2f, Effect::TEXCOORD) {
+        rec.f32(s);
+        rec.f32(t);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glTexCoord2f(s, t) };
+    }
 } }
 export! { 89, glTexCoord2fv, first_glTexCoord2fv, hook_glTexCoord2fv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glTexCoord2fv, Effect::TEXCOORD) { unsafe { rec.slice(v as *const f32, 2); } } else { let gl = hooks::real(); unsafe { gl.glTexCoord2fv(v) }; }
+    if let Some(rec) = imm::recording(slot::glTexCoord2fv, Effect::TEXCOORD) {
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const f32, 2) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glTexCoord2fv(v) };
+    }
 } }
 export! { 90, glTexCoord2i, first_glTexCoord2i, hook_glTexCoord2i, (s: i32, t: i32) -> (), {
-    if let Some(rec) = imm::recording(slot::glTexCoord2i, Effect::TEXCOORD) { unsafe { rec.i32(s); rec.i32(t); } } else { let gl = hooks::real(); unsafe { gl.glTexCoord2i(s, t) }; }
+    if let Some(rec) = imm::recording(slot::glTexCoord2i, Effect::TEXCOORD) {
+        rec.i32(s);
+        rec.i32(t);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glTexCoord2i(s, t) };
+    }
 } }
 export! { 91, glTexCoord2iv, first_glTexCoord2iv, hook_glTexCoord2iv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glTexCoord2iv, Effect::TEXCOORD) { unsafe { rec.slice(v as *const i32, 2); } } else { let gl = hooks::real(); unsafe { gl.glTexCoord2iv(v) }; }
+    if let Some(rec) = imm::recording(slot::glTexCoord2iv, Effect::TEXCOORD) {
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const i32, 2) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glTexCoord2iv(v) };
+    }
 } }
 export! { 92, glTexCoord2s, first_glTexCoord2s, hook_glTexCoord2s, (s: i16, t: i16) -> (), {
-    if let Some(rec) = imm::recording(slot::glTexCoord2s, Effect::TEXCOORD) { unsafe { rec.i16(s); rec.i16(t); } } else { let gl = hooks::real(); unsafe { gl.glTexCoord2s(s, t) }; }
+    if let Some(rec) = imm::recording(slot::glTexCoord2s, Effect::TEXCOORD) {
+        rec.i16(s);
+        rec.i16(t);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glTexCoord2s(s, t) };
+    }
 } }
 export! { 93, glTexCoord2sv, first_glTexCoord2sv, hook_glTexCoord2sv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glTexCoord2sv, Effect::TEXCOORD) { unsafe { rec.slice(v as *const i16, 2); } } else { let gl = hooks::real(); unsafe { gl.glTexCoord2sv(v) }; }
+    if let Some(rec) = imm::recording(slot::glTexCoord2sv, Effect::TEXCOORD) {
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const i16, 2) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glTexCoord2sv(v) };
+    }
 } }
 export! { 94, glTexCoord3d, first_glTexCoord3d, hook_glTexCoord3d, (s: f64, t: f64, r: f64) -> (), {
-    if let Some(rec) = imm::recording(slot::glTexCoord3d, Effect::TEXCOORD) { unsafe { rec.f64(s); rec.f64(t); rec.f64(r); } } else { let gl = hooks::real(); unsafe { gl.glTexCoord3d(s, t, r) }; }
+    if let Some(rec) = imm::recording(slot::glTexCoord3d, Effect::TEXCOORD) {
+        rec.f64(s);
+        rec.f64(t);
+        rec.f64(r);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glTexCoord3d(s, t, r) };
+    }
 } }
 export! { 95, glTexCoord3dv, first_glTexCoord3dv, hook_glTexCoord3dv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glTexCoord3dv, Effect::TEXCOORD) { unsafe { rec.slice(v as *const f64, 3); } } else { let gl = hooks::real(); unsafe { gl.glTexCoord3dv(v) }; }
+    if let Some(rec) = imm::recording(slot::glTexCoord3dv, Effect::TEXCOORD) {
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const f64, 3) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glTexCoord3dv(v) };
+    }
 } }
 export! { 96, glTexCoord3f, first_glTexCoord3f, hook_glTexCoord3f, (s: f32, t: f32, r: f32) -> (), {
-    if let Some(rec) = imm::recording(slot::glTexCoord3f, Effect::TEXCOORD) { unsafe { rec.f32(s); rec.f32(t); rec.f32(r); } } else { let gl = hooks::real(); unsafe { gl.glTexCoord3f(s, t, r) }; }
+    if let Some(rec) = imm::recording(slot::glTexCoord3f, Effect::TEXCOORD) {
+        rec.f32(s);
+        rec.f32(t);
+        rec.f32(r);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glTexCoord3f(s, t, r) };
+    }
 } }
 export! { 97, glTexCoord3fv, first_glTexCoord3fv, hook_glTexCoord3fv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glTexCoord3fv, Effect::TEXCOORD) { unsafe { rec.slice(v as *const f32, 3); } } else { let gl = hooks::real(); unsafe { gl.glTexCoord3fv(v) }; }
+    if let Some(rec) = imm::recording(slot::glTexCoord3fv, Effect::TEXCOORD) {
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const f32, 3) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glTexCoord3fv(v) };
+    }
 } }
 export! { 98, glTexCoord3i, first_glTexCoord3i, hook_glTexCoord3i, (s: i32, t: i32, r: i32) -> (), {
-    if let Some(rec) = imm::recording(slot::glTexCoord3i, Effect::TEXCOORD) { unsafe { rec.i32(s); rec.i32(t); rec.i32(r); } } else { let gl = hooks::real(); unsafe { gl.glTexCoord3i(s, t, r) }; }
+    if let Some(rec) = imm::recording(slot::glTexCoord3i, Effect::TEXCOORD) {
+        rec.i32(s);
+        rec.i32(t);
+        rec.i32(r);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glTexCoord3i(s, t, r) };
+    }
 } }
 export! { 99, glTexCoord3iv, first_glTexCoord3iv, hook_glTexCoord3iv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glTexCoord3iv, Effect::TEXCOORD) { unsafe { rec.slice(v as *const i32, 3); } } else { let gl = hooks::real(); unsafe { gl.glTexCoord3iv(v) }; }
+    if let Some(rec) = imm::recording(slot::glTexCoord3iv, Effect::TEXCOORD) {
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const i32, 3) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glTexCoord3iv(v) };
+    }
 } }
 export! { 100, glTexCoord3s, first_glTexCoord3s, hook_glTexCoord3s, (s: i16, t: i16, r: i16) -> (), {
-    if let Some(rec) = imm::recording(slot::glTexCoord3s, Effect::TEXCOORD) { unsafe { rec.i16(s); rec.i16(t); rec.i16(r); } } else { let gl = hooks::real(); unsafe { gl.glTexCoord3s(s, t, r) }; }
+    if let Some(rec) = imm::recording(slot::glTexCoord3s, Effect::TEXCOORD) {
+        rec.i16(s);
+        rec.i16(t);
+        rec.i16(r);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glTexCoord3s(s, t, r) };
+    }
 } }
 export! { 101, glTexCoord3sv, first_glTexCoord3sv, hook_glTexCoord3sv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glTexCoord3sv, Effect::TEXCOORD) { unsafe { rec.slice(v as *const i16, 3); } } else { let gl = hooks::real(); unsafe { gl.glTexCoord3sv(v) }; }
+    if let Some(rec) = imm::recording(slot::glTexCoord3sv, Effect::TEXCOORD) {
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const i16, 3) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glTexCoord3sv(v) };
+    }
 } }
 export! { 102, glTexCoord4d, first_glTexCoord4d, hook_glTexCoord4d, (s: f64, t: f64, r: f64, q: f64) -> (), {
-    if let Some(rec) = imm::recording(slot::glTexCoord4d, Effect::TEXCOORD) { unsafe { rec.f64(s); rec.f64(t); rec.f64(r); rec.f64(q); } } else { let gl = hooks::real(); unsafe { gl.glTexCoord4d(s, t, r, q) }; }
+    if let Some(rec) = imm::recording(slot::glTexCoord4d, Effect::TEXCOORD) {
+        rec.f64(s);
+        rec.f64(t);
+        rec.f64(r);
+        rec.f64(q);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glTexCoord4d(s, t, r, q) };
+    }
 } }
 export! { 103, glTexCoord4dv, first_glTexCoord4dv, hook_glTexCoord4dv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glTexCoord4dv, Effect::TEXCOORD) { unsafe { rec.slice(v as *const f64, 4); } } else { let gl = hooks::real(); unsafe { gl.glTexCoord4dv(v) }; }
+    if let Some(rec) = imm::recording(slot::glTexCoord4dv, Effect::TEXCOORD) {
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const f64, 4) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glTexCoord4dv(v) };
+    }
 } }
 export! { 104, glTexCoord4f, first_glTexCoord4f, hook_glTexCoord4f, (s: f32, t: f32, r: f32, q: f32) -> (), {
-    if let Some(rec) = imm::recording(slot::glTexCoord4f, Effect::TEXCOORD) { unsafe { rec.f32(s); rec.f32(t); rec.f32(r); rec.f32(q); } } else { let gl = hooks::real(); unsafe { gl.glTexCoord4f(s, t, r, q) }; }
+    if let Some(rec) = imm::recording(slot::glTexCoord4f, Effect::TEXCOORD) {
+        rec.f32(s);
+        rec.f32(t);
+        rec.f32(r);
+        rec.f32(q);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glTexCoord4f(s, t, r, q) };
+    }
 } }
 export! { 105, glTexCoord4fv, first_glTexCoord4fv, hook_glTexCoord4fv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glTexCoord4fv, Effect::TEXCOORD) { unsafe { rec.slice(v as *const f32, 4); } } else { let gl = hooks::real(); unsafe { gl.glTexCoord4fv(v) }; }
+    if let Some(rec) = imm::recording(slot::glTexCoord4fv, Effect::TEXCOORD) {
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const f32, 4) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glTexCoord4fv(v) };
+    }
 } }
 export! { 106, glTexCoord4i, first_glTexCoord4i, hook_glTexCoord4i, (s: i32, t: i32, r: i32, q: i32) -> (), {
-    if let Some(rec) = imm::recording(slot::glTexCoord4i, Effect::TEXCOORD) { unsafe { rec.i32(s); rec.i32(t); rec.i32(r); rec.i32(q); } } else { let gl = hooks::real(); unsafe { gl.glTexCoord4i(s, t, r, q) }; }
+    if let Some(rec) = imm::recording(slot::glTexCoord4i, Effect::TEXCOORD) {
+        rec.i32(s);
+        rec.i32(t);
+        rec.i32(r);
+        rec.i32(q);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glTexCoord4i(s, t, r, q) };
+    }
 } }
 export! { 107, glTexCoord4iv, first_glTexCoord4iv, hook_glTexCoord4iv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glTexCoord4iv, Effect::TEXCOORD) { unsafe { rec.slice(v as *const i32, 4); } } else { let gl = hooks::real(); unsafe { gl.glTexCoord4iv(v) }; }
+    if let Some(rec) = imm::recording(slot::glTexCoord4iv, Effect::TEXCOORD) {
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const i32, 4) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glTexCoord4iv(v) };
+    }
 } }
 export! { 108, glTexCoord4s, first_glTexCoord4s, hook_glTexCoord4s, (s: i16, t: i16, r: i16, q: i16) -> (), {
-    if let Some(rec) = imm::recording(slot::glTexCoord4s, Effect::TEXCOORD) { unsafe { rec.i16(s); rec.i16(t); rec.i16(r); rec.i16(q); } } else { let gl = hooks::real(); unsafe { gl.glTexCoord4s(s, t, r, q) }; }
+    if let Some(rec) = imm::recording(slot::glTexCoord4s, Effect::TEXCOORD) {
+        rec.i16(s);
+        rec.i16(t);
+        rec.i16(r);
+        rec.i16(q);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glTexCoord4s(s, t, r, q) };
+    }
 } }
 export! { 109, glTexCoord4sv, first_glTexCoord4sv, hook_glTexCoord4sv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glTexCoord4sv, Effect::TEXCOORD) { unsafe { rec.slice(v as *const i16, 4); } } else { let gl = hooks::real(); unsafe { gl.glTexCoord4sv(v) }; }
+    if let Some(rec) = imm::recording(slot::glTexCoord4sv, Effect::TEXCOORD) {
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const i16, 4) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glTexCoord4sv(v) };
+    }
 } }
 export! { 110, glTexCoord1hNV, first_glTexCoord1hNV, hook_glTexCoord1hNV, (s: u16) -> (), {
-    if let Some(rec) = imm::recording(slot::glTexCoord1hNV, Effect::TEXCOORD) { unsafe { rec.u16(s); } } else { let gl = hooks::real(); unsafe { gl.glTexCoord1hNV(s) }; }
+    if let Some(rec) = imm::recording(slot::glTexCoord1hNV, Effect::TEXCOORD) {
+        rec.u16(s);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glTexCoord1hNV(s) };
+    }
 } }
 export! { 111, glTexCoord1hvNV, first_glTexCoord1hvNV, hook_glTexCoord1hvNV, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glTexCoord1hvNV, Effect::TEXCOORD) { unsafe { rec.slice(v as *const u16, 1); } } else { let gl = hooks::real(); unsafe { gl.glTexCoord1hvNV(v) }; }
+    if let Some(rec) = imm::recording(slot::glTexCoord1hvNV, Effect::TEXCOORD) {
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const u16, 1) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glTexCoord1hvNV(v) };
+    }
 } }
 export! { 112, glTexCoord2hNV, first_glTexCoord2hNV, hook_glTexCoord2hNV, (s: u16, t: u16) -> (), {
-    if let Some(rec) = imm::recording(slot::glTexCoord2hNV, Effect::TEXCOORD) { unsafe { rec.u16(s); rec.u16(t); } } else { let gl = hooks::real(); unsafe { gl.glTexCoord2hNV(s, t) }; }
+    if let Some(rec) = imm::recording(slot::glTexCoord2hNV, Effect::TEXCOORD) {
+        rec.u16(s);
+        rec.u16(t);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glTexCoord2hNV(s, t) };
+    }
 } }
 export! { 113, glTexCoord2hvNV, first_glTexCoord2hvNV, hook_glTexCoord2hvNV, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glTexCoord2hvNV, Effect::TEXCOORD) { unsafe { rec.slice(v as *const u16, 2); } } else { let gl = hooks::real(); unsafe { gl.glTexCoord2hvNV(v) }; }
+    if let Some(rec) = imm::recording(slot::glTexCoord2hvNV, Effect::TEXCOORD) {
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const u16, 2) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glTexCoord2hvNV(v) };
+    }
 } }
 export! { 114, glTexCoord3hNV, first_glTexCoord3hNV, hook_glTexCoord3hNV, (s: u16, t: u16, r: u16) -> (), {
-    if let Some(rec) = imm::recording(slot::glTexCoord3hNV, Effect::TEXCOORD) { unsafe { rec.u16(s); rec.u16(t); rec.u16(r); } } else { let gl = hooks::real(); unsafe { gl.glTexCoord3hNV(s, t, r) }; }
+    if let Some(rec) = imm::recording(slot::glTexCoord3hNV, Effect::TEXCOORD) {
+        rec.u16(s);
+        rec.u16(t);
+        rec.u16(r);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glTexCoord3hNV(s, t, r) };
+    }
 } }
 export! { 115, glTexCoord3hvNV, first_glTexCoord3hvNV, hook_glTexCoord3hvNV, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glTexCoord3hvNV, Effect::TEXCOORD) { unsafe { rec.slice(v as *const u16, 3); } } else { let gl = hooks::real(); unsafe { gl.glTexCoord3hvNV(v) }; }
+    if let Some(rec) = imm::recording(slot::glTexCoord3hvNV, Effect::TEXCOORD) {
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const u16, 3) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glTexCoord3hvNV(v) };
+    }
 } }
 export! { 116, glTexCoord4hNV, first_glTexCoord4hNV, hook_glTexCoord4hNV, (s: u16, t: u16, r: u16, q: u16) -> (), {
-    if let Some(rec) = imm::recording(slot::glTexCoord4hNV, Effect::TEXCOORD) { unsafe { rec.u16(s); rec.u16(t); rec.u16(r); rec.u16(q); } } else { let gl = hooks::real(); unsafe { gl.glTexCoord4hNV(s, t, r, q) }; }
+    if let Some(rec) = imm::recording(slot::glTexCoord4hNV, Effect::TEXCOORD) {
+        rec.u16(s);
+        rec.u16(t);
+        rec.u16(r);
+        rec.u16(q);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glTexCoord4hNV(s, t, r, q) };
+    }
 } }
 export! { 117, glTexCoord4hvNV, first_glTexCoord4hvNV, hook_glTexCoord4hvNV, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glTexCoord4hvNV, Effect::TEXCOORD) { unsafe { rec.slice(v as *const u16, 4); } } else { let gl = hooks::real(); unsafe { gl.glTexCoord4hvNV(v) }; }
+    if let Some(rec) = imm::recording(slot::glTexCoord4hvNV, Effect::TEXCOORD) {
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const u16, 4) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glTexCoord4hvNV(v) };
+    }
 } }
 export! { 118, glMultiTexCoord1d, first_glMultiTexCoord1d, hook_glMultiTexCoord1d, (target: u32, s: f64) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord1d, Effect::MULTITEX) { unsafe { rec.u32(target); rec.f64(s); } } else { let gl = hooks::real(); unsafe { gl.glMultiTexCoord1d(target, s) }; }
+    if let Some(rec) = imm::recording(slot::glMultiTexCoord1d, Effect::MULTITEX) {
+        rec.u32(target);
+        rec.f64(s);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glMultiTexCoord1d(target, s) };
+    }
 } }
 export! { 119, glMultiTexCoord1dARB, first_glMultiTexCoord1dARB, hook_glMultiTexCoord1dARB, (target: u32, s: f64) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord1dARB, Effect::MULTITEX) { unsafe { rec.u32(target); rec.f64(s); } } else { let gl = hooks::real(); unsafe { gl.glMultiTexCoord1dARB(target, s) }; }
+    if let Some(rec) = imm::recording(slot::glMultiTexCoord1dARB, Effect::MULTITEX) {
+        rec.u32(target);
+        rec.f64(s);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glMultiTexCoord1dARB(target, s) };
+    }
 } }
 export! { 120, glMultiTexCoord1dv, first_glMultiTexCoord1dv, hook_glMultiTexCoord1dv, (target: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord1dv, Effect::MULTITEX) { unsafe { rec.u32(target); rec.slice(v as *const f64, 1); } } else { let gl = hooks::real(); unsafe { gl.glMultiTexCoord1dv(target, v) }; }
+    if let Some(rec) = imm::recording(slot::glMultiTexCoord1dv, Effect::MULTITEX) {
+        rec.u32(target);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const f64, 1) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glMultiTexCoord1dv(target, v) };
+    }
 } }
 export! { 121, glMultiTexCoord1dvARB, first_glMultiTexCoord1dvARB, hook_glMultiTexCoord1dvARB, (target: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord1dvARB, Effect::MULTITEX) { unsafe { rec.u32(target); rec.slice(v as *const f64, 1); } } else { let gl = hooks::real(); unsafe { gl.glMultiTexCoord1dvARB(target, v) }; }
+    if let Some(rec) = imm::recording(slot::glMultiTexCoord1dvARB, Effect::MULTITEX) {
+        rec.u32(target);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const f64, 1) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glMultiTexCoord1dvARB(target, v) };
+    }
 } }
 export! { 122, glMultiTexCoord1f, first_glMultiTexCoord1f, hook_glMultiTexCoord1f, (target: u32, s: f32) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord1f, Effect::MULTITEX) { unsafe { rec.u32(target); rec.f32(s); } } else { let gl = hooks::real(); unsafe { gl.glMultiTexCoord1f(target, s) }; }
+    if let Some(rec) = imm::recording(slot::glMultiTexCoord1f, Effect::MULTITEX) {
+        rec.u32(target);
+        rec.f32(s);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glMultiTexCoord1f(target, s) };
+    }
 } }
 export! { 123, glMultiTexCoord1fARB, first_glMultiTexCoord1fARB, hook_glMultiTexCoord1fARB, (target: u32, s: f32) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord1fARB, Effect::MULTITEX) { unsafe { rec.u32(target); rec.f32(s); } } else { let gl = hooks::real(); unsafe { gl.glMultiTexCoord1fARB(target, s) }; }
+    if let Some(rec) = imm::recording(slot::glMultiTexCoord1fARB, Effect::MULTITEX) {
+        rec.u32(target);
+        rec.f32(s);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glMultiTexCoord1fARB(target, s) };
+    }
 } }
 export! { 124, glMultiTexCoord1fv, first_glMultiTexCoord1fv, hook_glMultiTexCoord1fv, (target: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord1fv, Effect::MULTITEX) { unsafe { rec.u32(target); rec.slice(v as *const f32, 1); } } else { let gl = hooks::real(); unsafe { gl.glMultiTexCoord1fv(target, v) }; }
+    if let Some(rec) = imm::recording(slot::glMultiTexCoord1fv, Effect::MULTITEX) {
+        rec.u32(target);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const f32, 1) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glMultiTexCoord1fv(target, v) };
+    }
 } }
 export! { 125, glMultiTexCoord1fvARB, first_glMultiTexCoord1fvARB, hook_glMultiTexCoord1fvARB, (target: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord1fvARB, Effect::MULTITEX) { unsafe { rec.u32(target); rec.slice(v as *const f32, 1); } } else { let gl = hooks::real(); unsafe { gl.glMultiTexCoord1fvARB(target, v) }; }
+    if let Some(rec) = imm::recording(slot::glMultiTexCoord1fvARB, Effect::MULTITEX) {
+        rec.u32(target);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const f32, 1) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glMultiTexCoord1fvARB(target, v) };
+    }
 } }
 export! { 126, glMultiTexCoord1i, first_glMultiTexCoord1i, hook_glMultiTexCoord1i, (target: u32, s: i32) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord1i, Effect::MULTITEX) { unsafe { rec.u32(target); rec.i32(s); } } else { let gl = hooks::real(); unsafe { gl.glMultiTexCoord1i(target, s) }; }
+    if let Some(rec) = imm::recording(slot::glMultiTexCoord1i, Effect::MULTITEX) {
+        rec.u32(target);
+        rec.i32(s);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glMultiTexCoord1i(target, s) };
+    }
 } }
 export! { 127, glMultiTexCoord1iARB, first_glMultiTexCoord1iARB, hook_glMultiTexCoord1iARB, (target: u32, s: i32) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord1iARB, Effect::MULTITEX) { unsafe { rec.u32(target); rec.i32(s); } } else { let gl = hooks::real(); unsafe { gl.glMultiTexCoord1iARB(target, s) }; }
+    if let Some(rec) = imm::recording(slot::glMultiTexCoord1iARB, Effect::MULTITEX) {
+        rec.u32(target);
+        rec.i32(s);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glMultiTexCoord1iARB(target, s) };
+    }
 } }
 export! { 128, glMultiTexCoord1iv, first_glMultiTexCoord1iv, hook_glMultiTexCoord1iv, (target: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord1iv, Effect::MULTITEX) { unsafe { rec.u32(target); rec.slice(v as *const i32, 1); } } else { let gl = hooks::real(); unsafe { gl.glMultiTexCoord1iv(target, v) }; }
+    if let Some(rec) = imm::recording(slot::glMultiTexCoord1iv, Effect::MULTITEX) {
+        rec.u32(target);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const i32, 1) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glMultiTexCoord1iv(target, v) };
+    }
 } }
 export! { 129, glMultiTexCoord1ivARB, first_glMultiTexCoord1ivARB, hook_glMultiTexCoord1ivARB, (target: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord1ivARB, Effect::MULTITEX) { unsafe { rec.u32(target); rec.slice(v as *const i32, 1); } } else { let gl = hooks::real(); unsafe { gl.glMultiTexCoord1ivARB(target, v) }; }
+    if let Some(rec) = imm::recording(slot::glMultiTexCoord1ivARB, Effect::MULTITEX) {
+        rec.u32(target);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const i32, 1) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glMultiTexCoord1ivARB(target, v) };
+    }
 } }
 export! { 130, glMultiTexCoord1s, first_glMultiTexCoord1s, hook_glMultiTexCoord1s, (target: u32, s: i16) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord1s, Effect::MULTITEX) { unsafe { rec.u32(target); rec.i16(s); } } else { let gl = hooks::real(); unsafe { gl.glMultiTexCoord1s(target, s) }; }
+    if let Some(rec) = imm::recording(slot::glMultiTexCoord1s, Effect::MULTITEX) {
+        rec.u32(target);
+        rec.i16(s);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glMultiTexCoord1s(target, s) };
+    }
 } }
 export! { 131, glMultiTexCoord1sARB, first_glMultiTexCoord1sARB, hook_glMultiTexCoord1sARB, (target: u32, s: i16) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord1sARB, Effect::MULTITEX) { unsafe { rec.u32(target); rec.i16(s); } } else { let gl = hooks::real(); unsafe { gl.glMultiTexCoord1sARB(target, s) }; }
+    if let Some(rec) = imm::recording(slot::glMultiTexCoord1sARB, Effect::MULTITEX) {
+        rec.u32(target);
+        rec.i16(s);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glMultiTexCoord1sARB(target, s) };
+    }
 } }
 export! { 132, glMultiTexCoord1sv, first_glMultiTexCoord1sv, hook_glMultiTexCoord1sv, (target: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord1sv, Effect::MULTITEX) { unsafe { rec.u32(target); rec.slice(v as *const i16, 1); } } else { let gl = hooks::real(); unsafe { gl.glMultiTexCoord1sv(target, v) }; }
+    if let Some(rec) = imm::recording(slot::glMultiTexCoord1sv, Effect::MULTITEX) {
+        rec.u32(target);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const i16, 1) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glMultiTexCoord1sv(target, v) };
+    }
 } }
 export! { 133, glMultiTexCoord1svARB, first_glMultiTexCoord1svARB, hook_glMultiTexCoord1svARB, (target: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord1svARB, Effect::MULTITEX) { unsafe { rec.u32(target); rec.slice(v as *const i16, 1); } } else { let gl = hooks::real(); unsafe { gl.glMultiTexCoord1svARB(target, v) }; }
+    if let Some(rec) = imm::recording(slot::glMultiTexCoord1svARB, Effect::MULTITEX) {
+        rec.u32(target);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const i16, 1) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glMultiTexCoord1svARB(target, v) };
+    }
 } }
 export! { 134, glMultiTexCoord2d, first_glMultiTexCoord2d, hook_glMultiTexCoord2d, (target: u32, s: f64, t: f64) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord2d, Effect::MULTITEX) { unsafe { rec.u32(target); rec.f64(s); rec.f64(t); } } else { let gl = hooks::real(); unsafe { gl.glMultiTexCoord2d(target, s, t) }; }
+    if let Some(rec) = imm::recording(slot::glMultiTexCoord2d, Effect::MULTITEX) {
+        rec.u32(target);
+        rec.f64(s);
+        rec.f64(t);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glMultiTexCoord2d(target, s, t) };
+    }
 } }
 export! { 135, glMultiTexCoord2dARB, first_glMultiTexCoord2dARB, hook_glMultiTexCoord2dARB, (target: u32, s: f64, t: f64) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord2dARB, Effect::MULTITEX) { unsafe { rec.u32(target); rec.f64(s); rec.f64(t); } } else { let gl = hooks::real(); unsafe { gl.glMultiTexCoord2dARB(target, s, t) }; }
+    if let Some(rec) = imm::recording(slot::glMultiTexCoord2dARB, Effect::MULTITEX) {
+        rec.u32(target);
+        rec.f64(s);
+        rec.f64(t);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glMultiTexCoord2dARB(target, s, t) };
+    }
 } }
 export! { 136, glMultiTexCoord2dv, first_glMultiTexCoord2dv, hook_glMultiTexCoord2dv, (target: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord2dv, Effect::MULTITEX) { unsafe { rec.u32(target); rec.slice(v as *const f64, 2); } } else { let gl = hooks::real(); unsafe { gl.glMultiTexCoord2dv(target, v) }; }
+    if let Some(rec) = imm::recording(slot::glMultiTexCoord2dv, Effect::MULTITEX) {
+        rec.u32(target);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const f64, 2) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glMultiTexCoord2dv(target, v) };
+    }
 } }
 export! { 137, glMultiTexCoord2dvARB, first_glMultiTexCoord2dvARB, hook_glMultiTexCoord2dvARB, (target: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord2dvARB, Effect::MULTITEX) { unsafe { rec.u32(target); rec.slice(v as *const f64, 2); } } else { let gl = hooks::real(); unsafe { gl.glMultiTexCoord2dvARB(target, v) }; }
+    if let Some(rec) = imm::recording(slot::glMultiTexCoord2dvARB, Effect::MULTITEX) {
+        rec.u32(target);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const f64, 2) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glMultiTexCoord2dvARB(target, v) };
+    }
 } }
 export! { 138, glMultiTexCoord2f, first_glMultiTexCoord2f, hook_glMultiTexCoord2f, (target: u32, s: f32, t: f32) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord2f, Effect::MULTITEX) { unsafe { rec.u32(target); rec.f32(s); rec.f32(t); } } else { let gl = hooks::real(); unsafe { gl.glMultiTexCoord2f(target, s, t) }; }
+    if let Some(rec) = imm::recording(slot::glMultiTexCoord2f, Effect::MULTITEX) {
+        rec.u32(target);
+        rec.f32(s);
+        rec.f32(t);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glMultiTexCoord2f(target, s, t) };
+    }
 } }
 export! { 139, glMultiTexCoord2fARB, first_glMultiTexCoord2fARB, hook_glMultiTexCoord2fARB, (target: u32, s: f32, t: f32) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord2fARB, Effect::MULTITEX) { unsafe { rec.u32(target); rec.f32(s); rec.f32(t); } } else { let gl = hooks::real(); unsafe { gl.glMultiTexCoord2fARB(target, s, t) }; }
+    if let Some(rec) = imm::recording(slot::glMultiTexCoord2fARB, Effect::MULTITEX) {
+        rec.u32(target);
+        rec.f32(s);
+        rec.f32(t);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glMultiTexCoord2fARB(target, s, t) };
+    }
 } }
 export! { 140, glMultiTexCoord2fv, first_glMultiTexCoord2fv, hook_glMultiTexCoord2fv, (target: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord2fv, Effect::MULTITEX) { unsafe { rec.u32(target); rec.slice(v as *const f32, 2); } } else { let gl = hooks::real(); unsafe { gl.glMultiTexCoord2fv(target, v) }; }
+    if let Some(rec) = imm::recording(slot::glMultiTexCoord2fv, Effect::MULTITEX) {
+        rec.u32(target);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const f32, 2) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glMultiTexCoord2fv(target, v) };
+    }
 } }
 export! { 141, glMultiTexCoord2fvARB, first_glMultiTexCoord2fvARB, hook_glMultiTexCoord2fvARB, (target: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord2fvARB, Effect::MULTITEX) { unsafe { rec.u32(target); rec.slice(v as *const f32, 2); } } else { let gl = hooks::real(); unsafe { gl.glMultiTexCoord2fvARB(target, v) }; }
+    if let Some(rec) = imm::recording(slot::glMultiTexCoord2fvARB, Effect::MULTITEX) {
+        rec.u32(target);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const f32, 2) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glMultiTexCoord2fvARB(target, v) };
+    }
 } }
 export! { 142, glMultiTexCoord2i, first_glMultiTexCoord2i, hook_glMultiTexCoord2i, (target: u32, s: i32, t: i32) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord2i, Effect::MULTITEX) { unsafe { rec.u32(target); rec.i32(s); rec.i32(t); } } else { let gl = hooks::real(); unsafe { gl.glMultiTexCoord2i(target, s, t) }; }
+    if let Some(rec) = imm::recording(slot::glMultiTexCoord2i, Effect::MULTITEX) {
+        rec.u32(target);
+        rec.i32(s);
+        rec.i32(t);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glMultiTexCoord2i(target, s, t) };
+    }
 } }
 export! { 143, glMultiTexCoord2iARB, first_glMultiTexCoord2iARB, hook_glMultiTexCoord2iARB, (target: u32, s: i32, t: i32) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord2iARB, Effect::MULTITEX) { unsafe { rec.u32(target); rec.i32(s); rec.i32(t); } } else { let gl = hooks::real(); unsafe { gl.glMultiTexCoord2iARB(target, s, t) }; }
+    if let Some(rec) = imm::recording(slot::glMultiTexCoord2iARB, Effect::MULTITEX) {
+        rec.u32(target);
+        rec.i32(s);
+        rec.i32(t);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glMultiTexCoord2iARB(target, s, t) };
+    }
 } }
 export! { 144, glMultiTexCoord2iv, first_glMultiTexCoord2iv, hook_glMultiTexCoord2iv, (target: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord2iv, Effect::MULTITEX) { unsafe { rec.u32(target); rec.slice(v as *const i32, 2); } } else { let gl = hooks::real(); unsafe { gl.glMultiTexCoord2iv(target, v) }; }
+    if let Some(rec) = imm::recording(slot::glMultiTexCoord2iv, Effect::MULTITEX) {
+        rec.u32(target);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const i32, 2) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glMultiTexCoord2iv(target, v) };
+    }
 } }
 export! { 145, glMultiTexCoord2ivARB, first_glMultiTexCoord2ivARB, hook_glMultiTexCoord2ivARB, (target: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord2ivARB, Effect::MULTITEX) { unsafe { rec.u32(target); rec.slice(v as *const i32, 2); } } else { let gl = hooks::real(); unsafe { gl.glMultiTexCoord2ivARB(target, v) }; }
+    if let Some(rec) = imm::recording(slot::glMultiTexCoord2ivARB, Effect::MULTITEX) {
+        rec.u32(target);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const i32, 2) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glMultiTexCoord2ivARB(target, v) };
+    }
 } }
 export! { 146, glMultiTexCoord2s, first_glMultiTexCoord2s, hook_glMultiTexCoord2s, (target: u32, s: i16, t: i16) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord2s, Effect::MULTITEX) { unsafe { rec.u32(target); rec.i16(s); rec.i16(t); } } else { let gl = hooks::real(); unsafe { gl.glMultiTexCoord2s(target, s, t) }; }
+    if let Some(rec) = imm::recording(slot::glMultiTexCoord2s, Effect::MULTITEX) {
+        rec.u32(target);
+        rec.i16(s);
+        rec.i16(t);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glMultiTexCoord2s(target, s, t) };
+    }
 } }
 export! { 147, glMultiTexCoord2sARB, first_glMultiTexCoord2sARB, hook_glMultiTexCoord2sARB, (target: u32, s: i16, t: i16) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord2sARB, Effect::MULTITEX) { unsafe { rec.u32(target); rec.i16(s); rec.i16(t); } } else { let gl = hooks::real(); unsafe { gl.glMultiTexCoord2sARB(target, s, t) }; }
+    if let Some(rec) = imm::recording(slot::glMultiTexCoord2sARB, Effect::MULTITEX) {
+        rec.u32(target);
+        rec.i16(s);
+        rec.i16(t);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glMultiTexCoord2sARB(target, s, t) };
+    }
 } }
 export! { 148, glMultiTexCoord2sv, first_glMultiTexCoord2sv, hook_glMultiTexCoord2sv, (target: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord2sv, Effect::MULTITEX) { unsafe { rec.u32(target); rec.slice(v as *const i16, 2); } } else { let gl = hooks::real(); unsafe { gl.glMultiTexCoord2sv(target, v) }; }
+    if let Some(rec) = imm::recording(slot::glMultiTexCoord2sv, Effect::MULTITEX) {
+        rec.u32(target);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const i16, 2) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glMultiTexCoord2sv(target, v) };
+    }
 } }
 export! { 149, glMultiTexCoord2svARB, first_glMultiTexCoord2svARB, hook_glMultiTexCoord2svARB, (target: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord2svARB, Effect::MULTITEX) { unsafe { rec.u32(target); rec.slice(v as *const i16, 2); } } else { let gl = hooks::real(); unsafe { gl.glMultiTexCoord2svARB(target, v) }; }
+    if let Some(rec) = imm::recording(slot::glMultiTexCoord2svARB, Effect::MULTITEX) {
+        rec.u32(target);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const i16, 2) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glMultiTexCoord2svARB(target, v) };
+    }
 } }
 export! { 150, glMultiTexCoord3d, first_glMultiTexCoord3d, hook_glMultiTexCoord3d, (target: u32, s: f64, t: f64, r: f64) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord3d, Effect::MULTITEX) { unsafe { rec.u32(target); rec.f64(s); rec.f64(t); rec.f64(r); } } else { let gl = hooks::real(); unsafe { gl.glMultiTexCoord3d(target, s, t, r) }; }
+    if let Some(rec) = imm::recording(slot::glMultiTexCoord3d, Effect::MULTITEX) {
+        rec.u32(target);
+        rec.f64(s);
+        rec.f64(t);
+        rec.f64(r);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glMultiTexCoord3d(target, s, t, r) };
+    }
 } }
 export! { 151, glMultiTexCoord3dARB, first_glMultiTexCoord3dARB, hook_glMultiTexCoord3dARB, (target: u32, s: f64, t: f64, r: f64) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord3dARB, Effect::MULTITEX) { unsafe { rec.u32(target); rec.f64(s); rec.f64(t); rec.f64(r); } } else { let gl = hooks::real(); unsafe { gl.glMultiTexCoord3dARB(target, s, t, r) }; }
+    if let Some(rec) = imm::recording(slot::glMultiTexCoord3dARB, Effect::MULTITEX) {
+        rec.u32(target);
+        rec.f64(s);
+        rec.f64(t);
+        rec.f64(r);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glMultiTexCoord3dARB(target, s, t, r) };
+    }
 } }
 export! { 152, glMultiTexCoord3dv, first_glMultiTexCoord3dv, hook_glMultiTexCoord3dv, (target: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord3dv, Effect::MULTITEX) { unsafe { rec.u32(target); rec.slice(v as *const f64, 3); } } else { let gl = hooks::real(); unsafe { gl.glMultiTexCoord3dv(target, v) }; }
+    if let Some(rec) = imm::recording(slot::glMultiTexCoord3dv, Effect::MULTITEX) {
+        rec.u32(target);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const f64, 3) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glMultiTexCoord3dv(target, v) };
+    }
 } }
 export! { 153, glMultiTexCoord3dvARB, first_glMultiTexCoord3dvARB, hook_glMultiTexCoord3dvARB, (target: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord3dvARB, Effect::MULTITEX) { unsafe { rec.u32(target); rec.slice(v as *const f64, 3); } } else { let gl = hooks::real(); unsafe { gl.glMultiTexCoord3dvARB(target, v) }; }
+    if let Some(rec) = imm::recording(slot::glMultiTexCoord3dvARB, Effect::MULTITEX) {
+        rec.u32(target);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const f64, 3) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glMultiTexCoord3dvARB(target, v) };
+    }
 } }
 export! { 154, glMultiTexCoord3f, first_glMultiTexCoord3f, hook_glMultiTexCoord3f, (target: u32, s: f32, t: f32, r: f32) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord3f, Effect::MULTITEX) { unsafe { rec.u32(target); rec.f32(s); rec.f32(t); rec.f32(r); } } else { let gl = hooks::real(); unsafe { gl.glMultiTexCoord3f(target, s, t, r) }; }
+    if let Some(rec) = imm::recording(slot::glMultiTexCoord3f, Effect::MULTITEX) {
+        rec.u32(target);
+        rec.f32(s);
+        rec.f32(t);
+        rec.f32(r);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glMultiTexCoord3f(target, s, t, r) };
+    }
 } }
 export! { 155, glMultiTexCoord3fARB, first_glMultiTexCoord3fARB, hook_glMultiTexCoord3fARB, (target: u32, s: f32, t: f32, r: f32) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord3fARB, Effect::MULTITEX) { unsafe { rec.u32(target); rec.f32(s); rec.f32(t); rec.f32(r); } } else { let gl = hooks::real(); unsafe { gl.glMultiTexCoord3fARB(target, s, t, r) }; }
+    if let Some(rec) = imm::recording(slot::glMultiTexCoord3fARB, Effect::MULTITEX) {
+        rec.u32(target);
+        rec.f32(s);
+        rec.f32(t);
+        rec.f32(r);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glMultiTexCoord3fARB(target, s, t, r) };
+    }
 } }
 export! { 156, glMultiTexCoord3fv, first_glMultiTexCoord3fv, hook_glMultiTexCoord3fv, (target: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord3fv, Effect::MULTITEX) { unsafe { rec.u32(target); rec.slice(v as *const f32, 3); } } else { let gl = hooks::real(); unsafe { gl.glMultiTexCoord3fv(target, v) }; }
+    if let Some(rec) = imm::recording(slot::glMultiTexCoord3fv, Effect::MULTITEX) {
+        rec.u32(target);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const f32, 3) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glMultiTexCoord3fv(target, v) };
+    }
 } }
 export! { 157, glMultiTexCoord3fvARB, first_glMultiTexCoord3fvARB, hook_glMultiTexCoord3fvARB, (target: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord3fvARB, Effect::MULTITEX) { unsafe { rec.u32(target); rec.slice(v as *const f32, 3); } } else { let gl = hooks::real(); unsafe { gl.glMultiTexCoord3fvARB(target, v) }; }
+    if let Some(rec) = imm::recording(slot::glMultiTexCoord3fvARB, Effect::MULTITEX) {
+        rec.u32(target);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const f32, 3) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glMultiTexCoord3fvARB(target, v) };
+    }
 } }
 export! { 158, glMultiTexCoord3i, first_glMultiTexCoord3i, hook_glMultiTexCoord3i, (target: u32, s: i32, t: i32, r: i32) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord3i, Effect::MULTITEX) { unsafe { rec.u32(target); rec.i32(s); rec.i32(t); rec.i32(r); } } else { let gl = hooks::real(); unsafe { gl.glMultiTexCoord3i(target, s, t, r) }; }
+    if let Some(rec) = imm::recording(slot::glMultiTexCoord3i, Effect::MULTITEX) {
+        rec.u32(target);
+        rec.i32(s);
+        rec.i32(t);
+        rec.i32(r);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glMultiTexCoord3i(target, s, t, r) };
+    }
 } }
 export! { 159, glMultiTexCoord3iARB, first_glMultiTexCoord3iARB, hook_glMultiTexCoord3iARB, (target: u32, s: i32, t: i32, r: i32) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord3iARB, Effect::MULTITEX) { unsafe { rec.u32(target); rec.i32(s); rec.i32(t); rec.i32(r); } } else { let gl = hooks::real(); unsafe { gl.glMultiTexCoord3iARB(target, s, t, r) }; }
+    if let Some(rec) = imm::recording(slot::glMultiTexCoord3iARB, Effect::MULTITEX) {
+        rec.u32(target);
+        rec.i32(s);
+        rec.i32(t);
+        rec.i32(r);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glMultiTexCoord3iARB(target, s, t, r) };
+    }
 } }
 export! { 160, glMultiTexCoord3iv, first_glMultiTexCoord3iv, hook_glMultiTexCoord3iv, (target: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord3iv, Effect::MULTITEX) { unsafe { rec.u32(target); rec.slice(v as *const i32, 3); } } else { let gl = hooks::real(); unsafe { gl.glMultiTexCoord3iv(target, v) }; }
+    if let Some(rec) = imm::recording(slot::glMultiTexCoord3iv, Effect::MULTITEX) {
+        rec.u32(target);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const i32, 3) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glMultiTexCoord3iv(target, v) };
+    }
 } }
 export! { 161, glMultiTexCoord3ivARB, first_glMultiTexCoord3ivARB, hook_glMultiTexCoord3ivARB, (target: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord3ivARB, Effect::MULTITEX) { unsafe { rec.u32(target); rec.slice(v as *const i32, 3); } } else { let gl = hooks::real(); unsafe { gl.glMultiTexCoord3ivARB(target, v) }; }
+    if let Some(rec) = imm::recording(slot::glMultiTexCoord3ivARB, Effect::MULTITEX) {
+        rec.u32(target);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const i32, 3) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glMultiTexCoord3ivARB(target, v) };
+    }
 } }
 export! { 162, glMultiTexCoord3s, first_glMultiTexCoord3s, hook_glMultiTexCoord3s, (target: u32, s: i16, t: i16, r: i16) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord3s, Effect::MULTITEX) { unsafe { rec.u32(target); rec.i16(s); rec.i16(t); rec.i16(r); } } else { let gl = hooks::real(); unsafe { gl.glMultiTexCoord3s(target, s, t, r) }; }
+    if let Some(rec) = imm::recording(slot::glMultiTexCoord3s, Effect::MULTITEX) {
+        rec.u32(target);
+        rec.i16(s);
+        rec.i16(t);
+        rec.i16(r);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glMultiTexCoord3s(target, s, t, r) };
+    }
 } }
 export! { 163, glMultiTexCoord3sARB, first_glMultiTexCoord3sARB, hook_glMultiTexCoord3sARB, (target: u32, s: i16, t: i16, r: i16) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord3sARB, Effect::MULTITEX) { unsafe { rec.u32(target); rec.i16(s); rec.i16(t); rec.i16(r); } } else { let gl = hooks::real(); unsafe { gl.glMultiTexCoord3sARB(target, s, t, r) }; }
+    if let Some(rec) = imm::recording(slot::glMultiTexCoord3sARB, Effect::MULTITEX) {
+        rec.u32(target);
+        rec.i16(s);
+        rec.i16(t);
+        rec.i16(r);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glMultiTexCoord3sARB(target, s, t, r) };
+    }
 } }
 export! { 164, glMultiTexCoord3sv, first_glMultiTexCoord3sv, hook_glMultiTexCoord3sv, (target: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord3sv, Effect::MULTITEX) { unsafe { rec.u32(target); rec.slice(v as *const i16, 3); } } else { let gl = hooks::real(); unsafe { gl.glMultiTexCoord3sv(target, v) }; }
+    if let Some(rec) = imm::recording(slot::glMultiTexCoord3sv, Effect::MULTITEX) {
+        rec.u32(target);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const i16, 3) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glMultiTexCoord3sv(target, v) };
+    }
 } }
 export! { 165, glMultiTexCoord3svARB, first_glMultiTexCoord3svARB, hook_glMultiTexCoord3svARB, (target: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord3svARB, Effect::MULTITEX) { unsafe { rec.u32(target); rec.slice(v as *const i16, 3); } } else { let gl = hooks::real(); unsafe { gl.glMultiTexCoord3svARB(target, v) }; }
+    if let Some(rec) = imm::recording(slot::glMultiTexCoord3svARB, Effect::MULTITEX) {
+        rec.u32(target);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const i16, 3) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glMultiTexCoord3svARB(target, v) };
+    }
 } }
 export! { 166, glMultiTexCoord4d, first_glMultiTexCoord4d, hook_glMultiTexCoord4d, (target: u32, s: f64, t: f64, r: f64, q: f64) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord4d, Effect::MULTITEX) { unsafe { rec.u32(target); rec.f64(s); rec.f64(t); rec.f64(r); rec.f64(q); } } else { let gl = hooks::real(); unsafe { gl.glMultiTexCoord4d(target, s, t, r, q) }; }
+    if let Some(rec) = imm::recording(slot::glMultiTexCoord4d, Effect::MULTITEX) {
+        rec.u32(target);
+        rec.f64(s);
+        rec.f64(t);
+        rec.f64(r);
+        rec.f64(q);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glMultiTexCoord4d(target, s, t, r, q) };
+    }
 } }
 export! { 167, glMultiTexCoord4dARB, first_glMultiTexCoord4dARB, hook_glMultiTexCoord4dARB, (target: u32, s: f64, t: f64, r: f64, q: f64) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord4dARB, Effect::MULTITEX) { unsafe { rec.u32(target); rec.f64(s); rec.f64(t); rec.f64(r); rec.f64(q); } } else { let gl = hooks::real(); unsafe { gl.glMultiTexCoord4dARB(target, s, t, r, q) }; }
+    if let Some(rec) = imm::recording(slot::glMultiTexCoord4dARB, Effect::MULTITEX) {
+        rec.u32(target);
+        rec.f64(s);
+        rec.f64(t);
+        rec.f64(r);
+        rec.f64(q);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glMultiTexCoord4dARB(target, s, t, r, q) };
+    }
 } }
 export! { 168, glMultiTexCoord4dv, first_glMultiTexCoord4dv, hook_glMultiTexCoord4dv, (target: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord4dv, Effect::MULTITEX) { unsafe { rec.u32(target); rec.slice(v as *const f64, 4); } } else { let gl = hooks::real(); unsafe { gl.glMultiTexCoord4dv(target, v) }; }
+    if let Some(rec) = imm::recording(slot::glMultiTexCoord4dv, Effect::MULTITEX) {
+        rec.u32(target);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const f64, 4) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glMultiTexCoord4dv(target, v) };
+    }
 } }
 export! { 169, glMultiTexCoord4dvARB, first_glMultiTexCoord4dvARB, hook_glMultiTexCoord4dvARB, (target: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord4dvARB, Effect::MULTITEX) { unsafe { rec.u32(target); rec.slice(v as *const f64, 4); } } else { let gl = hooks::real(); unsafe { gl.glMultiTexCoord4dvARB(target, v) }; }
+    if let Some(rec) = imm::recording(slot::glMultiTexCoord4dvARB, Effect::MULTITEX) {
+        rec.u32(target);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const f64, 4) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glMultiTexCoord4dvARB(target, v) };
+    }
 } }
 export! { 170, glMultiTexCoord4f, first_glMultiTexCoord4f, hook_glMultiTexCoord4f, (target: u32, s: f32, t: f32, r: f32, q: f32) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord4f, Effect::MULTITEX) { unsafe { rec.u32(target); rec.f32(s); rec.f32(t); rec.f32(r); rec.f32(q); } } else { let gl = hooks::real(); unsafe { gl.glMultiTexCoord4f(target, s, t, r, q) }; }
+    if let Some(rec) = imm::recording(slot::glMultiTexCoord4f, Effect::MULTITEX) {
+        rec.u32(target);
+        rec.f32(s);
+        rec.f32(t);
+        rec.f32(r);
+        rec.f32(q);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glMultiTexCoord4f(target, s, t, r, q) };
+    }
 } }
 export! { 171, glMultiTexCoord4fARB, first_glMultiTexCoord4fARB, hook_glMultiTexCoord4fARB, (target: u32, s: f32, t: f32, r: f32, q: f32) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord4fARB, Effect::MULTITEX) { unsafe { rec.u32(target); rec.f32(s); rec.f32(t); rec.f32(r); rec.f32(q); } } else { let gl = hooks::real(); unsafe { gl.glMultiTexCoord4fARB(target, s, t, r, q) }; }
+    if let Some(rec) = imm::recording(slot::glMultiTexCoord4fARB, Effect::MULTITEX) {
+        rec.u32(target);
+        rec.f32(s);
+        rec.f32(t);
+        rec.f32(r);
+        rec.f32(q);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glMultiTexCoord4fARB(target, s, t, r, q) };
+    }
 } }
 export! { 172, glMultiTexCoord4fv, first_glMultiTexCoord4fv, hook_glMultiTexCoord4fv, (target: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord4fv, Effect::MULTITEX) { unsafe { rec.u32(target); rec.slice(v as *const f32, 4); } } else { let gl = hooks::real(); unsafe { gl.glMultiTexCoord4fv(target, v) }; }
+    if let Some(rec) = imm::recording(slot::glMultiTexCoord4fv, Effect::MULTITEX) {
+        rec.u32(target);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const f32, 4) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glMultiTexCoord4fv(target, v) };
+    }
 } }
 export! { 173, glMultiTexCoord4fvARB, first_glMultiTexCoord4fvARB, hook_glMultiTexCoord4fvARB, (target: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord4fvARB, Effect::MULTITEX) { unsafe { rec.u32(target); rec.slice(v as *const f32, 4); } } else { let gl = hooks::real(); unsafe { gl.glMultiTexCoord4fvARB(target, v) }; }
+    if let Some(rec) = imm::recording(slot::glMultiTexCoord4fvARB, Effect::MULTITEX) {
+        rec.u32(target);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const f32, 4) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glMultiTexCoord4fvARB(target, v) };
+    }
 } }
 export! { 174, glMultiTexCoord4i, first_glMultiTexCoord4i, hook_glMultiTexCoord4i, (target: u32, s: i32, t: i32, r: i32, q: i32) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord4i, Effect::MULTITEX) { unsafe { rec.u32(target); rec.i32(s); rec.i32(t); rec.i32(r); rec.i32(q); } } else { let gl = hooks::real(); unsafe { gl.glMultiTexCoord4i(target, s, t, r, q) }; }
+    if let Some(rec) = imm::recording(slot::glMultiTexCoord4i, Effect::MULTITEX) {
+        rec.u32(target);
+        rec.i32(s);
+        rec.i32(t);
+        rec.i32(r);
+        rec.i32(q);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glMultiTexCoord4i(target, s, t, r, q) };
+    }
 } }
 export! { 175, glMultiTexCoord4iARB, first_glMultiTexCoord4iARB, hook_glMultiTexCoord4iARB, (target: u32, s: i32, t: i32, r: i32, q: i32) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord4iARB, Effect::MULTITEX) { unsafe { rec.u32(target); rec.i32(s); rec.i32(t); rec.i32(r); rec.i32(q); } } else { let gl = hooks::real(); unsafe { gl.glMultiTexCoord4iARB(target, s, t, r, q) }; }
+    if let Some(rec) = imm::recording(slot::glMultiTexCoord4iARB, Effect::MULTITEX) {
+        rec.u32(target);
+        rec.i32(s);
+        rec.i32(t);
+        rec.i32(r);
+        rec.i32(q);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glMultiTexCoord4iARB(target, s, t, r, q) };
+    }
 } }
 export! { 176, glMultiTexCoord4iv, first_glMultiTexCoord4iv, hook_glMultiTexCoord4iv, (target: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord4iv, Effect::MULTITEX) { unsafe { rec.u32(target); rec.slice(v as *const i32, 4); } } else { let gl = hooks::real(); unsafe { gl.glMultiTexCoord4iv(target, v) }; }
+    if let Some(rec) = imm::recording(slot::glMultiTexCoord4iv, Effect::MULTITEX) {
+        rec.u32(target);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const i32, 4) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glMultiTexCoord4iv(target, v) };
+    }
 } }
 export! { 177, glMultiTexCoord4ivARB, first_glMultiTexCoord4ivARB, hook_glMultiTexCoord4ivARB, (target: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord4ivARB, Effect::MULTITEX) { unsafe { rec.u32(target); rec.slice(v as *const i32, 4); } } else { let gl = hooks::real(); unsafe { gl.glMultiTexCoord4ivARB(target, v) }; }
+    if let Some(rec) = imm::recording(slot::glMultiTexCoord4ivARB, Effect::MULTITEX) {
+        rec.u32(target);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const i32, 4) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glMultiTexCoord4ivARB(target, v) };
+    }
 } }
 export! { 178, glMultiTexCoord4s, first_glMultiTexCoord4s, hook_glMultiTexCoord4s, (target: u32, s: i16, t: i16, r: i16, q: i16) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord4s, Effect::MULTITEX) { unsafe { rec.u32(target); rec.i16(s); rec.i16(t); rec.i16(r); rec.i16(q); } } else { let gl = hooks::real(); unsafe { gl.glMultiTexCoord4s(target, s, t, r, q) }; }
+    if let Some(rec) = imm::recording(slot::glMultiTexCoord4s, Effect::MULTITEX) {
+        rec.u32(target);
+        rec.i16(s);
+        rec.i16(t);
+        rec.i16(r);
+        rec.i16(q);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glMultiTexCoord4s(target, s, t, r, q) };
+    }
 } }
 export! { 179, glMultiTexCoord4sARB, first_glMultiTexCoord4sARB, hook_glMultiTexCoord4sARB, (target: u32, s: i16, t: i16, r: i16, q: i16) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord4sARB, Effect::MULTITEX) { unsafe { rec.u32(target); rec.i16(s); rec.i16(t); rec.i16(r); rec.i16(q); } } else { let gl = hooks::real(); unsafe { gl.glMultiTexCoord4sARB(target, s, t, r, q) }; }
+    if let Some(rec) = imm::recording(slot::glMultiTexCoord4sARB, Effect::MULTITEX) {
+        rec.u32(target);
+        rec.i16(s);
+        rec.i16(t);
+        rec.i16(r);
+        rec.i16(q);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glMultiTexCoord4sARB(target, s, t, r, q) };
+    }
 } }
 export! { 180, glMultiTexCoord4sv, first_glMultiTexCoord4sv, hook_glMultiTexCoord4sv, (target: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord4sv, Effect::MULTITEX) { unsafe { rec.u32(target); rec.slice(v as *const i16, 4); } } else { let gl = hooks::real(); unsafe { gl.glMultiTexCoord4sv(target, v) }; }
+    if let Some(rec) = imm::recording(slot::glMultiTexCoord4sv, Effect::MULTITEX) {
+        rec.u32(target);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const i16, 4) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glMultiTexCoord4sv(target, v) };
+    }
 } }
 export! { 181, glMultiTexCoord4svARB, first_glMultiTexCoord4svARB, hook_glMultiTexCoord4svARB, (target: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord4svARB, Effect::MULTITEX) { unsafe { rec.u32(target); rec.slice(v as *const i16, 4); } } else { let gl = hooks::real(); unsafe { gl.glMultiTexCoord4svARB(target, v) }; }
+    if let Some(rec) = imm::recording(slot::glMultiTexCoord4svARB, Effect::MULTITEX) {
+        rec.u32(target);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const i16, 4) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glMultiTexCoord4svARB(target, v) };
+    }
 } }
 export! { 182, glMultiTexCoord1hNV, first_glMultiTexCoord1hNV, hook_glMultiTexCoord1hNV, (target: u32, s: u16) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord1hNV, Effect::MULTITEX) { unsafe { rec.u32(target); rec.u16(s); } } else { let gl = hooks::real(); unsafe { gl.glMultiTexCoord1hNV(target, s) }; }
+    if let Some(rec) = imm::recording(slot::glMultiTexCoord1hNV, Effect::MULTITEX) {
+        rec.u32(target);
+        rec.u16(s);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glMultiTexCoord1hNV(target, s) };
+    }
 } }
 export! { 183, glMultiTexCoord1hvNV, first_glMultiTexCoord1hvNV, hook_glMultiTexCoord1hvNV, (target: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord1hvNV, Effect::MULTITEX) { unsafe { rec.u32(target); rec.slice(v as *const u16, 1); } } else { let gl = hooks::real(); unsafe { gl.glMultiTexCoord1hvNV(target, v) }; }
+    if let Some(rec) = imm::recording(slot::glMultiTexCoord1hvNV, Effect::MULTITEX) {
+        rec.u32(target);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const u16, 1) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glMultiTexCoord1hvNV(target, v) };
+    }
 } }
 export! { 184, glMultiTexCoord2hNV, first_glMultiTexCoord2hNV, hook_glMultiTexCoord2hNV, (target: u32, s: u16, t: u16) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord2hNV, Effect::MULTITEX) { unsafe { rec.u32(target); rec.u16(s); rec.u16(t); } } else { let gl = hooks::real(); unsafe { gl.glMultiTexCoord2hNV(target, s, t) }; }
+    if let Some(rec) = imm::recording(slot::glMultiTexCoord2hNV, Effect::MULTITEX) {
+        rec.u32(target);
+        rec.u16(s);
+        rec.u16(t);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glMultiTexCoord2hNV(target, s, t) };
+    }
 } }
 export! { 185, glMultiTexCoord2hvNV, first_glMultiTexCoord2hvNV, hook_glMultiTexCoord2hvNV, (target: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord2hvNV, Effect::MULTITEX) { unsafe { rec.u32(target); rec.slice(v as *const u16, 2); } } else { let gl = hooks::real(); unsafe { gl.glMultiTexCoord2hvNV(target, v) }; }
+    if let Some(rec) = imm::recording(slot::glMultiTexCoord2hvNV, Effect::MULTITEX) {
+        rec.u32(target);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const u16, 2) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glMultiTexCoord2hvNV(target, v) };
+    }
 } }
 export! { 186, glMultiTexCoord3hNV, first_glMultiTexCoord3hNV, hook_glMultiTexCoord3hNV, (target: u32, s: u16, t: u16, r: u16) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord3hNV, Effect::MULTITEX) { unsafe { rec.u32(target); rec.u16(s); rec.u16(t); rec.u16(r); } } else { let gl = hooks::real(); unsafe { gl.glMultiTexCoord3hNV(target, s, t, r) }; }
+    if let Some(rec) = imm::recording(slot::glMultiTexCoord3hNV, Effect::MULTITEX) {
+        rec.u32(target);
+        rec.u16(s);
+        rec.u16(t);
+        rec.u16(r);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glMultiTexCoord3hNV(target, s, t, r) };
+    }
 } }
 export! { 187, glMultiTexCoord3hvNV, first_glMultiTexCoord3hvNV, hook_glMultiTexCoord3hvNV, (target: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord3hvNV, Effect::MULTITEX) { unsafe { rec.u32(target); rec.slice(v as *const u16, 3); } } else { let gl = hooks::real(); unsafe { gl.glMultiTexCoord3hvNV(target, v) }; }
+    if let Some(rec) = imm::recording(slot::glMultiTexCoord3hvNV, Effect::MULTITEX) {
+        rec.u32(target);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const u16, 3) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glMultiTexCoord3hvNV(target, v) };
+    }
 } }
 export! { 188, glMultiTexCoord4hNV, first_glMultiTexCoord4hNV, hook_glMultiTexCoord4hNV, (target: u32, s: u16, t: u16, r: u16, q: u16) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord4hNV, Effect::MULTITEX) { unsafe { rec.u32(target); rec.u16(s); rec.u16(t); rec.u16(r); rec.u16(q); } } else { let gl = hooks::real(); unsafe { gl.glMultiTexCoord4hNV(target, s, t, r, q) }; }
+    if let Some(rec) = imm::recording(slot::glMultiTexCoord4hNV, Effect::MULTITEX) {
+        rec.u32(target);
+        rec.u16(s);
+        rec.u16(t);
+        rec.u16(r);
+        rec.u16(q);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glMultiTexCoord4hNV(target, s, t, r, q) };
+    }
 } }
 export! { 189, glMultiTexCoord4hvNV, first_glMultiTexCoord4hvNV, hook_glMultiTexCoord4hvNV, (target: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord4hvNV, Effect::MULTITEX) { unsafe { rec.u32(target); rec.slice(v as *const u16, 4); } } else { let gl = hooks::real(); unsafe { gl.glMultiTexCoord4hvNV(target, v) }; }
+    if let Some(rec) = imm::recording(slot::glMultiTexCoord4hvNV, Effect::MULTITEX) {
+        rec.u32(target);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const u16, 4) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glMultiTexCoord4hvNV(target, v) };
+    }
 } }
 export! { 190, glSecondaryColor3b, first_glSecondaryColor3b, hook_glSecondaryColor3b, (red: i8, green: i8, blue: i8) -> (), {
-    if let Some(rec) = imm::recording(slot::glSecondaryColor3b, Effect::SECONDARY) { unsafe { rec.i8(red); rec.i8(green); rec.i8(blue); } } else { let gl = hooks::real(); unsafe { gl.glSecondaryColor3b(red, green, blue) }; }
+    if let Some(rec) = imm::recording(slot::glSecondaryColor3b, Effect::SECONDARY) {
+        rec.i8(red);
+        rec.i8(green);
+        rec.i8(blue);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glSecondaryColor3b(red, green, blue) };
+    }
 } }
 export! { 191, glSecondaryColor3bEXT, first_glSecondaryColor3bEXT, hook_glSecondaryColor3bEXT, (red: i8, green: i8, blue: i8) -> (), {
-    if let Some(rec) = imm::recording(slot::glSecondaryColor3bEXT, Effect::SECONDARY) { unsafe { rec.i8(red); rec.i8(green); rec.i8(blue); } } else { let gl = hooks::real(); unsafe { gl.glSecondaryColor3bEXT(red, green, blue) }; }
+    if let Some(rec) = imm::recording(slot::glSecondaryColor3bEXT, Effect::SECONDARY) {
+        rec.i8(red);
+        rec.i8(green);
+        rec.i8(blue);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glSecondaryColor3bEXT(red, green, blue) };
+    }
 } }
 export! { 192, glSecondaryColor3bv, first_glSecondaryColor3bv, hook_glSecondaryColor3bv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glSecondaryColor3bv, Effect::SECONDARY) { unsafe { rec.slice(v as *const i8, 3); } } else { let gl = hooks::real(); unsafe { gl.glSecondaryColor3bv(v) }; }
+    if let Some(rec) = imm::recording(slot::glSecondaryColor3bv, Effect::SECONDARY) {
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const i8, 3) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glSecondaryColor3bv(v) };
+    }
 } }
 export! { 193, glSecondaryColor3bvEXT, first_glSecondaryColor3bvEXT, hook_glSecondaryColor3bvEXT, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glSecondaryColor3bvEXT, Effect::SECONDARY) { unsafe { rec.slice(v as *const i8, 3); } } else { let gl = hooks::real(); unsafe { gl.glSecondaryColor3bvEXT(v) }; }
+    if let Some(rec) = imm::recording(slot::glSecondaryColor3bvEXT, Effect::SECONDARY) {
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const i8, 3) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glSecondaryColor3bvEXT(v) };
+    }
 } }
 export! { 194, glSecondaryColor3d, first_glSecondaryColor3d, hook_glSecondaryColor3d, (red: f64, green: f64, blue: f64) -> (), {
-    if let Some(rec) = imm::recording(slot::glSecondaryColor3d, Effect::SECONDARY) { unsafe { rec.f64(red); rec.f64(green); rec.f64(blue); } } else { let gl = hooks::real(); unsafe { gl.glSecondaryColor3d(red, green, blue) }; }
+    if let Some(rec) = imm::recording(slot::glSecondaryColor3d, Effect::SECONDARY) {
+        rec.f64(red);
+        rec.f64(green);
+        rec.f64(blue);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glSecondaryColor3d(red, green, blue) };
+    }
 } }
 export! { 195, glSecondaryColor3dEXT, first_glSecondaryColor3dEXT, hook_glSecondaryColor3dEXT, (red: f64, green: f64, blue: f64) -> (), {
-    if let Some(rec) = imm::recording(slot::glSecondaryColor3dEXT, Effect::SECONDARY) { unsafe { rec.f64(red); rec.f64(green); rec.f64(blue); } } else { let gl = hooks::real(); unsafe { gl.glSecondaryColor3dEXT(red, green, blue) }; }
+    if let Some(rec) = imm::recording(slot::glSecondaryColor3dEXT, Effect::SECONDARY) {
+        rec.f64(red);
+        rec.f64(green);
+        rec.f64(blue);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glSecondaryColor3dEXT(red, green, blue) };
+    }
 } }
 export! { 196, glSecondaryColor3dv, first_glSecondaryColor3dv, hook_glSecondaryColor3dv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glSecondaryColor3dv, Effect::SECONDARY) { unsafe { rec.slice(v as *const f64, 3); } } else { let gl = hooks::real(); unsafe { gl.glSecondaryColor3dv(v) }; }
+    if let Some(rec) = imm::recording(slot::glSecondaryColor3dv, Effect::SECONDARY) {
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const f64, 3) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glSecondaryColor3dv(v) };
+    }
 } }
 export! { 197, glSecondaryColor3dvEXT, first_glSecondaryColor3dvEXT, hook_glSecondaryColor3dvEXT, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glSecondaryColor3dvEXT, Effect::SECONDARY) { unsafe { rec.slice(v as *const f64, 3); } } else { let gl = hooks::real(); unsafe { gl.glSecondaryColor3dvEXT(v) }; }
+    if let Some(rec) = imm::recording(slot::glSecondaryColor3dvEXT, Effect::SECONDARY) {
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const f64, 3) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glSecondaryColor3dvEXT(v) };
+    }
 } }
 export! { 198, glSecondaryColor3f, first_glSecondaryColor3f, hook_glSecondaryColor3f, (red: f32, green: f32, blue: f32) -> (), {
-    if let Some(rec) = imm::recording(slot::glSecondaryColor3f, Effect::SECONDARY) { unsafe { rec.f32(red); rec.f32(green); rec.f32(blue); } } else { let gl = hooks::real(); unsafe { gl.glSecondaryColor3f(red, green, blue) }; }
+    if let Some(rec) = imm::recording(slot::glSecondaryColor3f, Effect::SECONDARY) {
+        rec.f32(red);
+        rec.f32(green);
+        rec.f32(blue);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glSecondaryColor3f(red, green, blue) };
+    }
 } }
 export! { 199, glSecondaryColor3fEXT, first_glSecondaryColor3fEXT, hook_glSecondaryColor3fEXT, (red: f32, green: f32, blue: f32) -> (), {
-    if let Some(rec) = imm::recording(slot::glSecondaryColor3fEXT, Effect::SECONDARY) { unsafe { rec.f32(red); rec.f32(green); rec.f32(blue); } } else { let gl = hooks::real(); unsafe { gl.glSecondaryColor3fEXT(red, green, blue) }; }
+    if let Some(rec) = imm::recording(slot::glSecondaryColor3fEXT, Effect::SECONDARY) {
+        rec.f32(red);
+        rec.f32(green);
+        rec.f32(blue);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glSecondaryColor3fEXT(red, green, blue) };
+    }
 } }
 export! { 200, glSecondaryColor3fv, first_glSecondaryColor3fv, hook_glSecondaryColor3fv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glSecondaryColor3fv, Effect::SECONDARY) { unsafe { rec.slice(v as *const f32, 3); } } else { let gl = hooks::real(); unsafe { gl.glSecondaryColor3fv(v) }; }
+    if let Some(rec) = imm::recording(slot::glSecondaryColor3fv, Effect::SECONDARY) {
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const f32, 3) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glSecondaryColor3fv(v) };
+    }
 } }
 export! { 201, glSecondaryColor3fvEXT, first_glSecondaryColor3fvEXT, hook_glSecondaryColor3fvEXT, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glSecondaryColor3fvEXT, Effect::SECONDARY) { unsafe { rec.slice(v as *const f32, 3); } } else { let gl = hooks::real(); unsafe { gl.glSecondaryColor3fvEXT(v) }; }
+    if let Some(rec) = imm::recording(slot::glSecondaryColor3fvEXT, Effect::SECONDARY) {
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const f32, 3) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glSecondaryColor3fvEXT(v) };
+    }
 } }
 export! { 202, glSecondaryColor3i, first_glSecondaryColor3i, hook_glSecondaryColor3i, (red: i32, green: i32, blue: i32) -> (), {
-    if let Some(rec) = imm::recording(slot::glSecondaryColor3i, Effect::SECONDARY) { unsafe { rec.i32(red); rec.i32(green); rec.i32(blue); } } else { let gl = hooks::real(); unsafe { gl.glSecondaryColor3i(red, green, blue) }; }
+    if let Some(rec) = imm::recording(slot::glSecondaryColor3i, Effect::SECONDARY) {
+        rec.i32(red);
+        rec.i32(green);
+        rec.i32(blue);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glSecondaryColor3i(red, green, blue) };
+    }
 } }
 export! { 203, glSecondaryColor3iEXT, first_glSecondaryColor3iEXT, hook_glSecondaryColor3iEXT, (red: i32, green: i32, blue: i32) -> (), {
-    if let Some(rec) = imm::recording(slot::glSecondaryColor3iEXT, Effect::SECONDARY) { unsafe { rec.i32(red); rec.i32(green); rec.i32(blue); } } else { let gl = hooks::real(); unsafe { gl.glSecondaryColor3iEXT(red, green, blue) }; }
+    if let Some(rec) = imm::recording(slot::glSecondaryColor3iEXT, Effect::SECONDARY) {
+        rec.i32(red);
+        rec.i32(green);
+        rec.i32(blue);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glSecondaryColor3iEXT(red, green, blue) };
+    }
 } }
 export! { 204, glSecondaryColor3iv, first_glSecondaryColor3iv, hook_glSecondaryColor3iv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glSecondaryColor3iv, Effect::SECONDARY) { unsafe { rec.slice(v as *const i32, 3); } } else { let gl = hooks::real(); unsafe { gl.glSecondaryColor3iv(v) }; }
+    if let Some(rec) = imm::recording(slot::glSecondaryColor3iv, Effect::SECONDARY) {
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const i32, 3) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glSecondaryColor3iv(v) };
+    }
 } }
 export! { 205, glSecondaryColor3ivEXT, first_glSecondaryColor3ivEXT, hook_glSecondaryColor3ivEXT, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glSecondaryColor3ivEXT, Effect::SECONDARY) { unsafe { rec.slice(v as *const i32, 3); } } else { let gl = hooks::real(); unsafe { gl.glSecondaryColor3ivEXT(v) }; }
+    if let Some(rec) = imm::recording(slot::glSecondaryColor3ivEXT, Effect::SECONDARY) {
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const i32, 3) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glSecondaryColor3ivEXT(v) };
+    }
 } }
 export! { 206, glSecondaryColor3s, first_glSecondaryColor3s, hook_glSecondaryColor3s, (red: i16, green: i16, blue: i16) -> (), {
-    if let Some(rec) = imm::recording(slot::glSecondaryColor3s, Effect::SECONDARY) { unsafe { rec.i16(red); rec.i16(green); rec.i16(blue); } } else { let gl = hooks::real(); unsafe { gl.glSecondaryColor3s(red, green, blue) }; }
+    if let Some(rec) = imm::recording(slot::glSecondaryColor3s, Effect::SECONDARY) {
+        rec.i16(red);
+        rec.i16(green);
+        rec.i16(blue);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glSecondaryColor3s(red, green, blue) };
+    }
 } }
 export! { 207, glSecondaryColor3sEXT, first_glSecondaryColor3sEXT, hook_glSecondaryColor3sEXT, (red: i16, green: i16, blue: i16) -> (), {
-    if let Some(rec) = imm::recording(slot::glSecondaryColor3sEXT, Effect::SECONDARY) { unsafe { rec.i16(red); rec.i16(green); rec.i16(blue); } } else { let gl = hooks::real(); unsafe { gl.glSecondaryColor3sEXT(red, green, blue) }; }
+    if let Some(rec) = imm::recording(slot::glSecondaryColor3sEXT, Effect::SECONDARY) {
+        rec.i16(red);
+        rec.i16(green);
+        rec.i16(blue);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glSecondaryColor3sEXT(red, green, blue) };
+    }
 } }
 export! { 208, glSecondaryColor3sv, first_glSecondaryColor3sv, hook_glSecondaryColor3sv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glSecondaryColor3sv, Effect::SECONDARY) { unsafe { rec.slice(v as *const i16, 3); } } else { let gl = hooks::real(); unsafe { gl.glSecondaryColor3sv(v) }; }
+    if let Some(rec) = imm::recording(slot::glSecondaryColor3sv, Effect::SECONDARY) {
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const i16, 3) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glSecondaryColor3sv(v) };
+    }
 } }
 export! { 209, glSecondaryColor3svEXT, first_glSecondaryColor3svEXT, hook_glSecondaryColor3svEXT, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glSecondaryColor3svEXT, Effect::SECONDARY) { unsafe { rec.slice(v as *const i16, 3); } } else { let gl = hooks::real(); unsafe { gl.glSecondaryColor3svEXT(v) }; }
+    if let Some(rec) = imm::recording(slot::glSecondaryColor3svEXT, Effect::SECONDARY) {
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const i16, 3) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glSecondaryColor3svEXT(v) };
+    }
 } }
 export! { 210, glSecondaryColor3ub, first_glSecondaryColor3ub, hook_glSecondaryColor3ub, (red: u8, green: u8, blue: u8) -> (), {
-    if let Some(rec) = imm::recording(slot::glSecondaryColor3ub, Effect::SECONDARY) { unsafe { rec.u8(red); rec.u8(green); rec.u8(blue); } } else { let gl = hooks::real(); unsafe { gl.glSecondaryColor3ub(red, green, blue) }; }
+    if let Some(rec) = imm::recording(slot::glSecondaryColor3ub, Effect::SECONDARY) {
+        rec.u8(red);
+        rec.u8(green);
+        rec.u8(blue);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glSecondaryColor3ub(red, green, blue) };
+    }
 } }
 export! { 211, glSecondaryColor3ubEXT, first_glSecondaryColor3ubEXT, hook_glSecondaryColor3ubEXT, (red: u8, green: u8, blue: u8) -> (), {
-    if let Some(rec) = imm::recording(slot::glSecondaryColor3ubEXT, Effect::SECONDARY) { unsafe { rec.u8(red); rec.u8(green); rec.u8(blue); } } else { let gl = hooks::real(); unsafe { gl.glSecondaryColor3ubEXT(red, green, blue) }; }
+    if let Some(rec) = imm::recording(slot::glSecondaryColor3ubEXT, Effect::SECONDARY) {
+        rec.u8(red);
+        rec.u8(green);
+        rec.u8(blue);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glSecondaryColor3ubEXT(red, green, blue) };
+    }
 } }
 export! { 212, glSecondaryColor3ubv, first_glSecondaryColor3ubv, hook_glSecondaryColor3ubv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glSecondaryColor3ubv, Effect::SECONDARY) { unsafe { rec.slice(v as *const u8, 3); } } else { let gl = hooks::real(); unsafe { gl.glSecondaryColor3ubv(v) }; }
+    if let Some(rec) = imm::recording(slot::glSecondaryColor3ubv, Effect::SECONDARY) {
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const u8, 3) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glSecondaryColor3ubv(v) };
+    }
 } }
 export! { 213, glSecondaryColor3ubvEXT, first_glSecondaryColor3ubvEXT, hook_glSecondaryColor3ubvEXT, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glSecondaryColor3ubvEXT, Effect::SECONDARY) { unsafe { rec.slice(v as *const u8, 3); } } else { let gl = hooks::real(); unsafe { gl.glSecondaryColor3ubvEXT(v) }; }
+    if let Some(rec) = imm::recording(slot::glSecondaryColor3ubvEXT, Effect::SECONDARY) {
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const u8, 3) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glSecondaryColor3ubvEXT(v) };
+    }
 } }
 export! { 214, glSecondaryColor3ui, first_glSecondaryColor3ui, hook_glSecondaryColor3ui, (red: u32, green: u32, blue: u32) -> (), {
-    if let Some(rec) = imm::recording(slot::glSecondaryColor3ui, Effect::SECONDARY) { unsafe { rec.u32(red); rec.u32(green); rec.u32(blue); } } else { let gl = hooks::real(); unsafe { gl.glSecondaryColor3ui(red, green, blue) }; }
+    if let Some(rec) = imm::recording(slot::glSecondaryColor3ui, Effect::SECONDARY) {
+        rec.u32(red);
+        rec.u32(green);
+        rec.u32(blue);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glSecondaryColor3ui(red, green, blue) };
+    }
 } }
 export! { 215, glSecondaryColor3uiEXT, first_glSecondaryColor3uiEXT, hook_glSecondaryColor3uiEXT, (red: u32, green: u32, blue: u32) -> (), {
-    if let Some(rec) = imm::recording(slot::glSecondaryColor3uiEXT, Effect::SECONDARY) { unsafe { rec.u32(red); rec.u32(green); rec.u32(blue); } } else { let gl = hooks::real(); unsafe { gl.glSecondaryColor3uiEXT(red, green, blue) }; }
+    if let Some(rec) = imm::recording(slot::glSecondaryColor3uiEXT, Effect::SECONDARY) {
+        rec.u32(red);
+        rec.u32(green);
+        rec.u32(blue);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glSecondaryColor3uiEXT(red, green, blue) };
+    }
 } }
 export! { 216, glSecondaryColor3uiv, first_glSecondaryColor3uiv, hook_glSecondaryColor3uiv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glSecondaryColor3uiv, Effect::SECONDARY) { unsafe { rec.slice(v as *const u32, 3); } } else { let gl = hooks::real(); unsafe { gl.glSecondaryColor3uiv(v) }; }
+    if let Some(rec) = imm::recording(slot::glSecondaryColor3uiv, Effect::SECONDARY) {
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const u32, 3) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glSecondaryColor3uiv(v) };
+    }
 } }
 export! { 217, glSecondaryColor3uivEXT, first_glSecondaryColor3uivEXT, hook_glSecondaryColor3uivEXT, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glSecondaryColor3uivEXT, Effect::SECONDARY) { unsafe { rec.slice(v as *const u32, 3); } } else { let gl = hooks::real(); unsafe { gl.glSecondaryColor3uivEXT(v) }; }
+    if let Some(rec) = imm::recording(slot::glSecondaryColor3uivEXT, Effect::SECONDARY) {
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const u32, 3) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glSecondaryColor3uivEXT(v) };
+    }
 } }
 export! { 218, glSecondaryColor3us, first_glSecondaryColor3us, hook_glSecondaryColor3us, (red: u16, green: u16, blue: u16) -> (), {
-    if let Some(rec) = imm::recording(slot::glSecondaryColor3us, Effect::SECONDARY) { unsafe { rec.u16(red); rec.u16(green); rec.u16(blue); } } else { let gl = hooks::real(); unsafe { gl.glSecondaryColor3us(red, green, blue) }; }
+    if let Some(rec) = imm::recording(slot::glSecondaryColor3us, Effect::SECONDARY) {
+        rec.u16(red);
+        rec.u16(green);
+        rec.u16(blue);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glSecondaryColor3us(red, green, blue) };
+    }
 } }
 export! { 219, glSecondaryColor3usEXT, first_glSecondaryColor3usEXT, hook_glSecondaryColor3usEXT, (red: u16, green: u16, blue: u16) -> (), {
-    if let Some(rec) = imm::recording(slot::glSecondaryColor3usEXT, Effect::SECONDARY) { unsafe { rec.u16(red); rec.u16(green); rec.u16(blue); } } else { let gl = hooks::real(); unsafe { gl.glSecondaryColor3usEXT(red, green, blue) }; }
+    if let Some(rec) = imm::recording(slot::glSecondaryColor3usEXT, Effect::SECONDARY) {
+        rec.u16(red);
+        rec.u16(green);
+        rec.u16(blue);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glSecondaryColor3usEXT(red, green, blue) };
+    }
 } }
 export! { 220, glSecondaryColor3usv, first_glSecondaryColor3usv, hook_glSecondaryColor3usv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glSecondaryColor3usv, Effect::SECONDARY) { unsafe { rec.slice(v as *const u16, 3); } } else { let gl = hooks::real(); unsafe { gl.glSecondaryColor3usv(v) }; }
+    if let Some(rec) = imm::recording(slot::glSecondaryColor3usv, Effect::SECONDARY) {
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const u16, 3) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glSecondaryColor3usv(v) };
+    }
 } }
 export! { 221, glSecondaryColor3usvEXT, first_glSecondaryColor3usvEXT, hook_glSecondaryColor3usvEXT, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glSecondaryColor3usvEXT, Effect::SECONDARY) { unsafe { rec.slice(v as *const u16, 3); } } else { let gl = hooks::real(); unsafe { gl.glSecondaryColor3usvEXT(v) }; }
+    if let Some(rec) = imm::recording(slot::glSecondaryColor3usvEXT, Effect::SECONDARY) {
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const u16, 3) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glSecondaryColor3usvEXT(v) };
+    }
 } }
 export! { 222, glSecondaryColor3hNV, first_glSecondaryColor3hNV, hook_glSecondaryColor3hNV, (red: u16, green: u16, blue: u16) -> (), {
-    if let Some(rec) = imm::recording(slot::glSecondaryColor3hNV, Effect::SECONDARY) { unsafe { rec.u16(red); rec.u16(green); rec.u16(blue); } } else { let gl = hooks::real(); unsafe { gl.glSecondaryColor3hNV(red, green, blue) }; }
+    if let Some(rec) = imm::recording(slot::glSecondaryColor3hNV, Effect::SECONDARY) {
+        rec.u16(red);
+        rec.u16(green);
+        rec.u16(blue);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glSecondaryColor3hNV(red, green, blue) };
+    }
 } }
 export! { 223, glSecondaryColor3hvNV, first_glSecondaryColor3hvNV, hook_glSecondaryColor3hvNV, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glSecondaryColor3hvNV, Effect::SECONDARY) { unsafe { rec.slice(v as *const u16, 3); } } else { let gl = hooks::real(); unsafe { gl.glSecondaryColor3hvNV(v) }; }
+    if let Some(rec) = imm::recording(slot::glSecondaryColor3hvNV, Effect::SECONDARY) {
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const u16, 3) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glSecondaryColor3hvNV(v) };
+    }
 } }
 export! { 224, glFogCoordd, first_glFogCoordd, hook_glFogCoordd, (coord: f64) -> (), {
-    if let Some(rec) = imm::recording(slot::glFogCoordd, Effect::FOG) { unsafe { rec.f64(coord); } } else { let gl = hooks::real(); unsafe { gl.glFogCoordd(coord) }; }
+    if let Some(rec) = imm::recording(slot::glFogCoordd, Effect::FOG) {
+        rec.f64(coord);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glFogCoordd(coord) };
+    }
 } }
 export! { 225, glFogCoorddEXT, first_glFogCoorddEXT, hook_glFogCoorddEXT, (coord: f64) -> (), {
-    if let Some(rec) = imm::recording(slot::glFogCoorddEXT, Effect::FOG) { unsafe { rec.f64(coord); } } else { let gl = hooks::real(); unsafe { gl.glFogCoorddEXT(coord) }; }
+    if let Some(rec) = imm::recording(slot::glFogCoorddEXT, Effect::FOG) {
+        rec.f64(coord);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glFogCoorddEXT(coord) };
+    }
 } }
 export! { 226, glFogCoorddv, first_glFogCoorddv, hook_glFogCoorddv, (coord: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glFogCoorddv, Effect::FOG) { unsafe { rec.slice(coord as *const f64, 1); } } else { let gl = hooks::real(); unsafe { gl.glFogCoorddv(coord) }; }
+    if let Some(rec) = imm::recording(slot::glFogCoorddv, Effect::FOG) {
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(coord as *const f64, 1) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glFogCoorddv(coord) };
+    }
 } }
 export! { 227, glFogCoorddvEXT, first_glFogCoorddvEXT, hook_glFogCoorddvEXT, (coord: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glFogCoorddvEXT, Effect::FOG) { unsafe { rec.slice(coord as *const f64, 1); } } else { let gl = hooks::real(); unsafe { gl.glFogCoorddvEXT(coord) }; }
+    if let Some(rec) = imm::recording(slot::glFogCoorddvEXT, Effect::FOG) {
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(coord as *const f64, 1) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glFogCoorddvEXT(coord) };
+    }
 } }
 export! { 228, glFogCoordf, first_glFogCoordf, hook_glFogCoordf, (coord: f32) -> (), {
-    if let Some(rec) = imm::recording(slot::glFogCoordf, Effect::FOG) { unsafe { rec.f32(coord); } } else { let gl = hooks::real(); unsafe { gl.glFogCoordf(coord) }; }
+    if let Some(rec) = imm::recording(slot::glFogCoordf, Effect::FOG) {
+        rec.f32(coord);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glFogCoordf(coord) };
+    }
 } }
 export! { 229, glFogCoordfEXT, first_glFogCoordfEXT, hook_glFogCoordfEXT, (coord: f32) -> (), {
-    if let Some(rec) = imm::recording(slot::glFogCoordfEXT, Effect::FOG) { unsafe { rec.f32(coord); } } else { let gl = hooks::real(); unsafe { gl.glFogCoordfEXT(coord) }; }
+    if let Some(rec) = imm::recording(slot::glFogCoordfEXT, Effect::FOG) {
+        rec.f32(coord);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glFogCoordfEXT(coord) };
+    }
 } }
 export! { 230, glFogCoordfv, first_glFogCoordfv, hook_glFogCoordfv, (coord: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glFogCoordfv, Effect::FOG) { unsafe { rec.slice(coord as *const f32, 1); } } else { let gl = hooks::real(); unsafe { gl.glFogCoordfv(coord) }; }
+    if let Some(rec) = imm::recording(slot::glFogCoordfv, Effect::FOG) {
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(coord as *const f32, 1) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glFogCoordfv(coord) };
+    }
 } }
 export! { 231, glFogCoordfvEXT, first_glFogCoordfvEXT, hook_glFogCoordfvEXT, (coord: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glFogCoordfvEXT, Effect::FOG) { unsafe { rec.slice(coord as *const f32, 1); } } else { let gl = hooks::real(); unsafe { gl.glFogCoordfvEXT(coord) }; }
+    if let Some(rec) = imm::recording(slot::glFogCoordfvEXT, Effect::FOG) {
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(coord as *const f32, 1) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glFogCoordfvEXT(coord) };
+    }
 } }
 export! { 232, glFogCoordhNV, first_glFogCoordhNV, hook_glFogCoordhNV, (fog: u16) -> (), {
-    if let Some(rec) = imm::recording(slot::glFogCoordhNV, Effect::FOG) { unsafe { rec.u16(fog); } } else { let gl = hooks::real(); unsafe { gl.glFogCoordhNV(fog) }; }
+    if let Some(rec) = imm::recording(slot::glFogCoordhNV, Effect::FOG) {
+        rec.u16(fog);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glFogCoordhNV(fog) };
+    }
 } }
 export! { 233, glFogCoordhvNV, first_glFogCoordhvNV, hook_glFogCoordhvNV, (fog: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glFogCoordhvNV, Effect::FOG) { unsafe { rec.slice(fog as *const u16, 1); } } else { let gl = hooks::real(); unsafe { gl.glFogCoordhvNV(fog) }; }
+    if let Some(rec) = imm::recording(slot::glFogCoordhvNV, Effect::FOG) {
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(fog as *const u16, 1) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glFogCoordhvNV(fog) };
+    }
 } }
 export! { 234, glEdgeFlag, first_glEdgeFlag, hook_glEdgeFlag, (flag: u8) -> (), {
-    if let Some(rec) = imm::recording(slot::glEdgeFlag, Effect::EDGE) { unsafe { rec.u8(flag); } } else { let gl = hooks::real(); unsafe { gl.glEdgeFlag(flag) }; }
+    if let Some(rec) = imm::recording(slot::glEdgeFlag, Effect::EDGE) {
+        rec.u8(flag);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glEdgeFlag(flag) };
+    }
 } }
 export! { 235, glEdgeFlagv, first_glEdgeFlagv, hook_glEdgeFlagv, (flag: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glEdgeFlagv, Effect::EDGE) { unsafe { rec.slice(flag as *const u8, 1); } } else { let gl = hooks::real(); unsafe { gl.glEdgeFlagv(flag) }; }
+    if let Some(rec) = imm::recording(slot::glEdgeFlagv, Effect::EDGE) {
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(flag as *const u8, 1) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glEdgeFlagv(flag) };
+    }
 } }
 export! { 236, glIndexd, first_glIndexd, hook_glIndexd, (c: f64) -> (), {
-    if let Some(rec) = imm::recording(slot::glIndexd, Effect::INDEX) { unsafe { rec.f64(c); } } else { let gl = hooks::real(); unsafe { gl.glIndexd(c) }; }
+    if let Some(rec) = imm::recording(slot::glIndexd, Effect::INDEX) {
+        rec.f64(c);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glIndexd(c) };
+    }
 } }
 export! { 237, glIndexdv, first_glIndexdv, hook_glIndexdv, (c: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glIndexdv, Effect::INDEX) { unsafe { rec.slice(c as *const f64, 1); } } else { let gl = hooks::real(); unsafe { gl.glIndexdv(c) }; }
+    if let Some(rec) = imm::recording(slot::glIndexdv, Effect::INDEX) {
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(c as *const f64, 1) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glIndexdv(c) };
+    }
 } }
 export! { 238, glIndexf, first_glIndexf, hook_glIndexf, (c: f32) -> (), {
-    if let Some(rec) = imm::recording(slot::glIndexf, Effect::INDEX) { unsafe { rec.f32(c); } } else { let gl = hooks::real(); unsafe { gl.glIndexf(c) }; }
+    if let Some(rec) = imm::recording(slot::glIndexf, Effect::INDEX) {
+        rec.f32(c);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glIndexf(c) };
+    }
 } }
 export! { 239, glIndexfv, first_glIndexfv, hook_glIndexfv, (c: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glIndexfv, Effect::INDEX) { unsafe { rec.slice(c as *const f32, 1); } } else { let gl = hooks::real(); unsafe { gl.glIndexfv(c) }; }
+    if let Some(rec) = imm::recording(slot::glIndexfv, Effect::INDEX) {
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(c as *const f32, 1) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glIndexfv(c) };
+    }
 } }
 export! { 240, glIndexi, first_glIndexi, hook_glIndexi, (c: i32) -> (), {
-    if let Some(rec) = imm::recording(slot::glIndexi, Effect::INDEX) { unsafe { rec.i32(c); } } else { let gl = hooks::real(); unsafe { gl.glIndexi(c) }; }
+    if let Some(rec) = imm::recording(slot::glIndexi, Effect::INDEX) {
+        rec.i32(c);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glIndexi(c) };
+    }
 } }
 export! { 241, glIndexiv, first_glIndexiv, hook_glIndexiv, (c: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glIndexiv, Effect::INDEX) { unsafe { rec.slice(c as *const i32, 1); } } else { let gl = hooks::real(); unsafe { gl.glIndexiv(c) }; }
+    if let Some(rec) = imm::recording(slot::glIndexiv, Effect::INDEX) {
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(c as *const i32, 1) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glIndexiv(c) };
+    }
 } }
 export! { 242, glIndexs, first_glIndexs, hook_glIndexs, (c: i16) -> (), {
-    if let Some(rec) = imm::recording(slot::glIndexs, Effect::INDEX) { unsafe { rec.i16(c); } } else { let gl = hooks::real(); unsafe { gl.glIndexs(c) }; }
+    if let Some(rec) = imm::recording(slot::glIndexs, Effect::INDEX) {
+        rec.i16(c);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glIndexs(c) };
+    }
 } }
 export! { 243, glIndexsv, first_glIndexsv, hook_glIndexsv, (c: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glIndexsv, Effect::INDEX) { unsafe { rec.slice(c as *const i16, 1); } } else { let gl = hooks::real(); unsafe { gl.glIndexsv(c) }; }
+    if let Some(rec) = imm::recording(slot::glIndexsv, Effect::INDEX) {
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(c as *const i16, 1) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glIndexsv(c) };
+    }
 } }
 export! { 244, glIndexub, first_glIndexub, hook_glIndexub, (c: u8) -> (), {
-    if let Some(rec) = imm::recording(slot::glIndexub, Effect::INDEX) { unsafe { rec.u8(c); } } else { let gl = hooks::real(); unsafe { gl.glIndexub(c) }; }
+    if let Some(rec) = imm::recording(slot::glIndexub, Effect::INDEX) {
+        rec.u8(c);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glIndexub(c) };
+    }
 } }
 export! { 245, glIndexubv, first_glIndexubv, hook_glIndexubv, (c: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glIndexubv, Effect::INDEX) { unsafe { rec.slice(c as *const u8, 1); } } else { let gl = hooks::real(); unsafe { gl.glIndexubv(c) }; }
+    if let Some(rec) = imm::recording(slot::glIndexubv, Effect::INDEX) {
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(c as *const u8, 1) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glIndexubv(c) };
+    }
 } }
 export! { 246, glMaterialf, first_glMaterialf, hook_glMaterialf, (face: u32, pname: u32, param: f32) -> (), {
-    if let Some(rec) = imm::recording(slot::glMaterialf, Effect::MATERIAL) { unsafe { rec.u32(face); rec.u32(pname); rec.f32(param); } } else { let gl = hooks::real(); unsafe { gl.glMaterialf(face, pname, param) }; hooks::touch(Touch::MATERIAL) }
+    if let Some(rec) = imm::recording(slot::glMaterialf, Effect::MATERIAL) {
+        rec.u32(face);
+        rec.u32(pname);
+        rec.f32(param);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glMaterialf(face, pname, param) };
+        hooks::touch(Touch::MATERIAL);
+    }
 } }
 export! { 247, glMaterialfv, first_glMaterialfv, hook_glMaterialfv, (face: u32, pname: u32, params: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glMaterialfv, Effect::MATERIAL) { unsafe { rec.u32(face); rec.u32(pname); rec.slice(params as *const f32, imm::material_len(pname)); } } else { let gl = hooks::real(); unsafe { gl.glMaterialfv(face, pname, params) }; hooks::touch(Touch::MATERIAL) }
+    if let Some(rec) = imm::recording(slot::glMaterialfv, Effect::MATERIAL) {
+        rec.u32(face);
+        rec.u32(pname);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(params as *const f32, imm::material_len(pname)) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glMaterialfv(face, pname, params) };
+        hooks::touch(Touch::MATERIAL);
+    }
 } }
 export! { 248, glMateriali, first_glMateriali, hook_glMateriali, (face: u32, pname: u32, param: i32) -> (), {
-    if let Some(rec) = imm::recording(slot::glMateriali, Effect::MATERIAL) { unsafe { rec.u32(face); rec.u32(pname); rec.i32(param); } } else { let gl = hooks::real(); unsafe { gl.glMateriali(face, pname, param) }; hooks::touch(Touch::MATERIAL) }
+    if let Some(rec) = imm::recording(slot::glMateriali, Effect::MATERIAL) {
+        rec.u32(face);
+        rec.u32(pname);
+        rec.i32(param);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glMateriali(face, pname, param) };
+        hooks::touch(Touch::MATERIAL);
+    }
 } }
 export! { 249, glMaterialiv, first_glMaterialiv, hook_glMaterialiv, (face: u32, pname: u32, params: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glMaterialiv, Effect::MATERIAL) { unsafe { rec.u32(face); rec.u32(pname); rec.slice(params as *const i32, imm::material_len(pname)); } } else { let gl = hooks::real(); unsafe { gl.glMaterialiv(face, pname, params) }; hooks::touch(Touch::MATERIAL) }
+    if let Some(rec) = imm::recording(slot::glMaterialiv, Effect::MATERIAL) {
+        rec.u32(face);
+        rec.u32(pname);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(params as *const i32, imm::material_len(pname)) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glMaterialiv(face, pname, params) };
+        hooks::touch(Touch::MATERIAL);
+    }
 } }
 export! { 250, glEvalCoord1d, first_glEvalCoord1d, hook_glEvalCoord1d, (u: f64) -> (), {
-    if let Some(rec) = imm::recording(slot::glEvalCoord1d, Effect::UNKNOWN) { unsafe { rec.f64(u); } } else { let gl = hooks::real(); unsafe { gl.glEvalCoord1d(u) }; }
+    if let Some(rec) = imm::recording(slot::glEvalCoord1d, Effect::UNKNOWN) {
+        rec.f64(u);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glEvalCoord1d(u) };
+    }
 } }
 export! { 251, glEvalCoord1dv, first_glEvalCoord1dv, hook_glEvalCoord1dv, (u: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glEvalCoord1dv, Effect::UNKNOWN) { unsafe { rec.slice(u as *const f64, 1); } } else { let gl = hooks::real(); unsafe { gl.glEvalCoord1dv(u) }; }
+    if let Some(rec) = imm::recording(slot::glEvalCoord1dv, Effect::UNKNOWN) {
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(u as *const f64, 1) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glEvalCoord1dv(u) };
+    }
 } }
 export! { 252, glEvalCoord1f, first_glEvalCoord1f, hook_glEvalCoord1f, (u: f32) -> (), {
-    if let Some(rec) = imm::recording(slot::glEvalCoord1f, Effect::UNKNOWN) { unsafe { rec.f32(u); } } else { let gl = hooks::real(); unsafe { gl.glEvalCoord1f(u) }; }
+    if let Some(rec) = imm::recording(slot::glEvalCoord1f, Effect::UNKNOWN) {
+        rec.f32(u);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glEvalCoord1f(u) };
+    }
 } }
 export! { 253, glEvalCoord1fv, first_glEvalCoord1fv, hook_glEvalCoord1fv, (u: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glEvalCoord1fv, Effect::UNKNOWN) { unsafe { rec.slice(u as *const f32, 1); } } else { let gl = hooks::real(); unsafe { gl.glEvalCoord1fv(u) }; }
+    if let Some(rec) = imm::recording(slot::glEvalCoord1fv, Effect::UNKNOWN) {
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(u as *const f32, 1) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glEvalCoord1fv(u) };
+    }
 } }
 export! { 254, glEvalCoord2d, first_glEvalCoord2d, hook_glEvalCoord2d, (u: f64, v: f64) -> (), {
-    if let Some(rec) = imm::recording(slot::glEvalCoord2d, Effect::UNKNOWN) { unsafe { rec.f64(u); rec.f64(v); } } else { let gl = hooks::real(); unsafe { gl.glEvalCoord2d(u, v) }; }
+    if let Some(rec) = imm::recording(slot::glEvalCoord2d, Effect::UNKNOWN) {
+        rec.f64(u);
+        rec.f64(v);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glEvalCoord2d(u, v) };
+    }
 } }
 export! { 255, glEvalCoord2dv, first_glEvalCoord2dv, hook_glEvalCoord2dv, (u: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glEvalCoord2dv, Effect::UNKNOWN) { unsafe { rec.slice(u as *const f64, 2); } } else { let gl = hooks::real(); unsafe { gl.glEvalCoord2dv(u) }; }
+    if let Some(rec) = imm::recording(slot::glEvalCoord2dv, Effect::UNKNOWN) {
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(u as *const f64, 2) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glEvalCoord2dv(u) };
+    }
 } }
 export! { 256, glEvalCoord2f, first_glEvalCoord2f, hook_glEvalCoord2f, (u: f32, v: f32) -> (), {
-    if let Some(rec) = imm::recording(slot::glEvalCoord2f, Effect::UNKNOWN) { unsafe { rec.f32(u); rec.f32(v); } } else { let gl = hooks::real(); unsafe { gl.glEvalCoord2f(u, v) }; }
+    if let Some(rec) = imm::recording(slot::glEvalCoord2f, Effect::UNKNOWN) {
+        rec.f32(u);
+        rec.f32(v);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glEvalCoord2f(u, v) };
+    }
 } }
 export! { 257, glEvalCoord2fv, first_glEvalCoord2fv, hook_glEvalCoord2fv, (u: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glEvalCoord2fv, Effect::UNKNOWN) { unsafe { rec.slice(u as *const f32, 2); } } else { let gl = hooks::real(); unsafe { gl.glEvalCoord2fv(u) }; }
+    if let Some(rec) = imm::recording(slot::glEvalCoord2fv, Effect::UNKNOWN) {
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(u as *const f32, 2) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glEvalCoord2fv(u) };
+    }
 } }
 export! { 258, glEvalPoint1, first_glEvalPoint1, hook_glEvalPoint1, (i: i32) -> (), {
-    if let Some(rec) = imm::recording(slot::glEvalPoint1, Effect::UNKNOWN) { unsafe { rec.i32(i); } } else { let gl = hooks::real(); unsafe { gl.glEvalPoint1(i) }; }
+    if let Some(rec) = imm::recording(slot::glEvalPoint1, Effect::UNKNOWN) {
+        rec.i32(i);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glEvalPoint1(i) };
+    }
 } }
 export! { 259, glEvalPoint2, first_glEvalPoint2, hook_glEvalPoint2, (i: i32, j: i32) -> (), {
-    if let Some(rec) = imm::recording(slot::glEvalPoint2, Effect::UNKNOWN) { unsafe { rec.i32(i); rec.i32(j); } } else { let gl = hooks::real(); unsafe { gl.glEvalPoint2(i, j) }; }
+    if let Some(rec) = imm::recording(slot::glEvalPoint2, Effect::UNKNOWN) {
+        rec.i32(i);
+        rec.i32(j);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glEvalPoint2(i, j) };
+    }
 } }
 export! { 260, glArrayElement, first_glArrayElement, hook_glArrayElement, (i: i32) -> (), {
-    if let Some(rec) = imm::recording(slot::glArrayElement, Effect::UNKNOWN) { unsafe { rec.i32(i); } } else { let gl = hooks::real(); unsafe { gl.glArrayElement(i) }; }
+    if let Some(rec) = imm::recording(slot::glArrayElement, Effect::UNKNOWN) {
+        rec.i32(i);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glArrayElement(i) };
+    }
 } }
 export! { 261, glArrayElementEXT, first_glArrayElementEXT, hook_glArrayElementEXT, (i: i32) -> (), {
-    if let Some(rec) = imm::recording(slot::glArrayElementEXT, Effect::UNKNOWN) { unsafe { rec.i32(i); } } else { let gl = hooks::real(); unsafe { gl.glArrayElementEXT(i) }; }
+    if let Some(rec) = imm::recording(slot::glArrayElementEXT, Effect::UNKNOWN) {
+        rec.i32(i);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glArrayElementEXT(i) };
+    }
 } }
 export! { 262, glVertexAttrib1d, first_glVertexAttrib1d, hook_glVertexAttrib1d, (index: u32, x: f64) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib1d, Effect::ATTRIB) { unsafe { rec.u32(index); rec.f64(x); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttrib1d(index, x) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttrib1d, Effect::ATTRIB) {
+        rec.u32(index);
+        rec.f64(x);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttrib1d(index, x) };
+    }
 } }
 export! { 263, glVertexAttrib1dARB, first_glVertexAttrib1dARB, hook_glVertexAttrib1dARB, (index: u32, x: f64) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib1dARB, Effect::ATTRIB) { unsafe { rec.u32(index); rec.f64(x); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttrib1dARB(index, x) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttrib1dARB, Effect::ATTRIB) {
+        rec.u32(index);
+        rec.f64(x);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttrib1dARB(index, x) };
+    }
 } }
 export! { 264, glVertexAttrib1dNV, first_glVertexAttrib1dNV, hook_glVertexAttrib1dNV, (index: u32, x: f64) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib1dNV, Effect::ATTRIB) { unsafe { rec.u32(index); rec.f64(x); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttrib1dNV(index, x) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttrib1dNV, Effect::ATTRIB) {
+        rec.u32(index);
+        rec.f64(x);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttrib1dNV(index, x) };
+    }
 } }
 export! { 265, glVertexAttrib1dv, first_glVertexAttrib1dv, hook_glVertexAttrib1dv, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib1dv, Effect::ATTRIB) { unsafe { rec.u32(index); rec.slice(v as *const f64, 1); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttrib1dv(index, v) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttrib1dv, Effect::ATTRIB) {
+        rec.u32(index);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const f64, 1) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttrib1dv(index, v) };
+    }
 } }
 export! { 266, glVertexAttrib1dvARB, first_glVertexAttrib1dvARB, hook_glVertexAttrib1dvARB, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib1dvARB, Effect::ATTRIB) { unsafe { rec.u32(index); rec.slice(v as *const f64, 1); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttrib1dvARB(index, v) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttrib1dvARB, Effect::ATTRIB) {
+        rec.u32(index);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const f64, 1) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttrib1dvARB(index, v) };
+    }
 } }
 export! { 267, glVertexAttrib1dvNV, first_glVertexAttrib1dvNV, hook_glVertexAttrib1dvNV, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib1dvNV, Effect::ATTRIB) { unsafe { rec.u32(index); rec.slice(v as *const f64, 1); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttrib1dvNV(index, v) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttrib1dvNV, Effect::ATTRIB) {
+        rec.u32(index);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const f64, 1) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttrib1dvNV(index, v) };
+    }
 } }
 export! { 268, glVertexAttrib1f, first_glVertexAttrib1f, hook_glVertexAttrib1f, (index: u32, x: f32) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib1f, Effect::ATTRIB) { unsafe { rec.u32(index); rec.f32(x); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttrib1f(index, x) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttrib1f, Effect::ATTRIB) {
+        rec.u32(index);
+        rec.f32(x);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttrib1f(index, x) };
+    }
 } }
 export! { 269, glVertexAttrib1fARB, first_glVertexAttrib1fARB, hook_glVertexAttrib1fARB, (index: u32, x: f32) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib1fARB, Effect::ATTRIB) { unsafe { rec.u32(index); rec.f32(x); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttrib1fARB(index, x) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttrib1fARB, Effect::ATTRIB) {
+        rec.u32(index);
+        rec.f32(x);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttrib1fARB(index, x) };
+    }
 } }
 export! { 270, glVertexAttrib1fNV, first_glVertexAttrib1fNV, hook_glVertexAttrib1fNV, (index: u32, x: f32) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib1fNV, Effect::ATTRIB) { unsafe { rec.u32(index); rec.f32(x); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttrib1fNV(index, x) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttrib1fNV, Effect::ATTRIB) {
+        rec.u32(index);
+        rec.f32(x);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttrib1fNV(index, x) };
+    }
 } }
 export! { 271, glVertexAttrib1fv, first_glVertexAttrib1fv, hook_glVertexAttrib1fv, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib1fv, Effect::ATTRIB) { unsafe { rec.u32(index); rec.slice(v as *const f32, 1); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttrib1fv(index, v) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttrib1fv, Effect::ATTRIB) {
+        rec.u32(index);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const f32, 1) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttrib1fv(index, v) };
+    }
 } }
 export! { 272, glVertexAttrib1fvARB, first_glVertexAttrib1fvARB, hook_glVertexAttrib1fvARB, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib1fvARB, Effect::ATTRIB) { unsafe { rec.u32(index); rec.slice(v as *const f32, 1); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttrib1fvARB(index, v) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttrib1fvARB, Effect::ATTRIB) {
+        rec.u32(index);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const f32, 1) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttrib1fvARB(index, v) };
+    }
 } }
 export! { 273, glVertexAttrib1fvNV, first_glVertexAttrib1fvNV, hook_glVertexAttrib1fvNV, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib1fvNV, Effect::ATTRIB) { unsafe { rec.u32(index); rec.slice(v as *const f32, 1); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttrib1fvNV(index, v) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttrib1fvNV, Effect::ATTRIB) {
+        rec.u32(index);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const f32, 1) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttrib1fvNV(index, v) };
+    }
 } }
 export! { 274, glVertexAttrib1s, first_glVertexAttrib1s, hook_glVertexAttrib1s, (index: u32, x: i16) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib1s, Effect::ATTRIB) { unsafe { rec.u32(index); rec.i16(x); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttrib1s(index, x) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttrib1s, Effect::ATTRIB) {
+        rec.u32(index);
+        rec.i16(x);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttrib1s(index, x) };
+    }
 } }
 export! { 275, glVertexAttrib1sARB, first_glVertexAttrib1sARB, hook_glVertexAttrib1sARB, (index: u32, x: i16) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib1sARB, Effect::ATTRIB) { unsafe { rec.u32(index); rec.i16(x); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttrib1sARB(index, x) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttrib1sARB, Effect::ATTRIB) {
+        rec.u32(index);
+        rec.i16(x);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttrib1sARB(index, x) };
+    }
 } }
 export! { 276, glVertexAttrib1sNV, first_glVertexAttrib1sNV, hook_glVertexAttrib1sNV, (index: u32, x: i16) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib1sNV, Effect::ATTRIB) { unsafe { rec.u32(index); rec.i16(x); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttrib1sNV(index, x) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttrib1sNV, Effect::ATTRIB) {
+        rec.u32(index);
+        rec.i16(x);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttrib1sNV(index, x) };
+    }
 } }
 export! { 277, glVertexAttrib1sv, first_glVertexAttrib1sv, hook_glVertexAttrib1sv, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib1sv, Effect::ATTRIB) { unsafe { rec.u32(index); rec.slice(v as *const i16, 1); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttrib1sv(index, v) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttrib1sv, Effect::ATTRIB) {
+        rec.u32(index);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const i16, 1) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttrib1sv(index, v) };
+    }
 } }
 export! { 278, glVertexAttrib1svARB, first_glVertexAttrib1svARB, hook_glVertexAttrib1svARB, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib1svARB, Effect::ATTRIB) { unsafe { rec.u32(index); rec.slice(v as *const i16, 1); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttrib1svARB(index, v) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttrib1svARB, Effect::ATTRIB) {
+        rec.u32(index);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const i16, 1) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttrib1svARB(index, v) };
+    }
 } }
 export! { 279, glVertexAttrib1svNV, first_glVertexAttrib1svNV, hook_glVertexAttrib1svNV, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib1svNV, Effect::ATTRIB) { unsafe { rec.u32(index); rec.slice(v as *const i16, 1); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttrib1svNV(index, v) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttrib1svNV, Effect::ATTRIB) {
+        rec.u32(index);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const i16, 1) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttrib1svNV(index, v) };
+    }
 } }
 export! { 280, glVertexAttrib2d, first_glVertexAttrib2d, hook_glVertexAttrib2d, (index: u32, x: f64, y: f64) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib2d, Effect::ATTRIB) { unsafe { rec.u32(index); rec.f64(x); rec.f64(y); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttrib2d(index, x, y) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttrib2d, Effect::ATTRIB) {
+        rec.u32(index);
+        rec.f64(x);
+        rec.f64(y);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttrib2d(index, x, y) };
+    }
 } }
 export! { 281, glVertexAttrib2dARB, first_glVertexAttrib2dARB, hook_glVertexAttrib2dARB, (index: u32, x: f64, y: f64) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib2dARB, Effect::ATTRIB) { unsafe { rec.u32(index); rec.f64(x); rec.f64(y); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttrib2dARB(index, x, y) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttrib2dARB, Effect::ATTRIB) {
+        rec.u32(index);
+        rec.f64(x);
+        rec.f64(y);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttrib2dARB(index, x, y) };
+    }
 } }
 export! { 282, glVertexAttrib2dNV, first_glVertexAttrib2dNV, hook_glVertexAttrib2dNV, (index: u32, x: f64, y: f64) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib2dNV, Effect::ATTRIB) { unsafe { rec.u32(index); rec.f64(x); rec.f64(y); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttrib2dNV(index, x, y) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttrib2dNV, Effect::ATTRIB) {
+        rec.u32(index);
+        rec.f64(x);
+        rec.f64(y);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttrib2dNV(index, x, y) };
+    }
 } }
 export! { 283, glVertexAttrib2dv, first_glVertexAttrib2dv, hook_glVertexAttrib2dv, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib2dv, Effect::ATTRIB) { unsafe { rec.u32(index); rec.slice(v as *const f64, 2); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttrib2dv(index, v) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttrib2dv, Effect::ATTRIB) {
+        rec.u32(index);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const f64, 2) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttrib2dv(index, v) };
+    }
 } }
 export! { 284, glVertexAttrib2dvARB, first_glVertexAttrib2dvARB, hook_glVertexAttrib2dvARB, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib2dvARB, Effect::ATTRIB) { unsafe { rec.u32(index); rec.slice(v as *const f64, 2); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttrib2dvARB(index, v) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttrib2dvARB, Effect::ATTRIB) {
+        rec.u32(index);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const f64, 2) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttrib2dvARB(index, v) };
+    }
 } }
 export! { 285, glVertexAttrib2dvNV, first_glVertexAttrib2dvNV, hook_glVertexAttrib2dvNV, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib2dvNV, Effect::ATTRIB) { unsafe { rec.u32(index); rec.slice(v as *const f64, 2); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttrib2dvNV(index, v) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttrib2dvNV, Effect::ATTRIB) {
+        rec.u32(index);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const f64, 2) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttrib2dvNV(index, v) };
+    }
 } }
 export! { 286, glVertexAttrib2f, first_glVertexAttrib2f, hook_glVertexAttrib2f, (index: u32, x: f32, y: f32) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib2f, Effect::ATTRIB) { unsafe { rec.u32(index); rec.f32(x); rec.f32(y); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttrib2f(index, x, y) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttrib2f, Effect::ATTRIB) {
+        rec.u32(index);
+        rec.f32(x);
+        rec.f32(y);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttrib2f(index, x, y) };
+    }
 } }
 export! { 287, glVertexAttrib2fARB, first_glVertexAttrib2fARB, hook_glVertexAttrib2fARB, (index: u32, x: f32, y: f32) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib2fARB, Effect::ATTRIB) { unsafe { rec.u32(index); rec.f32(x); rec.f32(y); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttrib2fARB(index, x, y) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttrib2fARB, Effect::ATTRIB) {
+        rec.u32(index);
+        rec.f32(x);
+        rec.f32(y);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttrib2fARB(index, x, y) };
+    }
 } }
 export! { 288, glVertexAttrib2fNV, first_glVertexAttrib2fNV, hook_glVertexAttrib2fNV, (index: u32, x: f32, y: f32) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib2fNV, Effect::ATTRIB) { unsafe { rec.u32(index); rec.f32(x); rec.f32(y); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttrib2fNV(index, x, y) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttrib2fNV, Effect::ATTRIB) {
+        rec.u32(index);
+        rec.f32(x);
+        rec.f32(y);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttrib2fNV(index, x, y) };
+    }
 } }
 export! { 289, glVertexAttrib2fv, first_glVertexAttrib2fv, hook_glVertexAttrib2fv, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib2fv, Effect::ATTRIB) { unsafe { rec.u32(index); rec.slice(v as *const f32, 2); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttrib2fv(index, v) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttrib2fv, Effect::ATTRIB) {
+        rec.u32(index);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const f32, 2) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttrib2fv(index, v) };
+    }
 } }
 export! { 290, glVertexAttrib2fvARB, first_glVertexAttrib2fvARB, hook_glVertexAttrib2fvARB, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib2fvARB, Effect::ATTRIB) { unsafe { rec.u32(index); rec.slice(v as *const f32, 2); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttrib2fvARB(index, v) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttrib2fvARB, Effect::ATTRIB) {
+        rec.u32(index);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const f32, 2) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttrib2fvARB(index, v) };
+    }
 } }
 export! { 291, glVertexAttrib2fvNV, first_glVertexAttrib2fvNV, hook_glVertexAttrib2fvNV, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib2fvNV, Effect::ATTRIB) { unsafe { rec.u32(index); rec.slice(v as *const f32, 2); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttrib2fvNV(index, v) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttrib2fvNV, Effect::ATTRIB) {
+        rec.u32(index);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const f32, 2) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttrib2fvNV(index, v) };
+    }
 } }
 export! { 292, glVertexAttrib2s, first_glVertexAttrib2s, hook_glVertexAttrib2s, (index: u32, x: i16, y: i16) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib2s, Effect::ATTRIB) { unsafe { rec.u32(index); rec.i16(x); rec.i16(y); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttrib2s(index, x, y) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttrib2s, Effect::ATTRIB) {
+        rec.u32(index);
+        rec.i16(x);
+        rec.i16(y);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttrib2s(index, x, y) };
+    }
 } }
 export! { 293, glVertexAttrib2sARB, first_glVertexAttrib2sARB, hook_glVertexAttrib2sARB, (index: u32, x: i16, y: i16) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib2sARB, Effect::ATTRIB) { unsafe { rec.u32(index); rec.i16(x); rec.i16(y); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttrib2sARB(index, x, y) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttrib2sARB, Effect::ATTRIB) {
+        rec.u32(index);
+        rec.i16(x);
+        rec.i16(y);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttrib2sARB(index, x, y) };
+    }
 } }
 export! { 294, glVertexAttrib2sNV, first_glVertexAttrib2sNV, hook_glVertexAttrib2sNV, (index: u32, x: i16, y: i16) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib2sNV, Effect::ATTRIB) { unsafe { rec.u32(index); rec.i16(x); rec.i16(y); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttrib2sNV(index, x, y) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttrib2sNV, Effect::ATTRIB) {
+        rec.u32(index);
+        rec.i16(x);
+        rec.i16(y);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttrib2sNV(index, x, y) };
+    }
 } }
 export! { 295, glVertexAttrib2sv, first_glVertexAttrib2sv, hook_glVertexAttrib2sv, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib2sv, Effect::ATTRIB) { unsafe { rec.u32(index); rec.slice(v as *const i16, 2); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttrib2sv(index, v) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttrib2sv, Effect::ATTRIB) {
+        rec.u32(index);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const i16, 2) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttrib2sv(index, v) };
+    }
 } }
 export! { 296, glVertexAttrib2svARB, first_glVertexAttrib2svARB, hook_glVertexAttrib2svARB, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib2svARB, Effect::ATTRIB) { unsafe { rec.u32(index); rec.slice(v as *const i16, 2); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttrib2svARB(index, v) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttrib2svARB, Effect::ATTRIB) {
+        rec.u32(index);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const i16, 2) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttrib2svARB(index, v) };
+    }
 } }
 export! { 297, glVertexAttrib2svNV, first_glVertexAttrib2svNV, hook_glVertexAttrib2svNV, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib2svNV, Effect::ATTRIB) { unsafe { rec.u32(index); rec.slice(v as *const i16, 2); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttrib2svNV(index, v) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttrib2svNV, Effect::ATTRIB) {
+        rec.u32(index);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const i16, 2) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttrib2svNV(index, v) };
+    }
 } }
 export! { 298, glVertexAttrib3d, first_glVertexAttrib3d, hook_glVertexAttrib3d, (index: u32, x: f64, y: f64, z: f64) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib3d, Effect::ATTRIB) { unsafe { rec.u32(index); rec.f64(x); rec.f64(y); rec.f64(z); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttrib3d(index, x, y, z) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttrib3d, Effect::ATTRIB) {
+        rec.u32(index);
+        rec.f64(x);
+        rec.f64(y);
+        rec.f64(z);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttrib3d(index, x, y, z) };
+    }
 } }
 export! { 299, glVertexAttrib3dARB, first_glVertexAttrib3dARB, hook_glVertexAttrib3dARB, (index: u32, x: f64, y: f64, z: f64) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib3dARB, Effect::ATTRIB) { unsafe { rec.u32(index); rec.f64(x); rec.f64(y); rec.f64(z); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttrib3dARB(index, x, y, z) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttrib3dARB, Effect::ATTRIB) {
+        rec.u32(index);
+        rec.f64(x);
+        rec.f64(y);
+        rec.f64(z);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttrib3dARB(index, x, y, z) };
+    }
 } }
 export! { 300, glVertexAttrib3dNV, first_glVertexAttrib3dNV, hook_glVertexAttrib3dNV, (index: u32, x: f64, y: f64, z: f64) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib3dNV, Effect::ATTRIB) { unsafe { rec.u32(index); rec.f64(x); rec.f64(y); rec.f64(z); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttrib3dNV(index, x, y, z) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttrib3dNV, Effect::ATTRIB) {
+        rec.u32(index);
+        rec.f64(x);
+        rec.f64(y);
+        rec.f64(z);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttrib3dNV(index, x, y, z) };
+    }
 } }
 export! { 301, glVertexAttrib3dv, first_glVertexAttrib3dv, hook_glVertexAttrib3dv, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib3dv, Effect::ATTRIB) { unsafe { rec.u32(index); rec.slice(v as *const f64, 3); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttrib3dv(index, v) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttrib3dv, Effect::ATTRIB) {
+        rec.u32(index);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const f64, 3) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttrib3dv(index, v) };
+    }
 } }
 export! { 302, glVertexAttrib3dvARB, first_glVertexAttrib3dvARB, hook_glVertexAttrib3dvARB, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib3dvARB, Effect::ATTRIB) { unsafe { rec.u32(index); rec.slice(v as *const f64, 3); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttrib3dvARB(index, v) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttrib3dvARB, Effect::ATTRIB) {
+        rec.u32(index);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const f64, 3) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttrib3dvARB(index, v) };
+    }
 } }
 export! { 303, glVertexAttrib3dvNV, first_glVertexAttrib3dvNV, hook_glVertexAttrib3dvNV, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib3dvNV, Effect::ATTRIB) { unsafe { rec.u32(index); rec.slice(v as *const f64, 3); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttrib3dvNV(index, v) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttrib3dvNV, Effect::ATTRIB) {
+        rec.u32(index);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const f64, 3) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttrib3dvNV(index, v) };
+    }
 } }
 export! { 304, glVertexAttrib3f, first_glVertexAttrib3f, hook_glVertexAttrib3f, (index: u32, x: f32, y: f32, z: f32) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib3f, Effect::ATTRIB) { unsafe { rec.u32(index); rec.f32(x); rec.f32(y); rec.f32(z); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttrib3f(index, x, y, z) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttrib3f, Effect::ATTRIB) {
+        rec.u32(index);
+        rec.f32(x);
+        rec.f32(y);
+        rec.f32(z);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttrib3f(index, x, y, z) };
+    }
 } }
 export! { 305, glVertexAttrib3fARB, first_glVertexAttrib3fARB, hook_glVertexAttrib3fARB, (index: u32, x: f32, y: f32, z: f32) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib3fARB, Effect::ATTRIB) { unsafe { rec.u32(index); rec.f32(x); rec.f32(y); rec.f32(z); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttrib3fARB(index, x, y, z) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttrib3fARB, Effect::ATTRIB) {
+        rec.u32(index);
+        rec.f32(x);
+        rec.f32(y);
+        rec.f32(z);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttrib3fARB(index, x, y, z) };
+    }
 } }
 export! { 306, glVertexAttrib3fNV, first_glVertexAttrib3fNV, hook_glVertexAttrib3fNV, (index: u32, x: f32, y: f32, z: f32) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib3fNV, Effect::ATTRIB) { unsafe { rec.u32(index); rec.f32(x); rec.f32(y); rec.f32(z); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttrib3fNV(index, x, y, z) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttrib3fNV, Effect::ATTRIB) {
+        rec.u32(index);
+        rec.f32(x);
+        rec.f32(y);
+        rec.f32(z);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttrib3fNV(index, x, y, z) };
+    }
 } }
 export! { 307, glVertexAttrib3fv, first_glVertexAttrib3fv, hook_glVertexAttrib3fv, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib3fv, Effect::ATTRIB) { unsafe { rec.u32(index); rec.slice(v as *const f32, 3); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttrib3fv(index, v) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttrib3fv, Effect::ATTRIB) {
+        rec.u32(index);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const f32, 3) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttrib3fv(index, v) };
+    }
 } }
 export! { 308, glVertexAttrib3fvARB, first_glVertexAttrib3fvARB, hook_glVertexAttrib3fvARB, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib3fvARB, Effect::ATTRIB) { unsafe { rec.u32(index); rec.slice(v as *const f32, 3); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttrib3fvARB(index, v) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttrib3fvARB, Effect::ATTRIB) {
+        rec.u32(index);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const f32, 3) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttrib3fvARB(index, v) };
+    }
 } }
 export! { 309, glVertexAttrib3fvNV, first_glVertexAttrib3fvNV, hook_glVertexAttrib3fvNV, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib3fvNV, Effect::ATTRIB) { unsafe { rec.u32(index); rec.slice(v as *const f32, 3); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttrib3fvNV(index, v) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttrib3fvNV, Effect::ATTRIB) {
+        rec.u32(index);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const f32, 3) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttrib3fvNV(index, v) };
+    }
 } }
 export! { 310, glVertexAttrib3s, first_glVertexAttrib3s, hook_glVertexAttrib3s, (index: u32, x: i16, y: i16, z: i16) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib3s, Effect::ATTRIB) { unsafe { rec.u32(index); rec.i16(x); rec.i16(y); rec.i16(z); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttrib3s(index, x, y, z) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttrib3s, Effect::ATTRIB) {
+        rec.u32(index);
+        rec.i16(x);
+        rec.i16(y);
+        rec.i16(z);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttrib3s(index, x, y, z) };
+    }
 } }
 export! { 311, glVertexAttrib3sARB, first_glVertexAttrib3sARB, hook_glVertexAttrib3sARB, (index: u32, x: i16, y: i16, z: i16) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib3sARB, Effect::ATTRIB) { unsafe { rec.u32(index); rec.i16(x); rec.i16(y); rec.i16(z); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttrib3sARB(index, x, y, z) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttrib3sARB, Effect::ATTRIB) {
+        rec.u32(index);
+        rec.i16(x);
+        rec.i16(y);
+        rec.i16(z);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttrib3sARB(index, x, y, z) };
+    }
 } }
 export! { 312, glVertexAttrib3sNV, first_glVertexAttrib3sNV, hook_glVertexAttrib3sNV, (index: u32, x: i16, y: i16, z: i16) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib3sNV, Effect::ATTRIB) { unsafe { rec.u32(index); rec.i16(x); rec.i16(y); rec.i16(z); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttrib3sNV(index, x, y, z) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttrib3sNV, Effect::ATTRIB) {
+        rec.u32(index);
+        rec.i16(x);
+        rec.i16(y);
+        rec.i16(z);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttrib3sNV(index, x, y, z) };
+    }
 } }
 export! { 313, glVertexAttrib3sv, first_glVertexAttrib3sv, hook_glVertexAttrib3sv, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib3sv, Effect::ATTRIB) { unsafe { rec.u32(index); rec.slice(v as *const i16, 3); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttrib3sv(index, v) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttrib3sv, Effect::ATTRIB) {
+        rec.u32(index);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const i16, 3) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttrib3sv(index, v) };
+    }
 } }
 export! { 314, glVertexAttrib3svARB, first_glVertexAttrib3svARB, hook_glVertexAttrib3svARB, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib3svARB, Effect::ATTRIB) { unsafe { rec.u32(index); rec.slice(v as *const i16, 3); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttrib3svARB(index, v) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttrib3svARB, Effect::ATTRIB) {
+        rec.u32(index);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const i16, 3) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttrib3svARB(index, v) };
+    }
 } }
 export! { 315, glVertexAttrib3svNV, first_glVertexAttrib3svNV, hook_glVertexAttrib3svNV, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib3svNV, Effect::ATTRIB) { unsafe { rec.u32(index); rec.slice(v as *const i16, 3); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttrib3svNV(index, v) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttrib3svNV, Effect::ATTRIB) {
+        rec.u32(index);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const i16, 3) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttrib3svNV(index, v) };
+    }
 } }
 export! { 316, glVertexAttrib4d, first_glVertexAttrib4d, hook_glVertexAttrib4d, (index: u32, x: f64, y: f64, z: f64, w: f64) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib4d, Effect::ATTRIB) { unsafe { rec.u32(index); rec.f64(x); rec.f64(y); rec.f64(z); rec.f64(w); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttrib4d(index, x, y, z, w) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttrib4d, Effect::ATTRIB) {
+        rec.u32(index);
+        rec.f64(x);
+        rec.f64(y);
+        rec.f64(z);
+        rec.f64(w);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttrib4d(index, x, y, z, w) };
+    }
 } }
 export! { 317, glVertexAttrib4dARB, first_glVertexAttrib4dARB, hook_glVertexAttrib4dARB, (index: u32, x: f64, y: f64, z: f64, w: f64) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib4dARB, Effect::ATTRIB) { unsafe { rec.u32(index); rec.f64(x); rec.f64(y); rec.f64(z); rec.f64(w); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttrib4dARB(index, x, y, z, w) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttrib4dARB, Effect::ATTRIB) {
+        rec.u32(index);
+        rec.f64(x);
+        rec.f64(y);
+        rec.f64(z);
+        rec.f64(w);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttrib4dARB(index, x, y, z, w) };
+    }
 } }
 export! { 318, glVertexAttrib4dNV, first_glVertexAttrib4dNV, hook_glVertexAttrib4dNV, (index: u32, x: f64, y: f64, z: f64, w: f64) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib4dNV, Effect::ATTRIB) { unsafe { rec.u32(index); rec.f64(x); rec.f64(y); rec.f64(z); rec.f64(w); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttrib4dNV(index, x, y, z, w) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttrib4dNV, Effect::ATTRIB) {
+        rec.u32(index);
+        rec.f64(x);
+        rec.f64(y);
+        rec.f64(z);
+        rec.f64(w);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttrib4dNV(index, x, y, z, w) };
+    }
 } }
 export! { 319, glVertexAttrib4dv, first_glVertexAttrib4dv, hook_glVertexAttrib4dv, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib4dv, Effect::ATTRIB) { unsafe { rec.u32(index); rec.slice(v as *const f64, 4); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttrib4dv(index, v) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttrib4dv, Effect::ATTRIB) {
+        rec.u32(index);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const f64, 4) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttrib4dv(index, v) };
+    }
 } }
 export! { 320, glVertexAttrib4dvARB, first_glVertexAttrib4dvARB, hook_glVertexAttrib4dvARB, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib4dvARB, Effect::ATTRIB) { unsafe { rec.u32(index); rec.slice(v as *const f64, 4); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttrib4dvARB(index, v) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttrib4dvARB, Effect::ATTRIB) {
+        rec.u32(index);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const f64, 4) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttrib4dvARB(index, v) };
+    }
 } }
 export! { 321, glVertexAttrib4dvNV, first_glVertexAttrib4dvNV, hook_glVertexAttrib4dvNV, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib4dvNV, Effect::ATTRIB) { unsafe { rec.u32(index); rec.slice(v as *const f64, 4); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttrib4dvNV(index, v) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttrib4dvNV, Effect::ATTRIB) {
+        rec.u32(index);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const f64, 4) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttrib4dvNV(index, v) };
+    }
 } }
 export! { 322, glVertexAttrib4f, first_glVertexAttrib4f, hook_glVertexAttrib4f, (index: u32, x: f32, y: f32, z: f32, w: f32) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib4f, Effect::ATTRIB) { unsafe { rec.u32(index); rec.f32(x); rec.f32(y); rec.f32(z); rec.f32(w); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttrib4f(index, x, y, z, w) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttrib4f, Effect::ATTRIB) {
+        rec.u32(index);
+        rec.f32(x);
+        rec.f32(y);
+        rec.f32(z);
+        rec.f32(w);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttrib4f(index, x, y, z, w) };
+    }
 } }
 export! { 323, glVertexAttrib4fARB, first_glVertexAttrib4fARB, hook_glVertexAttrib4fARB, (index: u32, x: f32, y: f32, z: f32, w: f32) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib4fARB, Effect::ATTRIB) { unsafe { rec.u32(index); rec.f32(x); rec.f32(y); rec.f32(z); rec.f32(w); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttrib4fARB(index, x, y, z, w) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttrib4fARB, Effect::ATTRIB) {
+        rec.u32(index);
+        rec.f32(x);
+        rec.f32(y);
+        rec.f32(z);
+        rec.f32(w);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttrib4fARB(index, x, y, z, w) };
+    }
 } }
 export! { 324, glVertexAttrib4fNV, first_glVertexAttrib4fNV, hook_glVertexAttrib4fNV, (index: u32, x: f32, y: f32, z: f32, w: f32) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib4fNV, Effect::ATTRIB) { unsafe { rec.u32(index); rec.f32(x); rec.f32(y); rec.f32(z); rec.f32(w); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttrib4fNV(index, x, y, z, w) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttrib4fNV, Effect::ATTRIB) {
+        rec.u32(index);
+        rec.f32(x);
+        rec.f32(y);
+        rec.f32(z);
+        rec.f32(w);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttrib4fNV(index, x, y, z, w) };
+    }
 } }
 export! { 325, glVertexAttrib4fv, first_glVertexAttrib4fv, hook_glVertexAttrib4fv, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib4fv, Effect::ATTRIB) { unsafe { rec.u32(index); rec.slice(v as *const f32, 4); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttrib4fv(index, v) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttrib4fv, Effect::ATTRIB) {
+        rec.u32(index);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const f32, 4) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttrib4fv(index, v) };
+    }
 } }
 export! { 326, glVertexAttrib4fvARB, first_glVertexAttrib4fvARB, hook_glVertexAttrib4fvARB, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib4fvARB, Effect::ATTRIB) { unsafe { rec.u32(index); rec.slice(v as *const f32, 4); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttrib4fvARB(index, v) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttrib4fvARB, Effect::ATTRIB) {
+        rec.u32(index);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const f32, 4) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttrib4fvARB(index, v) };
+    }
 } }
 export! { 327, glVertexAttrib4fvNV, first_glVertexAttrib4fvNV, hook_glVertexAttrib4fvNV, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib4fvNV, Effect::ATTRIB) { unsafe { rec.u32(index); rec.slice(v as *const f32, 4); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttrib4fvNV(index, v) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttrib4fvNV, Effect::ATTRIB) {
+        rec.u32(index);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const f32, 4) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttrib4fvNV(index, v) };
+    }
 } }
 export! { 328, glVertexAttrib4s, first_glVertexAttrib4s, hook_glVertexAttrib4s, (index: u32, x: i16, y: i16, z: i16, w: i16) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib4s, Effect::ATTRIB) { unsafe { rec.u32(index); rec.i16(x); rec.i16(y); rec.i16(z); rec.i16(w); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttrib4s(index, x, y, z, w) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttrib4s, Effect::ATTRIB) {
+        rec.u32(index);
+        rec.i16(x);
+        rec.i16(y);
+        rec.i16(z);
+        rec.i16(w);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttrib4s(index, x, y, z, w) };
+    }
 } }
 export! { 329, glVertexAttrib4sARB, first_glVertexAttrib4sARB, hook_glVertexAttrib4sARB, (index: u32, x: i16, y: i16, z: i16, w: i16) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib4sARB, Effect::ATTRIB) { unsafe { rec.u32(index); rec.i16(x); rec.i16(y); rec.i16(z); rec.i16(w); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttrib4sARB(index, x, y, z, w) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttrib4sARB, Effect::ATTRIB) {
+        rec.u32(index);
+        rec.i16(x);
+        rec.i16(y);
+        rec.i16(z);
+        rec.i16(w);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttrib4sARB(index, x, y, z, w) };
+    }
 } }
 export! { 330, glVertexAttrib4sNV, first_glVertexAttrib4sNV, hook_glVertexAttrib4sNV, (index: u32, x: i16, y: i16, z: i16, w: i16) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib4sNV, Effect::ATTRIB) { unsafe { rec.u32(index); rec.i16(x); rec.i16(y); rec.i16(z); rec.i16(w); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttrib4sNV(index, x, y, z, w) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttrib4sNV, Effect::ATTRIB) {
+        rec.u32(index);
+        rec.i16(x);
+        rec.i16(y);
+        rec.i16(z);
+        rec.i16(w);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttrib4sNV(index, x, y, z, w) };
+    }
 } }
 export! { 331, glVertexAttrib4sv, first_glVertexAttrib4sv, hook_glVertexAttrib4sv, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib4sv, Effect::ATTRIB) { unsafe { rec.u32(index); rec.slice(v as *const i16, 4); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttrib4sv(index, v) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttrib4sv, Effect::ATTRIB) {
+        rec.u32(index);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const i16, 4) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttrib4sv(index, v) };
+    }
 } }
 export! { 332, glVertexAttrib4svARB, first_glVertexAttrib4svARB, hook_glVertexAttrib4svARB, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib4svARB, Effect::ATTRIB) { unsafe { rec.u32(index); rec.slice(v as *const i16, 4); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttrib4svARB(index, v) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttrib4svARB, Effect::ATTRIB) {
+        rec.u32(index);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const i16, 4) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttrib4svARB(index, v) };
+    }
 } }
 export! { 333, glVertexAttrib4svNV, first_glVertexAttrib4svNV, hook_glVertexAttrib4svNV, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib4svNV, Effect::ATTRIB) { unsafe { rec.u32(index); rec.slice(v as *const i16, 4); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttrib4svNV(index, v) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttrib4svNV, Effect::ATTRIB) {
+        rec.u32(index);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const i16, 4) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttrib4svNV(index, v) };
+    }
 } }
 export! { 334, glVertexAttrib4Nbv, first_glVertexAttrib4Nbv, hook_glVertexAttrib4Nbv, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib4Nbv, Effect::ATTRIB) { unsafe { rec.u32(index); rec.slice(v as *const i8, 4); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttrib4Nbv(index, v) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttrib4Nbv, Effect::ATTRIB) {
+        rec.u32(index);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const i8, 4) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttrib4Nbv(index, v) };
+    }
 } }
 export! { 335, glVertexAttrib4NbvARB, first_glVertexAttrib4NbvARB, hook_glVertexAttrib4NbvARB, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib4NbvARB, Effect::ATTRIB) { unsafe { rec.u32(index); rec.slice(v as *const i8, 4); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttrib4NbvARB(index, v) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttrib4NbvARB, Effect::ATTRIB) {
+        rec.u32(index);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const i8, 4) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttrib4NbvARB(index, v) };
+    }
 } }
 export! { 336, glVertexAttrib4Niv, first_glVertexAttrib4Niv, hook_glVertexAttrib4Niv, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib4Niv, Effect::ATTRIB) { unsafe { rec.u32(index); rec.slice(v as *const i32, 4); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttrib4Niv(index, v) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttrib4Niv, Effect::ATTRIB) {
+        rec.u32(index);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const i32, 4) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttrib4Niv(index, v) };
+    }
 } }
 export! { 337, glVertexAttrib4NivARB, first_glVertexAttrib4NivARB, hook_glVertexAttrib4NivARB, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib4NivARB, Effect::ATTRIB) { unsafe { rec.u32(index); rec.slice(v as *const i32, 4); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttrib4NivARB(index, v) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttrib4NivARB, Effect::ATTRIB) {
+        rec.u32(index);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const i32, 4) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttrib4NivARB(index, v) };
+    }
 } }
 export! { 338, glVertexAttrib4Nsv, first_glVertexAttrib4Nsv, hook_glVertexAttrib4Nsv, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib4Nsv, Effect::ATTRIB) { unsafe { rec.u32(index); rec.slice(v as *const i16, 4); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttrib4Nsv(index, v) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttrib4Nsv, Effect::ATTRIB) {
+        rec.u32(index);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const i16, 4) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttrib4Nsv(index, v) };
+    }
 } }
 export! { 339, glVertexAttrib4NsvARB, first_glVertexAttrib4NsvARB, hook_glVertexAttrib4NsvARB, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib4NsvARB, Effect::ATTRIB) { unsafe { rec.u32(index); rec.slice(v as *const i16, 4); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttrib4NsvARB(index, v) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttrib4NsvARB, Effect::ATTRIB) {
+        rec.u32(index);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const i16, 4) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttrib4NsvARB(index, v) };
+    }
 } }
 export! { 340, glVertexAttrib4Nubv, first_glVertexAttrib4Nubv, hook_glVertexAttrib4Nubv, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib4Nubv, Effect::ATTRIB) { unsafe { rec.u32(index); rec.slice(v as *const u8, 4); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttrib4Nubv(index, v) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttrib4Nubv, Effect::ATTRIB) {
+        rec.u32(index);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const u8, 4) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttrib4Nubv(index, v) };
+    }
 } }
 export! { 341, glVertexAttrib4NubvARB, first_glVertexAttrib4NubvARB, hook_glVertexAttrib4NubvARB, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib4NubvARB, Effect::ATTRIB) { unsafe { rec.u32(index); rec.slice(v as *const u8, 4); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttrib4NubvARB(index, v) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttrib4NubvARB, Effect::ATTRIB) {
+        rec.u32(index);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const u8, 4) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttrib4NubvARB(index, v) };
+    }
 } }
 export! { 342, glVertexAttrib4ubvNV, first_glVertexAttrib4ubvNV, hook_glVertexAttrib4ubvNV, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib4ubvNV, Effect::ATTRIB) { unsafe { rec.u32(index); rec.slice(v as *const u8, 4); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttrib4ubvNV(index, v) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttrib4ubvNV, Effect::ATTRIB) {
+        rec.u32(index);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const u8, 4) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttrib4ubvNV(index, v) };
+    }
 } }
 export! { 343, glVertexAttrib4Nuiv, first_glVertexAttrib4Nuiv, hook_glVertexAttrib4Nuiv, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib4Nuiv, Effect::ATTRIB) { unsafe { rec.u32(index); rec.slice(v as *const u32, 4); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttrib4Nuiv(index, v) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttrib4Nuiv, Effect::ATTRIB) {
+        rec.u32(index);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const u32, 4) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttrib4Nuiv(index, v) };
+    }
 } }
 export! { 344, glVertexAttrib4NuivARB, first_glVertexAttrib4NuivARB, hook_glVertexAttrib4NuivARB, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib4NuivARB, Effect::ATTRIB) { unsafe { rec.u32(index); rec.slice(v as *const u32, 4); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttrib4NuivARB(index, v) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttrib4NuivARB, Effect::ATTRIB) {
+        rec.u32(index);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const u32, 4) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttrib4NuivARB(index, v) };
+    }
 } }
 export! { 345, glVertexAttrib4Nusv, first_glVertexAttrib4Nusv, hook_glVertexAttrib4Nusv, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib4Nusv, Effect::ATTRIB) { unsafe { rec.u32(index); rec.slice(v as *const u16, 4); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttrib4Nusv(index, v) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttrib4Nusv, Effect::ATTRIB) {
+        rec.u32(index);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const u16, 4) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttrib4Nusv(index, v) };
+    }
 } }
 export! { 346, glVertexAttrib4NusvARB, first_glVertexAttrib4NusvARB, hook_glVertexAttrib4NusvARB, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib4NusvARB, Effect::ATTRIB) { unsafe { rec.u32(index); rec.slice(v as *const u16, 4); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttrib4NusvARB(index, v) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttrib4NusvARB, Effect::ATTRIB) {
+        rec.u32(index);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const u16, 4) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttrib4NusvARB(index, v) };
+    }
 } }
 export! { 347, glVertexAttrib4bv, first_glVertexAttrib4bv, hook_glVertexAttrib4bv, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib4bv, Effect::ATTRIB) { unsafe { rec.u32(index); rec.slice(v as *const i8, 4); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttrib4bv(index, v) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttrib4bv, Effect::ATTRIB) {
+        rec.u32(index);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const i8, 4) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttrib4bv(index, v) };
+    }
 } }
 export! { 348, glVertexAttrib4bvARB, first_glVertexAttrib4bvARB, hook_glVertexAttrib4bvARB, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib4bvARB, Effect::ATTRIB) { unsafe { rec.u32(index); rec.slice(v as *const i8, 4); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttrib4bvARB(index, v) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttrib4bvARB, Effect::ATTRIB) {
+        rec.u32(index);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const i8, 4) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttrib4bvARB(index, v) };
+    }
 } }
 export! { 349, glVertexAttrib4iv, first_glVertexAttrib4iv, hook_glVertexAttrib4iv, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib4iv, Effect::ATTRIB) { unsafe { rec.u32(index); rec.slice(v as *const i32, 4); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttrib4iv(index, v) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttrib4iv, Effect::ATTRIB) {
+        rec.u32(index);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const i32, 4) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttrib4iv(index, v) };
+    }
 } }
 export! { 350, glVertexAttrib4ivARB, first_glVertexAttrib4ivARB, hook_glVertexAttrib4ivARB, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib4ivARB, Effect::ATTRIB) { unsafe { rec.u32(index); rec.slice(v as *const i32, 4); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttrib4ivARB(index, v) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttrib4ivARB, Effect::ATTRIB) {
+        rec.u32(index);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const i32, 4) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttrib4ivARB(index, v) };
+    }
 } }
 export! { 351, glVertexAttrib4ubv, first_glVertexAttrib4ubv, hook_glVertexAttrib4ubv, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib4ubv, Effect::ATTRIB) { unsafe { rec.u32(index); rec.slice(v as *const u8, 4); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttrib4ubv(index, v) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttrib4ubv, Effect::ATTRIB) {
+        rec.u32(index);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const u8, 4) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttrib4ubv(index, v) };
+    }
 } }
 export! { 352, glVertexAttrib4ubvARB, first_glVertexAttrib4ubvARB, hook_glVertexAttrib4ubvARB, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib4ubvARB, Effect::ATTRIB) { unsafe { rec.u32(index); rec.slice(v as *const u8, 4); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttrib4ubvARB(index, v) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttrib4ubvARB, Effect::ATTRIB) {
+        rec.u32(index);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const u8, 4) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttrib4ubvARB(index, v) };
+    }
 } }
 export! { 353, glVertexAttrib4uiv, first_glVertexAttrib4uiv, hook_glVertexAttrib4uiv, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib4uiv, Effect::ATTRIB) { unsafe { rec.u32(index); rec.slice(v as *const u32, 4); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttrib4uiv(index, v) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttrib4uiv, Effect::ATTRIB) {
+        rec.u32(index);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const u32, 4) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttrib4uiv(index, v) };
+    }
 } }
 export! { 354, glVertexAttrib4uivARB, first_glVertexAttrib4uivARB, hook_glVertexAttrib4uivARB, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib4uivARB, Effect::ATTRIB) { unsafe { rec.u32(index); rec.slice(v as *const u32, 4); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttrib4uivARB(index, v) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttrib4uivARB, Effect::ATTRIB) {
+        rec.u32(index);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const u32, 4) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttrib4uivARB(index, v) };
+    }
 } }
 export! { 355, glVertexAttrib4usv, first_glVertexAttrib4usv, hook_glVertexAttrib4usv, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib4usv, Effect::ATTRIB) { unsafe { rec.u32(index); rec.slice(v as *const u16, 4); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttrib4usv(index, v) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttrib4usv, Effect::ATTRIB) {
+        rec.u32(index);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const u16, 4) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttrib4usv(index, v) };
+    }
 } }
 export! { 356, glVertexAttrib4usvARB, first_glVertexAttrib4usvARB, hook_glVertexAttrib4usvARB, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib4usvARB, Effect::ATTRIB) { unsafe { rec.u32(index); rec.slice(v as *const u16, 4); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttrib4usvARB(index, v) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttrib4usvARB, Effect::ATTRIB) {
+        rec.u32(index);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const u16, 4) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttrib4usvARB(index, v) };
+    }
 } }
 export! { 357, glVertexAttrib4Nub, first_glVertexAttrib4Nub, hook_glVertexAttrib4Nub, (index: u32, x: u8, y: u8, z: u8, w: u8) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib4Nub, Effect::ATTRIB) { unsafe { rec.u32(index); rec.u8(x); rec.u8(y); rec.u8(z); rec.u8(w); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttrib4Nub(index, x, y, z, w) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttrib4Nub, Effect::ATTRIB) {
+        rec.u32(index);
+        rec.u8(x);
+        rec.u8(y);
+        rec.u8(z);
+        rec.u8(w);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttrib4Nub(index, x, y, z, w) };
+    }
 } }
 export! { 358, glVertexAttrib4NubARB, first_glVertexAttrib4NubARB, hook_glVertexAttrib4NubARB, (index: u32, x: u8, y: u8, z: u8, w: u8) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib4NubARB, Effect::ATTRIB) { unsafe { rec.u32(index); rec.u8(x); rec.u8(y); rec.u8(z); rec.u8(w); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttrib4NubARB(index, x, y, z, w) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttrib4NubARB, Effect::ATTRIB) {
+        rec.u32(index);
+        rec.u8(x);
+        rec.u8(y);
+        rec.u8(z);
+        rec.u8(w);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttrib4NubARB(index, x, y, z, w) };
+    }
 } }
 export! { 359, glVertexAttrib4ubNV, first_glVertexAttrib4ubNV, hook_glVertexAttrib4ubNV, (index: u32, x: u8, y: u8, z: u8, w: u8) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib4ubNV, Effect::ATTRIB) { unsafe { rec.u32(index); rec.u8(x); rec.u8(y); rec.u8(z); rec.u8(w); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttrib4ubNV(index, x, y, z, w) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttrib4ubNV, Effect::ATTRIB) {
+        rec.u32(index);
+        rec.u8(x);
+        rec.u8(y);
+        rec.u8(z);
+        rec.u8(w);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttrib4ubNV(index, x, y, z, w) };
+    }
 } }
 export! { 360, glVertexAttribI1i, first_glVertexAttribI1i, hook_glVertexAttribI1i, (index: u32, x: i32) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribI1i, Effect::ATTRIB) { unsafe { rec.u32(index); rec.i32(x); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttribI1i(index, x) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttribI1i, Effect::ATTRIB) {
+        rec.u32(index);
+        rec.i32(x);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttribI1i(index, x) };
+    }
 } }
 export! { 361, glVertexAttribI1iEXT, first_glVertexAttribI1iEXT, hook_glVertexAttribI1iEXT, (index: u32, x: i32) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribI1iEXT, Effect::ATTRIB) { unsafe { rec.u32(index); rec.i32(x); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttribI1iEXT(index, x) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttribI1iEXT, Effect::ATTRIB) {
+        rec.u32(index);
+        rec.i32(x);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttribI1iEXT(index, x) };
+    }
 } }
 export! { 362, glVertexAttribI1iv, first_glVertexAttribI1iv, hook_glVertexAttribI1iv, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribI1iv, Effect::ATTRIB) { unsafe { rec.u32(index); rec.slice(v as *const i32, 1); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttribI1iv(index, v) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttribI1iv, Effect::ATTRIB) {
+        rec.u32(index);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const i32, 1) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttribI1iv(index, v) };
+    }
 } }
 export! { 363, glVertexAttribI1ivEXT, first_glVertexAttribI1ivEXT, hook_glVertexAttribI1ivEXT, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribI1ivEXT, Effect::ATTRIB) { unsafe { rec.u32(index); rec.slice(v as *const i32, 1); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttribI1ivEXT(index, v) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttribI1ivEXT, Effect::ATTRIB) {
+        rec.u32(index);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const i32, 1) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttribI1ivEXT(index, v) };
+    }
 } }
 export! { 364, glVertexAttribI1ui, first_glVertexAttribI1ui, hook_glVertexAttribI1ui, (index: u32, x: u32) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribI1ui, Effect::ATTRIB) { unsafe { rec.u32(index); rec.u32(x); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttribI1ui(index, x) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttribI1ui, Effect::ATTRIB) {
+        rec.u32(index);
+        rec.u32(x);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttribI1ui(index, x) };
+    }
 } }
 export! { 365, glVertexAttribI1uiEXT, first_glVertexAttribI1uiEXT, hook_glVertexAttribI1uiEXT, (index: u32, x: u32) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribI1uiEXT, Effect::ATTRIB) { unsafe { rec.u32(index); rec.u32(x); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttribI1uiEXT(index, x) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttribI1uiEXT, Effect::ATTRIB) {
+        rec.u32(index);
+        rec.u32(x);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttribI1uiEXT(index, x) };
+    }
 } }
 export! { 366, glVertexAttribI1uiv, first_glVertexAttribI1uiv, hook_glVertexAttribI1uiv, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribI1uiv, Effect::ATTRIB) { unsafe { rec.u32(index); rec.slice(v as *const u32, 1); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttribI1uiv(index, v) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttribI1uiv, Effect::ATTRIB) {
+        rec.u32(index);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const u32, 1) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttribI1uiv(index, v) };
+    }
 } }
 export! { 367, glVertexAttribI1uivEXT, first_glVertexAttribI1uivEXT, hook_glVertexAttribI1uivEXT, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribI1uivEXT, Effect::ATTRIB) { unsafe { rec.u32(index); rec.slice(v as *const u32, 1); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttribI1uivEXT(index, v) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttribI1uivEXT, Effect::ATTRIB) {
+        rec.u32(index);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const u32, 1) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttribI1uivEXT(index, v) };
+    }
 } }
 export! { 368, glVertexAttribI2i, first_glVertexAttribI2i, hook_glVertexAttribI2i, (index: u32, x: i32, y: i32) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribI2i, Effect::ATTRIB) { unsafe { rec.u32(index); rec.i32(x); rec.i32(y); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttribI2i(index, x, y) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttribI2i, Effect::ATTRIB) {
+        rec.u32(index);
+        rec.i32(x);
+        rec.i32(y);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttribI2i(index, x, y) };
+    }
 } }
 export! { 369, glVertexAttribI2iEXT, first_glVertexAttribI2iEXT, hook_glVertexAttribI2iEXT, (index: u32, x: i32, y: i32) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribI2iEXT, Effect::ATTRIB) { unsafe { rec.u32(index); rec.i32(x); rec.i32(y); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttribI2iEXT(index, x, y) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttribI2iEXT, Effect::ATTRIB) {
+        rec.u32(index);
+        rec.i32(x);
+        rec.i32(y);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttribI2iEXT(index, x, y) };
+    }
 } }
 export! { 370, glVertexAttribI2iv, first_glVertexAttribI2iv, hook_glVertexAttribI2iv, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribI2iv, Effect::ATTRIB) { unsafe { rec.u32(index); rec.slice(v as *const i32, 2); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttribI2iv(index, v) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttribI2iv, Effect::ATTRIB) {
+        rec.u32(index);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const i32, 2) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttribI2iv(index, v) };
+    }
 } }
 export! { 371, glVertexAttribI2ivEXT, first_glVertexAttribI2ivEXT, hook_glVertexAttribI2ivEXT, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribI2ivEXT, Effect::ATTRIB) { unsafe { rec.u32(index); rec.slice(v as *const i32, 2); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttribI2ivEXT(index, v) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttribI2ivEXT, Effect::ATTRIB) {
+        rec.u32(index);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const i32, 2) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttribI2ivEXT(index, v) };
+    }
 } }
 export! { 372, glVertexAttribI2ui, first_glVertexAttribI2ui, hook_glVertexAttribI2ui, (index: u32, x: u32, y: u32) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribI2ui, Effect::ATTRIB) { unsafe { rec.u32(index); rec.u32(x); rec.u32(y); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttribI2ui(index, x, y) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttribI2ui, Effect::ATTRIB) {
+        rec.u32(index);
+        rec.u32(x);
+        rec.u32(y);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttribI2ui(index, x, y) };
+    }
 } }
 export! { 373, glVertexAttribI2uiEXT, first_glVertexAttribI2uiEXT, hook_glVertexAttribI2uiEXT, (index: u32, x: u32, y: u32) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribI2uiEXT, Effect::ATTRIB) { unsafe { rec.u32(index); rec.u32(x); rec.u32(y); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttribI2uiEXT(index, x, y) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttribI2uiEXT, Effect::ATTRIB) {
+        rec.u32(index);
+        rec.u32(x);
+        rec.u32(y);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttribI2uiEXT(index, x, y) };
+    }
 } }
 export! { 374, glVertexAttribI2uiv, first_glVertexAttribI2uiv, hook_glVertexAttribI2uiv, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribI2uiv, Effect::ATTRIB) { unsafe { rec.u32(index); rec.slice(v as *const u32, 2); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttribI2uiv(index, v) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttribI2uiv, Effect::ATTRIB) {
+        rec.u32(index);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const u32, 2) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttribI2uiv(index, v) };
+    }
 } }
 export! { 375, glVertexAttribI2uivEXT, first_glVertexAttribI2uivEXT, hook_glVertexAttribI2uivEXT, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribI2uivEXT, Effect::ATTRIB) { unsafe { rec.u32(index); rec.slice(v as *const u32, 2); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttribI2uivEXT(index, v) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttribI2uivEXT, Effect::ATTRIB) {
+        rec.u32(index);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const u32, 2) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttribI2uivEXT(index, v) };
+    }
 } }
 export! { 376, glVertexAttribI3i, first_glVertexAttribI3i, hook_glVertexAttribI3i, (index: u32, x: i32, y: i32, z: i32) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribI3i, Effect::ATTRIB) { unsafe { rec.u32(index); rec.i32(x); rec.i32(y); rec.i32(z); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttribI3i(index, x, y, z) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttribI3i, Effect::ATTRIB) {
+        rec.u32(index);
+        rec.i32(x);
+        rec.i32(y);
+        rec.i32(z);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttribI3i(index, x, y, z) };
+    }
 } }
 export! { 377, glVertexAttribI3iEXT, first_glVertexAttribI3iEXT, hook_glVertexAttribI3iEXT, (index: u32, x: i32, y: i32, z: i32) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribI3iEXT, Effect::ATTRIB) { unsafe { rec.u32(index); rec.i32(x); rec.i32(y); rec.i32(z); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttribI3iEXT(index, x, y, z) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttribI3iEXT, Effect::ATTRIB) {
+        rec.u32(index);
+        rec.i32(x);
+        rec.i32(y);
+        rec.i32(z);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttribI3iEXT(index, x, y, z) };
+    }
 } }
 export! { 378, glVertexAttribI3iv, first_glVertexAttribI3iv, hook_glVertexAttribI3iv, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribI3iv, Effect::ATTRIB) { unsafe { rec.u32(index); rec.slice(v as *const i32, 3); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttribI3iv(index, v) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttribI3iv, Effect::ATTRIB) {
+        rec.u32(index);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const i32, 3) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttribI3iv(index, v) };
+    }
 } }
 export! { 379, glVertexAttribI3ivEXT, first_glVertexAttribI3ivEXT, hook_glVertexAttribI3ivEXT, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribI3ivEXT, Effect::ATTRIB) { unsafe { rec.u32(index); rec.slice(v as *const i32, 3); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttribI3ivEXT(index, v) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttribI3ivEXT, Effect::ATTRIB) {
+        rec.u32(index);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const i32, 3) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttribI3ivEXT(index, v) };
+    }
 } }
 export! { 380, glVertexAttribI3ui, first_glVertexAttribI3ui, hook_glVertexAttribI3ui, (index: u32, x: u32, y: u32, z: u32) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribI3ui, Effect::ATTRIB) { unsafe { rec.u32(index); rec.u32(x); rec.u32(y); rec.u32(z); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttribI3ui(index, x, y, z) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttribI3ui, Effect::ATTRIB) {
+        rec.u32(index);
+        rec.u32(x);
+        rec.u32(y);
+        rec.u32(z);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttribI3ui(index, x, y, z) };
+    }
 } }
 export! { 381, glVertexAttribI3uiEXT, first_glVertexAttribI3uiEXT, hook_glVertexAttribI3uiEXT, (index: u32, x: u32, y: u32, z: u32) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribI3uiEXT, Effect::ATTRIB) { unsafe { rec.u32(index); rec.u32(x); rec.u32(y); rec.u32(z); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttribI3uiEXT(index, x, y, z) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttribI3uiEXT, Effect::ATTRIB) {
+        rec.u32(index);
+        rec.u32(x);
+        rec.u32(y);
+        rec.u32(z);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttribI3uiEXT(index, x, y, z) };
+    }
 } }
 export! { 382, glVertexAttribI3uiv, first_glVertexAttribI3uiv, hook_glVertexAttribI3uiv, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribI3uiv, Effect::ATTRIB) { unsafe { rec.u32(index); rec.slice(v as *const u32, 3); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttribI3uiv(index, v) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttribI3uiv, Effect::ATTRIB) {
+        rec.u32(index);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const u32, 3) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttribI3uiv(index, v) };
+    }
 } }
 export! { 383, glVertexAttribI3uivEXT, first_glVertexAttribI3uivEXT, hook_glVertexAttribI3uivEXT, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribI3uivEXT, Effect::ATTRIB) { unsafe { rec.u32(index); rec.slice(v as *const u32, 3); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttribI3uivEXT(index, v) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttribI3uivEXT, Effect::ATTRIB) {
+        rec.u32(index);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const u32, 3) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttribI3uivEXT(index, v) };
+    }
 } }
 export! { 384, glVertexAttribI4i, first_glVertexAttribI4i, hook_glVertexAttribI4i, (index: u32, x: i32, y: i32, z: i32, w: i32) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribI4i, Effect::ATTRIB) { unsafe { rec.u32(index); rec.i32(x); rec.i32(y); rec.i32(z); rec.i32(w); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttribI4i(index, x, y, z, w) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttribI4i, Effect::ATTRIB) {
+        rec.u32(index);
+        rec.i32(x);
+        rec.i32(y);
+        rec.i32(z);
+        rec.i32(w);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttribI4i(index, x, y, z, w) };
+    }
 } }
 export! { 385, glVertexAttribI4iEXT, first_glVertexAttribI4iEXT, hook_glVertexAttribI4iEXT, (index: u32, x: i32, y: i32, z: i32, w: i32) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribI4iEXT, Effect::ATTRIB) { unsafe { rec.u32(index); rec.i32(x); rec.i32(y); rec.i32(z); rec.i32(w); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttribI4iEXT(index, x, y, z, w) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttribI4iEXT, Effect::ATTRIB) {
+        rec.u32(index);
+        rec.i32(x);
+        rec.i32(y);
+        rec.i32(z);
+        rec.i32(w);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttribI4iEXT(index, x, y, z, w) };
+    }
 } }
 export! { 386, glVertexAttribI4iv, first_glVertexAttribI4iv, hook_glVertexAttribI4iv, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribI4iv, Effect::ATTRIB) { unsafe { rec.u32(index); rec.slice(v as *const i32, 4); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttribI4iv(index, v) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttribI4iv, Effect::ATTRIB) {
+        rec.u32(index);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const i32, 4) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttribI4iv(index, v) };
+    }
 } }
 export! { 387, glVertexAttribI4ivEXT, first_glVertexAttribI4ivEXT, hook_glVertexAttribI4ivEXT, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribI4ivEXT, Effect::ATTRIB) { unsafe { rec.u32(index); rec.slice(v as *const i32, 4); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttribI4ivEXT(index, v) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttribI4ivEXT, Effect::ATTRIB) {
+        rec.u32(index);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const i32, 4) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttribI4ivEXT(index, v) };
+    }
 } }
 export! { 388, glVertexAttribI4ui, first_glVertexAttribI4ui, hook_glVertexAttribI4ui, (index: u32, x: u32, y: u32, z: u32, w: u32) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribI4ui, Effect::ATTRIB) { unsafe { rec.u32(index); rec.u32(x); rec.u32(y); rec.u32(z); rec.u32(w); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttribI4ui(index, x, y, z, w) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttribI4ui, Effect::ATTRIB) {
+        rec.u32(index);
+        rec.u32(x);
+        rec.u32(y);
+        rec.u32(z);
+        rec.u32(w);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttribI4ui(index, x, y, z, w) };
+    }
 } }
 export! { 389, glVertexAttribI4uiEXT, first_glVertexAttribI4uiEXT, hook_glVertexAttribI4uiEXT, (index: u32, x: u32, y: u32, z: u32, w: u32) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribI4uiEXT, Effect::ATTRIB) { unsafe { rec.u32(index); rec.u32(x); rec.u32(y); rec.u32(z); rec.u32(w); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttribI4uiEXT(index, x, y, z, w) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttribI4uiEXT, Effect::ATTRIB) {
+        rec.u32(index);
+        rec.u32(x);
+        rec.u32(y);
+        rec.u32(z);
+        rec.u32(w);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttribI4uiEXT(index, x, y, z, w) };
+    }
 } }
 export! { 390, glVertexAttribI4uiv, first_glVertexAttribI4uiv, hook_glVertexAttribI4uiv, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribI4uiv, Effect::ATTRIB) { unsafe { rec.u32(index); rec.slice(v as *const u32, 4); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttribI4uiv(index, v) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttribI4uiv, Effect::ATTRIB) {
+        rec.u32(index);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const u32, 4) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttribI4uiv(index, v) };
+    }
 } }
 export! { 391, glVertexAttribI4uivEXT, first_glVertexAttribI4uivEXT, hook_glVertexAttribI4uivEXT, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribI4uivEXT, Effect::ATTRIB) { unsafe { rec.u32(index); rec.slice(v as *const u32, 4); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttribI4uivEXT(index, v) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttribI4uivEXT, Effect::ATTRIB) {
+        rec.u32(index);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const u32, 4) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttribI4uivEXT(index, v) };
+    }
 } }
 export! { 392, glVertexAttribI4bv, first_glVertexAttribI4bv, hook_glVertexAttribI4bv, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribI4bv, Effect::ATTRIB) { unsafe { rec.u32(index); rec.slice(v as *const i8, 4); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttribI4bv(index, v) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttribI4bv, Effect::ATTRIB) {
+        rec.u32(index);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const i8, 4) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttribI4bv(index, v) };
+    }
 } }
 export! { 393, glVertexAttribI4bvEXT, first_glVertexAttribI4bvEXT, hook_glVertexAttribI4bvEXT, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribI4bvEXT, Effect::ATTRIB) { unsafe { rec.u32(index); rec.slice(v as *const i8, 4); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttribI4bvEXT(index, v) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttribI4bvEXT, Effect::ATTRIB) {
+        rec.u32(index);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const i8, 4) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttribI4bvEXT(index, v) };
+    }
 } }
 export! { 394, glVertexAttribI4sv, first_glVertexAttribI4sv, hook_glVertexAttribI4sv, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribI4sv, Effect::ATTRIB) { unsafe { rec.u32(index); rec.slice(v as *const i16, 4); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttribI4sv(index, v) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttribI4sv, Effect::ATTRIB) {
+        rec.u32(index);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const i16, 4) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttribI4sv(index, v) };
+    }
 } }
 export! { 395, glVertexAttribI4svEXT, first_glVertexAttribI4svEXT, hook_glVertexAttribI4svEXT, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribI4svEXT, Effect::ATTRIB) { unsafe { rec.u32(index); rec.slice(v as *const i16, 4); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttribI4svEXT(index, v) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttribI4svEXT, Effect::ATTRIB) {
+        rec.u32(index);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const i16, 4) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttribI4svEXT(index, v) };
+    }
 } }
 export! { 396, glVertexAttribI4ubv, first_glVertexAttribI4ubv, hook_glVertexAttribI4ubv, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribI4ubv, Effect::ATTRIB) { unsafe { rec.u32(index); rec.slice(v as *const u8, 4); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttribI4ubv(index, v) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttribI4ubv, Effect::ATTRIB) {
+        rec.u32(index);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const u8, 4) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttribI4ubv(index, v) };
+    }
 } }
 export! { 397, glVertexAttribI4ubvEXT, first_glVertexAttribI4ubvEXT, hook_glVertexAttribI4ubvEXT, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribI4ubvEXT, Effect::ATTRIB) { unsafe { rec.u32(index); rec.slice(v as *const u8, 4); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttribI4ubvEXT(index, v) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttribI4ubvEXT, Effect::ATTRIB) {
+        rec.u32(index);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const u8, 4) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttribI4ubvEXT(index, v) };
+    }
 } }
 export! { 398, glVertexAttribI4usv, first_glVertexAttribI4usv, hook_glVertexAttribI4usv, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribI4usv, Effect::ATTRIB) { unsafe { rec.u32(index); rec.slice(v as *const u16, 4); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttribI4usv(index, v) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttribI4usv, Effect::ATTRIB) {
+        rec.u32(index);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const u16, 4) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttribI4usv(index, v) };
+    }
 } }
 export! { 399, glVertexAttribI4usvEXT, first_glVertexAttribI4usvEXT, hook_glVertexAttribI4usvEXT, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribI4usvEXT, Effect::ATTRIB) { unsafe { rec.u32(index); rec.slice(v as *const u16, 4); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttribI4usvEXT(index, v) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttribI4usvEXT, Effect::ATTRIB) {
+        rec.u32(index);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const u16, 4) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttribI4usvEXT(index, v) };
+    }
 } }
 export! { 400, glVertexAttribL1d, first_glVertexAttribL1d, hook_glVertexAttribL1d, (index: u32, x: f64) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribL1d, Effect::ATTRIB) { unsafe { rec.u32(index); rec.f64(x); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttribL1d(index, x) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttribL1d, Effect::ATTRIB) {
+        rec.u32(index);
+        rec.f64(x);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttribL1d(index, x) };
+    }
 } }
 export! { 401, glVertexAttribL1dEXT, first_glVertexAttribL1dEXT, hook_glVertexAttribL1dEXT, (index: u32, x: f64) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribL1dEXT, Effect::ATTRIB) { unsafe { rec.u32(index); rec.f64(x); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttribL1dEXT(index, x) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttribL1dEXT, Effect::ATTRIB) {
+        rec.u32(index);
+        rec.f64(x);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttribL1dEXT(index, x) };
+    }
 } }
 export! { 402, glVertexAttribL1dv, first_glVertexAttribL1dv, hook_glVertexAttribL1dv, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribL1dv, Effect::ATTRIB) { unsafe { rec.u32(index); rec.slice(v as *const f64, 1); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttribL1dv(index, v) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttribL1dv, Effect::ATTRIB) {
+        rec.u32(index);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const f64, 1) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttribL1dv(index, v) };
+    }
 } }
 export! { 403, glVertexAttribL1dvEXT, first_glVertexAttribL1dvEXT, hook_glVertexAttribL1dvEXT, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribL1dvEXT, Effect::ATTRIB) { unsafe { rec.u32(index); rec.slice(v as *const f64, 1); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttribL1dvEXT(index, v) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttribL1dvEXT, Effect::ATTRIB) {
+        rec.u32(index);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const f64, 1) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttribL1dvEXT(index, v) };
+    }
 } }
 export! { 404, glVertexAttribL2d, first_glVertexAttribL2d, hook_glVertexAttribL2d, (index: u32, x: f64, y: f64) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribL2d, Effect::ATTRIB) { unsafe { rec.u32(index); rec.f64(x); rec.f64(y); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttribL2d(index, x, y) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttribL2d, Effect::ATTRIB) {
+        rec.u32(index);
+        rec.f64(x);
+        rec.f64(y);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttribL2d(index, x, y) };
+    }
 } }
 export! { 405, glVertexAttribL2dEXT, first_glVertexAttribL2dEXT, hook_glVertexAttribL2dEXT, (index: u32, x: f64, y: f64) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribL2dEXT, Effect::ATTRIB) { unsafe { rec.u32(index); rec.f64(x); rec.f64(y); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttribL2dEXT(index, x, y) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttribL2dEXT, Effect::ATTRIB) {
+        rec.u32(index);
+        rec.f64(x);
+        rec.f64(y);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttribL2dEXT(index, x, y) };
+    }
 } }
 export! { 406, glVertexAttribL2dv, first_glVertexAttribL2dv, hook_glVertexAttribL2dv, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribL2dv, Effect::ATTRIB) { unsafe { rec.u32(index); rec.slice(v as *const f64, 2); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttribL2dv(index, v) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttribL2dv, Effect::ATTRIB) {
+        rec.u32(index);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const f64, 2) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttribL2dv(index, v) };
+    }
 } }
 export! { 407, glVertexAttribL2dvEXT, first_glVertexAttribL2dvEXT, hook_glVertexAttribL2dvEXT, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribL2dvEXT, Effect::ATTRIB) { unsafe { rec.u32(index); rec.slice(v as *const f64, 2); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttribL2dvEXT(index, v) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttribL2dvEXT, Effect::ATTRIB) {
+        rec.u32(index);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const f64, 2) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttribL2dvEXT(index, v) };
+    }
 } }
 export! { 408, glVertexAttribL3d, first_glVertexAttribL3d, hook_glVertexAttribL3d, (index: u32, x: f64, y: f64, z: f64) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribL3d, Effect::ATTRIB) { unsafe { rec.u32(index); rec.f64(x); rec.f64(y); rec.f64(z); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttribL3d(index, x, y, z) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttribL3d, Effect::ATTRIB) {
+        rec.u32(index);
+        rec.f64(x);
+        rec.f64(y);
+        rec.f64(z);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttribL3d(index, x, y, z) };
+    }
 } }
 export! { 409, glVertexAttribL3dEXT, first_glVertexAttribL3dEXT, hook_glVertexAttribL3dEXT, (index: u32, x: f64, y: f64, z: f64) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribL3dEXT, Effect::ATTRIB) { unsafe { rec.u32(index); rec.f64(x); rec.f64(y); rec.f64(z); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttribL3dEXT(index, x, y, z) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttribL3dEXT, Effect::ATTRIB) {
+        rec.u32(index);
+        rec.f64(x);
+        rec.f64(y);
+        rec.f64(z);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttribL3dEXT(index, x, y, z) };
+    }
 } }
 export! { 410, glVertexAttribL3dv, first_glVertexAttribL3dv, hook_glVertexAttribL3dv, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribL3dv, Effect::ATTRIB) { unsafe { rec.u32(index); rec.slice(v as *const f64, 3); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttribL3dv(index, v) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttribL3dv, Effect::ATTRIB) {
+        rec.u32(index);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const f64, 3) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttribL3dv(index, v) };
+    }
 } }
 export! { 411, glVertexAttribL3dvEXT, first_glVertexAttribL3dvEXT, hook_glVertexAttribL3dvEXT, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribL3dvEXT, Effect::ATTRIB) { unsafe { rec.u32(index); rec.slice(v as *const f64, 3); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttribL3dvEXT(index, v) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttribL3dvEXT, Effect::ATTRIB) {
+        rec.u32(index);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const f64, 3) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttribL3dvEXT(index, v) };
+    }
 } }
 export! { 412, glVertexAttribL4d, first_glVertexAttribL4d, hook_glVertexAttribL4d, (index: u32, x: f64, y: f64, z: f64, w: f64) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribL4d, Effect::ATTRIB) { unsafe { rec.u32(index); rec.f64(x); rec.f64(y); rec.f64(z); rec.f64(w); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttribL4d(index, x, y, z, w) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttribL4d, Effect::ATTRIB) {
+        rec.u32(index);
+        rec.f64(x);
+        rec.f64(y);
+        rec.f64(z);
+        rec.f64(w);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttribL4d(index, x, y, z, w) };
+    }
 } }
 export! { 413, glVertexAttribL4dEXT, first_glVertexAttribL4dEXT, hook_glVertexAttribL4dEXT, (index: u32, x: f64, y: f64, z: f64, w: f64) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribL4dEXT, Effect::ATTRIB) { unsafe { rec.u32(index); rec.f64(x); rec.f64(y); rec.f64(z); rec.f64(w); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttribL4dEXT(index, x, y, z, w) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttribL4dEXT, Effect::ATTRIB) {
+        rec.u32(index);
+        rec.f64(x);
+        rec.f64(y);
+        rec.f64(z);
+        rec.f64(w);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttribL4dEXT(index, x, y, z, w) };
+    }
 } }
 export! { 414, glVertexAttribL4dv, first_glVertexAttribL4dv, hook_glVertexAttribL4dv, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribL4dv, Effect::ATTRIB) { unsafe { rec.u32(index); rec.slice(v as *const f64, 4); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttribL4dv(index, v) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttribL4dv, Effect::ATTRIB) {
+        rec.u32(index);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const f64, 4) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttribL4dv(index, v) };
+    }
 } }
 export! { 415, glVertexAttribL4dvEXT, first_glVertexAttribL4dvEXT, hook_glVertexAttribL4dvEXT, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribL4dvEXT, Effect::ATTRIB) { unsafe { rec.u32(index); rec.slice(v as *const f64, 4); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttribL4dvEXT(index, v) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttribL4dvEXT, Effect::ATTRIB) {
+        rec.u32(index);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(v as *const f64, 4) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttribL4dvEXT(index, v) };
+    }
 } }
 export! { 416, glMultiTexCoordP1ui, first_glMultiTexCoordP1ui, hook_glMultiTexCoordP1ui, (texture: u32, type_: u32, coords: u32) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoordP1ui, Effect::MULTITEX) { unsafe { rec.u32(texture); rec.u32(type_); rec.u32(coords); } } else { let gl = hooks::real(); unsafe { gl.glMultiTexCoordP1ui(texture, type_, coords) }; }
+    if let Some(rec) = imm::recording(slot::glMultiTexCoordP1ui, Effect::MULTITEX) {
+        rec.u32(texture);
+        rec.u32(type_);
+        rec.u32(coords);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glMultiTexCoordP1ui(texture, type_, coords) };
+    }
 } }
 export! { 417, glMultiTexCoordP1uiv, first_glMultiTexCoordP1uiv, hook_glMultiTexCoordP1uiv, (texture: u32, type_: u32, coords: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoordP1uiv, Effect::MULTITEX) { unsafe { rec.u32(texture); rec.u32(type_); rec.slice(coords as *const u32, 1); } } else { let gl = hooks::real(); unsafe { gl.glMultiTexCoordP1uiv(texture, type_, coords) }; }
+    if let Some(rec) = imm::recording(slot::glMultiTexCoordP1uiv, Effect::MULTITEX) {
+        rec.u32(texture);
+        rec.u32(type_);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(coords as *const u32, 1) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glMultiTexCoordP1uiv(texture, type_, coords) };
+    }
 } }
 export! { 418, glMultiTexCoordP2ui, first_glMultiTexCoordP2ui, hook_glMultiTexCoordP2ui, (texture: u32, type_: u32, coords: u32) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoordP2ui, Effect::MULTITEX) { unsafe { rec.u32(texture); rec.u32(type_); rec.u32(coords); } } else { let gl = hooks::real(); unsafe { gl.glMultiTexCoordP2ui(texture, type_, coords) }; }
+    if let Some(rec) = imm::recording(slot::glMultiTexCoordP2ui, Effect::MULTITEX) {
+        rec.u32(texture);
+        rec.u32(type_);
+        rec.u32(coords);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glMultiTexCoordP2ui(texture, type_, coords) };
+    }
 } }
 export! { 419, glMultiTexCoordP2uiv, first_glMultiTexCoordP2uiv, hook_glMultiTexCoordP2uiv, (texture: u32, type_: u32, coords: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoordP2uiv, Effect::MULTITEX) { unsafe { rec.u32(texture); rec.u32(type_); rec.slice(coords as *const u32, 1); } } else { let gl = hooks::real(); unsafe { gl.glMultiTexCoordP2uiv(texture, type_, coords) }; }
+    if let Some(rec) = imm::recording(slot::glMultiTexCoordP2uiv, Effect::MULTITEX) {
+        rec.u32(texture);
+        rec.u32(type_);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(coords as *const u32, 1) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glMultiTexCoordP2uiv(texture, type_, coords) };
+    }
 } }
 export! { 420, glMultiTexCoordP3ui, first_glMultiTexCoordP3ui, hook_glMultiTexCoordP3ui, (texture: u32, type_: u32, coords: u32) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoordP3ui, Effect::MULTITEX) { unsafe { rec.u32(texture); rec.u32(type_); rec.u32(coords); } } else { let gl = hooks::real(); unsafe { gl.glMultiTexCoordP3ui(texture, type_, coords) }; }
+    if let Some(rec) = imm::recording(slot::glMultiTexCoordP3ui, Effect::MULTITEX) {
+        rec.u32(texture);
+        rec.u32(type_);
+        rec.u32(coords);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glMultiTexCoordP3ui(texture, type_, coords) };
+    }
 } }
 export! { 421, glMultiTexCoordP3uiv, first_glMultiTexCoordP3uiv, hook_glMultiTexCoordP3uiv, (texture: u32, type_: u32, coords: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoordP3uiv, Effect::MULTITEX) { unsafe { rec.u32(texture); rec.u32(type_); rec.slice(coords as *const u32, 1); } } else { let gl = hooks::real(); unsafe { gl.glMultiTexCoordP3uiv(texture, type_, coords) }; }
+    if let Some(rec) = imm::recording(slot::glMultiTexCoordP3uiv, Effect::MULTITEX) {
+        rec.u32(texture);
+        rec.u32(type_);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(coords as *const u32, 1) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glMultiTexCoordP3uiv(texture, type_, coords) };
+    }
 } }
 export! { 422, glMultiTexCoordP4ui, first_glMultiTexCoordP4ui, hook_glMultiTexCoordP4ui, (texture: u32, type_: u32, coords: u32) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoordP4ui, Effect::MULTITEX) { unsafe { rec.u32(texture); rec.u32(type_); rec.u32(coords); } } else { let gl = hooks::real(); unsafe { gl.glMultiTexCoordP4ui(texture, type_, coords) }; }
+    if let Some(rec) = imm::recording(slot::glMultiTexCoordP4ui, Effect::MULTITEX) {
+        rec.u32(texture);
+        rec.u32(type_);
+        rec.u32(coords);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glMultiTexCoordP4ui(texture, type_, coords) };
+    }
 } }
 export! { 423, glMultiTexCoordP4uiv, first_glMultiTexCoordP4uiv, hook_glMultiTexCoordP4uiv, (texture: u32, type_: u32, coords: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoordP4uiv, Effect::MULTITEX) { unsafe { rec.u32(texture); rec.u32(type_); rec.slice(coords as *const u32, 1); } } else { let gl = hooks::real(); unsafe { gl.glMultiTexCoordP4uiv(texture, type_, coords) }; }
+    if let Some(rec) = imm::recording(slot::glMultiTexCoordP4uiv, Effect::MULTITEX) {
+        rec.u32(texture);
+        rec.u32(type_);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(coords as *const u32, 1) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glMultiTexCoordP4uiv(texture, type_, coords) };
+    }
 } }
 export! { 424, glTexCoordP1ui, first_glTexCoordP1ui, hook_glTexCoordP1ui, (type_: u32, coords: u32) -> (), {
-    if let Some(rec) = imm::recording(slot::glTexCoordP1ui, Effect::TEXCOORD) { unsafe { rec.u32(type_); rec.u32(coords); } } else { let gl = hooks::real(); unsafe { gl.glTexCoordP1ui(type_, coords) }; }
+    if let Some(rec) = imm::recording(slot::glTexCoordP1ui, Effect::TEXCOORD) {
+        rec.u32(type_);
+        rec.u32(coords);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glTexCoordP1ui(type_, coords) };
+    }
 } }
 export! { 425, glTexCoordP1uiv, first_glTexCoordP1uiv, hook_glTexCoordP1uiv, (type_: u32, coords: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glTexCoordP1uiv, Effect::TEXCOORD) { unsafe { rec.u32(type_); rec.slice(coords as *const u32, 1); } } else { let gl = hooks::real(); unsafe { gl.glTexCoordP1uiv(type_, coords) }; }
+    if let Some(rec) = imm::recording(slot::glTexCoordP1uiv, Effect::TEXCOORD) {
+        rec.u32(type_);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(coords as *const u32, 1) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glTexCoordP1uiv(type_, coords) };
+    }
 } }
 export! { 426, glTexCoordP2ui, first_glTexCoordP2ui, hook_glTexCoordP2ui, (type_: u32, coords: u32) -> (), {
-    if let Some(rec) = imm::recording(slot::glTexCoordP2ui, Effect::TEXCOORD) { unsafe { rec.u32(type_); rec.u32(coords); } } else { let gl = hooks::real(); unsafe { gl.glTexCoordP2ui(type_, coords) }; }
+    if let Some(rec) = imm::recording(slot::glTexCoordP2ui, Effect::TEXCOORD) {
+        rec.u32(type_);
+        rec.u32(coords);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glTexCoordP2ui(type_, coords) };
+    }
 } }
 export! { 427, glTexCoordP2uiv, first_glTexCoordP2uiv, hook_glTexCoordP2uiv, (type_: u32, coords: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glTexCoordP2uiv, Effect::TEXCOORD) { unsafe { rec.u32(type_); rec.slice(coords as *const u32, 1); } } else { let gl = hooks::real(); unsafe { gl.glTexCoordP2uiv(type_, coords) }; }
+    if let Some(rec) = imm::recording(slot::glTexCoordP2uiv, Effect::TEXCOORD) {
+        rec.u32(type_);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(coords as *const u32, 1) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glTexCoordP2uiv(type_, coords) };
+    }
 } }
 export! { 428, glTexCoordP3ui, first_glTexCoordP3ui, hook_glTexCoordP3ui, (type_: u32, coords: u32) -> (), {
-    if let Some(rec) = imm::recording(slot::glTexCoordP3ui, Effect::TEXCOORD) { unsafe { rec.u32(type_); rec.u32(coords); } } else { let gl = hooks::real(); unsafe { gl.glTexCoordP3ui(type_, coords) }; }
+    if let Some(rec) = imm::recording(slot::glTexCoordP3ui, Effect::TEXCOORD) {
+        rec.u32(type_);
+        rec.u32(coords);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glTexCoordP3ui(type_, coords) };
+    }
 } }
 export! { 429, glTexCoordP3uiv, first_glTexCoordP3uiv, hook_glTexCoordP3uiv, (type_: u32, coords: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glTexCoordP3uiv, Effect::TEXCOORD) { unsafe { rec.u32(type_); rec.slice(coords as *const u32, 1); } } else { let gl = hooks::real(); unsafe { gl.glTexCoordP3uiv(type_, coords) }; }
+    if let Some(rec) = imm::recording(slot::glTexCoordP3uiv, Effect::TEXCOORD) {
+        rec.u32(type_);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(coords as *const u32, 1) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glTexCoordP3uiv(type_, coords) };
+    }
 } }
 export! { 430, glTexCoordP4ui, first_glTexCoordP4ui, hook_glTexCoordP4ui, (type_: u32, coords: u32) -> (), {
-    if let Some(rec) = imm::recording(slot::glTexCoordP4ui, Effect::TEXCOORD) { unsafe { rec.u32(type_); rec.u32(coords); } } else { let gl = hooks::real(); unsafe { gl.glTexCoordP4ui(type_, coords) }; }
+    if let Some(rec) = imm::recording(slot::glTexCoordP4ui, Effect::TEXCOORD) {
+        rec.u32(type_);
+        rec.u32(coords);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glTexCoordP4ui(type_, coords) };
+    }
 } }
 export! { 431, glTexCoordP4uiv, first_glTexCoordP4uiv, hook_glTexCoordP4uiv, (type_: u32, coords: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glTexCoordP4uiv, Effect::TEXCOORD) { unsafe { rec.u32(type_); rec.slice(coords as *const u32, 1); } } else { let gl = hooks::real(); unsafe { gl.glTexCoordP4uiv(type_, coords) }; }
+    if let Some(rec) = imm::recording(slot::glTexCoordP4uiv, Effect::TEXCOORD) {
+        rec.u32(type_);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(coords as *const u32, 1) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glTexCoordP4uiv(type_, coords) };
+    }
 } }
 export! { 432, glVertexP2ui, first_glVertexP2ui, hook_glVertexP2ui, (type_: u32, value: u32) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexP2ui, Effect::VERTEX) { unsafe { rec.u32(type_); rec.u32(value); } } else { let gl = hooks::real(); unsafe { gl.glVertexP2ui(type_, value) }; }
+    if let Some(rec) = imm::recording(slot::glVertexP2ui, Effect::VERTEX) {
+        rec.u32(type_);
+        rec.u32(value);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexP2ui(type_, value) };
+    }
 } }
 export! { 433, glVertexP2uiv, first_glVertexP2uiv, hook_glVertexP2uiv, (type_: u32, value: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexP2uiv, Effect::VERTEX) { unsafe { rec.u32(type_); rec.slice(value as *const u32, 1); } } else { let gl = hooks::real(); unsafe { gl.glVertexP2uiv(type_, value) }; }
+    if let Some(rec) = imm::recording(slot::glVertexP2uiv, Effect::VERTEX) {
+        rec.u32(type_);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(value as *const u32, 1) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexP2uiv(type_, value) };
+    }
 } }
 export! { 434, glVertexP3ui, first_glVertexP3ui, hook_glVertexP3ui, (type_: u32, value: u32) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexP3ui, Effect::VERTEX) { unsafe { rec.u32(type_); rec.u32(value); } } else { let gl = hooks::real(); unsafe { gl.glVertexP3ui(type_, value) }; }
+    if let Some(rec) = imm::recording(slot::glVertexP3ui, Effect::VERTEX) {
+        rec.u32(type_);
+        rec.u32(value);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexP3ui(type_, value) };
+    }
 } }
 export! { 435, glVertexP3uiv, first_glVertexP3uiv, hook_glVertexP3uiv, (type_: u32, value: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexP3uiv, Effect::VERTEX) { unsafe { rec.u32(type_); rec.slice(value as *const u32, 1); } } else { let gl = hooks::real(); unsafe { gl.glVertexP3uiv(type_, value) }; }
+    if let Some(rec) = imm::recording(slot::glVertexP3uiv, Effect::VERTEX) {
+        rec.u32(type_);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(value as *const u32, 1) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexP3uiv(type_, value) };
+    }
 } }
 export! { 436, glVertexP4ui, first_glVertexP4ui, hook_glVertexP4ui, (type_: u32, value: u32) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexP4ui, Effect::VERTEX) { unsafe { rec.u32(type_); rec.u32(value); } } else { let gl = hooks::real(); unsafe { gl.glVertexP4ui(type_, value) }; }
+    if let Some(rec) = imm::recording(slot::glVertexP4ui, Effect::VERTEX) {
+        rec.u32(type_);
+        rec.u32(value);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexP4ui(type_, value) };
+    }
 } }
 export! { 437, glVertexP4uiv, first_glVertexP4uiv, hook_glVertexP4uiv, (type_: u32, value: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexP4uiv, Effect::VERTEX) { unsafe { rec.u32(type_); rec.slice(value as *const u32, 1); } } else { let gl = hooks::real(); unsafe { gl.glVertexP4uiv(type_, value) }; }
+    if let Some(rec) = imm::recording(slot::glVertexP4uiv, Effect::VERTEX) {
+        rec.u32(type_);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(value as *const u32, 1) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexP4uiv(type_, value) };
+    }
 } }
 export! { 438, glNormalP3ui, first_glNormalP3ui, hook_glNormalP3ui, (type_: u32, coords: u32) -> (), {
-    if let Some(rec) = imm::recording(slot::glNormalP3ui, Effect::NORMAL) { unsafe { rec.u32(type_); rec.u32(coords); } } else { let gl = hooks::real(); unsafe { gl.glNormalP3ui(type_, coords) }; }
+    if let Some(rec) = imm::recording(slot::glNormalP3ui, Effect::NORMAL) {
+        rec.u32(type_);
+        rec.u32(coords);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glNormalP3ui(type_, coords) };
+    }
 } }
 export! { 439, glNormalP3uiv, first_glNormalP3uiv, hook_glNormalP3uiv, (type_: u32, coords: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glNormalP3uiv, Effect::NORMAL) { unsafe { rec.u32(type_); rec.slice(coords as *const u32, 1); } } else { let gl = hooks::real(); unsafe { gl.glNormalP3uiv(type_, coords) }; }
+    if let Some(rec) = imm::recording(slot::glNormalP3uiv, Effect::NORMAL) {
+        rec.u32(type_);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(coords as *const u32, 1) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glNormalP3uiv(type_, coords) };
+    }
 } }
 export! { 440, glColorP3ui, first_glColorP3ui, hook_glColorP3ui, (type_: u32, color: u32) -> (), {
-    if let Some(rec) = imm::recording(slot::glColorP3ui, Effect::COLOR) { unsafe { rec.u32(type_); rec.u32(color); } } else { let gl = hooks::real(); unsafe { gl.glColorP3ui(type_, color) }; }
+    if let Some(rec) = imm::recording(slot::glColorP3ui, Effect::COLOR) {
+        rec.u32(type_);
+        rec.u32(color);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glColorP3ui(type_, color) };
+    }
 } }
 export! { 441, glColorP3uiv, first_glColorP3uiv, hook_glColorP3uiv, (type_: u32, color: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glColorP3uiv, Effect::COLOR) { unsafe { rec.u32(type_); rec.slice(color as *const u32, 1); } } else { let gl = hooks::real(); unsafe { gl.glColorP3uiv(type_, color) }; }
+    if let Some(rec) = imm::recording(slot::glColorP3uiv, Effect::COLOR) {
+        rec.u32(type_);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(color as *const u32, 1) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glColorP3uiv(type_, color) };
+    }
 } }
 export! { 442, glColorP4ui, first_glColorP4ui, hook_glColorP4ui, (type_: u32, color: u32) -> (), {
-    if let Some(rec) = imm::recording(slot::glColorP4ui, Effect::COLOR) { unsafe { rec.u32(type_); rec.u32(color); } } else { let gl = hooks::real(); unsafe { gl.glColorP4ui(type_, color) }; }
+    if let Some(rec) = imm::recording(slot::glColorP4ui, Effect::COLOR) {
+        rec.u32(type_);
+        rec.u32(color);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glColorP4ui(type_, color) };
+    }
 } }
 export! { 443, glColorP4uiv, first_glColorP4uiv, hook_glColorP4uiv, (type_: u32, color: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glColorP4uiv, Effect::COLOR) { unsafe { rec.u32(type_); rec.slice(color as *const u32, 1); } } else { let gl = hooks::real(); unsafe { gl.glColorP4uiv(type_, color) }; }
+    if let Some(rec) = imm::recording(slot::glColorP4uiv, Effect::COLOR) {
+        rec.u32(type_);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(color as *const u32, 1) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glColorP4uiv(type_, color) };
+    }
 } }
 export! { 444, glSecondaryColorP3ui, first_glSecondaryColorP3ui, hook_glSecondaryColorP3ui, (type_: u32, color: u32) -> (), {
-    if let Some(rec) = imm::recording(slot::glSecondaryColorP3ui, Effect::SECONDARY) { unsafe { rec.u32(type_); rec.u32(color); } } else { let gl = hooks::real(); unsafe { gl.glSecondaryColorP3ui(type_, color) }; }
+    if let Some(rec) = imm::recording(slot::glSecondaryColorP3ui, Effect::SECONDARY) {
+        rec.u32(type_);
+        rec.u32(color);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glSecondaryColorP3ui(type_, color) };
+    }
 } }
 export! { 445, glSecondaryColorP3uiv, first_glSecondaryColorP3uiv, hook_glSecondaryColorP3uiv, (type_: u32, color: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glSecondaryColorP3uiv, Effect::SECONDARY) { unsafe { rec.u32(type_); rec.slice(color as *const u32, 1); } } else { let gl = hooks::real(); unsafe { gl.glSecondaryColorP3uiv(type_, color) }; }
+    if let Some(rec) = imm::recording(slot::glSecondaryColorP3uiv, Effect::SECONDARY) {
+        rec.u32(type_);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(color as *const u32, 1) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glSecondaryColorP3uiv(type_, color) };
+    }
 } }
 export! { 446, glVertexAttribP1ui, first_glVertexAttribP1ui, hook_glVertexAttribP1ui, (index: u32, type_: u32, normalized: u8, value: u32) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribP1ui, Effect::ATTRIB) { unsafe { rec.u32(index); rec.u32(type_); rec.u8(normalized); rec.u32(value); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttribP1ui(index, type_, normalized, value) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttribP1ui, Effect::ATTRIB) {
+        rec.u32(index);
+        rec.u32(type_);
+        rec.u8(normalized);
+        rec.u32(value);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttribP1ui(index, type_, normalized, value) };
+    }
 } }
 export! { 447, glVertexAttribP1uiv, first_glVertexAttribP1uiv, hook_glVertexAttribP1uiv, (index: u32, type_: u32, normalized: u8, value: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribP1uiv, Effect::ATTRIB) { unsafe { rec.u32(index); rec.u32(type_); rec.u8(normalized); rec.slice(value as *const u32, 1); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttribP1uiv(index, type_, normalized, value) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttribP1uiv, Effect::ATTRIB) {
+        rec.u32(index);
+        rec.u32(type_);
+        rec.u8(normalized);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(value as *const u32, 1) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttribP1uiv(index, type_, normalized, value) };
+    }
 } }
 export! { 448, glVertexAttribP2ui, first_glVertexAttribP2ui, hook_glVertexAttribP2ui, (index: u32, type_: u32, normalized: u8, value: u32) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribP2ui, Effect::ATTRIB) { unsafe { rec.u32(index); rec.u32(type_); rec.u8(normalized); rec.u32(value); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttribP2ui(index, type_, normalized, value) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttribP2ui, Effect::ATTRIB) {
+        rec.u32(index);
+        rec.u32(type_);
+        rec.u8(normalized);
+        rec.u32(value);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttribP2ui(index, type_, normalized, value) };
+    }
 } }
 export! { 449, glVertexAttribP2uiv, first_glVertexAttribP2uiv, hook_glVertexAttribP2uiv, (index: u32, type_: u32, normalized: u8, value: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribP2uiv, Effect::ATTRIB) { unsafe { rec.u32(index); rec.u32(type_); rec.u8(normalized); rec.slice(value as *const u32, 1); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttribP2uiv(index, type_, normalized, value) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttribP2uiv, Effect::ATTRIB) {
+        rec.u32(index);
+        rec.u32(type_);
+        rec.u8(normalized);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(value as *const u32, 1) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttribP2uiv(index, type_, normalized, value) };
+    }
 } }
 export! { 450, glVertexAttribP3ui, first_glVertexAttribP3ui, hook_glVertexAttribP3ui, (index: u32, type_: u32, normalized: u8, value: u32) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribP3ui, Effect::ATTRIB) { unsafe { rec.u32(index); rec.u32(type_); rec.u8(normalized); rec.u32(value); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttribP3ui(index, type_, normalized, value) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttribP3ui, Effect::ATTRIB) {
+        rec.u32(index);
+        rec.u32(type_);
+        rec.u8(normalized);
+        rec.u32(value);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttribP3ui(index, type_, normalized, value) };
+    }
 } }
 export! { 451, glVertexAttribP3uiv, first_glVertexAttribP3uiv, hook_glVertexAttribP3uiv, (index: u32, type_: u32, normalized: u8, value: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribP3uiv, Effect::ATTRIB) { unsafe { rec.u32(index); rec.u32(type_); rec.u8(normalized); rec.slice(value as *const u32, 1); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttribP3uiv(index, type_, normalized, value) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttribP3uiv, Effect::ATTRIB) {
+        rec.u32(index);
+        rec.u32(type_);
+        rec.u8(normalized);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(value as *const u32, 1) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttribP3uiv(index, type_, normalized, value) };
+    }
 } }
 export! { 452, glVertexAttribP4ui, first_glVertexAttribP4ui, hook_glVertexAttribP4ui, (index: u32, type_: u32, normalized: u8, value: u32) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribP4ui, Effect::ATTRIB) { unsafe { rec.u32(index); rec.u32(type_); rec.u8(normalized); rec.u32(value); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttribP4ui(index, type_, normalized, value) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttribP4ui, Effect::ATTRIB) {
+        rec.u32(index);
+        rec.u32(type_);
+        rec.u8(normalized);
+        rec.u32(value);
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttribP4ui(index, type_, normalized, value) };
+    }
 } }
 export! { 453, glVertexAttribP4uiv, first_glVertexAttribP4uiv, hook_glVertexAttribP4uiv, (index: u32, type_: u32, normalized: u8, value: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribP4uiv, Effect::ATTRIB) { unsafe { rec.u32(index); rec.u32(type_); rec.u8(normalized); rec.slice(value as *const u32, 1); } } else { let gl = hooks::real(); unsafe { gl.glVertexAttribP4uiv(index, type_, normalized, value) }; }
+    if let Some(rec) = imm::recording(slot::glVertexAttribP4uiv, Effect::ATTRIB) {
+        rec.u32(index);
+        rec.u32(type_);
+        rec.u8(normalized);
+        // SAFETY: the program's array, of as many elements as the command reads.
+        unsafe { rec.slice(value as *const u32, 1) };
+    } else {
+        let gl = hooks::real();
+        // SAFETY: the program's own call.
+        unsafe { gl.glVertexAttribP4uiv(index, type_, normalized, value) };
+    }
 } }
 export! { 454, glBegin, first_glBegin, hook_glBegin, (mode: u32) -> (), {
+    // SAFETY: the program's own arguments.
     unsafe { special::glBegin(mode) }
 } }
 export! { 455, glEnd, first_glEnd, hook_glEnd, () -> (), {
+    // SAFETY: the program's own arguments.
     unsafe { special::glEnd() }
 } }
 export! { 456, glMatrixMode, first_glMatrixMode, hook_glMatrixMode, (mode: u32) -> (), {
+    // SAFETY: the program's own arguments.
     unsafe { special::glMatrixMode(mode) }
 } }
 export! { 457, glLoadIdentity, first_glLoadIdentity, hook_glLoadIdentity, () -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glLoadIdentity() };
     hooks::touch(Touch::MATRIX);
 } }
 export! { 458, glLoadMatrixd, first_glLoadMatrixd, hook_glLoadMatrixd, (m: Ptr) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glLoadMatrixd(m) };
     hooks::touch(Touch::MATRIX);
 } }
 export! { 459, glLoadMatrixf, first_glLoadMatrixf, hook_glLoadMatrixf, (m: Ptr) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glLoadMatrixf(m) };
     hooks::touch(Touch::MATRIX);
 } }
 export! { 460, glLoadTransposeMatrixd, first_glLoadTransposeMatrixd, hook_glLoadTransposeMatrixd, (m: Ptr) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glLoadTransposeMatrixd(m) };
     hooks::touch(Touch::MATRIX);
 } }
 export! { 461, glLoadTransposeMatrixdARB, first_glLoadTransposeMatrixdARB, hook_glLoadTransposeMatrixdARB, (m: Ptr) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glLoadTransposeMatrixdARB(m) };
     hooks::touch(Touch::MATRIX);
 } }
 export! { 462, glLoadTransposeMatrixf, first_glLoadTransposeMatrixf, hook_glLoadTransposeMatrixf, (m: Ptr) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glLoadTransposeMatrixf(m) };
     hooks::touch(Touch::MATRIX);
 } }
 export! { 463, glLoadTransposeMatrixfARB, first_glLoadTransposeMatrixfARB, hook_glLoadTransposeMatrixfARB, (m: Ptr) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glLoadTransposeMatrixfARB(m) };
     hooks::touch(Touch::MATRIX);
 } }
 export! { 464, glMultMatrixd, first_glMultMatrixd, hook_glMultMatrixd, (m: Ptr) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glMultMatrixd(m) };
     hooks::touch(Touch::MATRIX);
 } }
 export! { 465, glMultMatrixf, first_glMultMatrixf, hook_glMultMatrixf, (m: Ptr) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glMultMatrixf(m) };
     hooks::touch(Touch::MATRIX);
 } }
 export! { 466, glMultTransposeMatrixd, first_glMultTransposeMatrixd, hook_glMultTransposeMatrixd, (m: Ptr) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glMultTransposeMatrixd(m) };
     hooks::touch(Touch::MATRIX);
 } }
 export! { 467, glMultTransposeMatrixdARB, first_glMultTransposeMatrixdARB, hook_glMultTransposeMatrixdARB, (m: Ptr) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glMultTransposeMatrixdARB(m) };
     hooks::touch(Touch::MATRIX);
 } }
 export! { 468, glMultTransposeMatrixf, first_glMultTransposeMatrixf, hook_glMultTransposeMatrixf, (m: Ptr) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glMultTransposeMatrixf(m) };
     hooks::touch(Touch::MATRIX);
 } }
 export! { 469, glMultTransposeMatrixfARB, first_glMultTransposeMatrixfARB, hook_glMultTransposeMatrixfARB, (m: Ptr) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glMultTransposeMatrixfARB(m) };
     hooks::touch(Touch::MATRIX);
 } }
 export! { 470, glRotated, first_glRotated, hook_glRotated, (angle: f64, x: f64, y: f64, z: f64) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glRotated(angle, x, y, z) };
     hooks::touch(Touch::MATRIX);
 } }
 export! { 471, glRotatef, first_glRotatef, hook_glRotatef, (angle: f32, x: f32, y: f32, z: f32) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glRotatef(angle, x, y, z) };
     hooks::touch(Touch::MATRIX);
 } }
 export! { 472, glScaled, first_glScaled, hook_glScaled, (x: f64, y: f64, z: f64) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glScaled(x, y, z) };
     hooks::touch(Touch::MATRIX);
 } }
 export! { 473, glScalef, first_glScalef, hook_glScalef, (x: f32, y: f32, z: f32) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glScalef(x, y, z) };
     hooks::touch(Touch::MATRIX);
 } }
 export! { 474, glTranslated, first_glTranslated, hook_glTranslated, (x: f64, y: f64, z: f64) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glTranslated(x, y, z) };
     hooks::touch(Touch::MATRIX);
 } }
 export! { 475, glTranslatef, first_glTranslatef, hook_glTranslatef, (x: f32, y: f32, z: f32) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glTranslatef(x, y, z) };
     hooks::touch(Touch::MATRIX);
 } }
 export! { 476, glFrustum, first_glFrustum, hook_glFrustum, (left: f64, right: f64, bottom: f64, top: f64, zNear: f64, zFar: f64) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glFrustum(left, right, bottom, top, zNear, zFar) };
     hooks::touch(Touch::MATRIX);
 } }
 export! { 477, glOrtho, first_glOrtho, hook_glOrtho, (left: f64, right: f64, bottom: f64, top: f64, zNear: f64, zFar: f64) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glOrtho(left, right, bottom, top, zNear, zFar) };
     hooks::touch(Touch::MATRIX);
 } }
 export! { 478, glPopMatrix, first_glPopMatrix, hook_glPopMatrix, () -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glPopMatrix() };
     hooks::touch(Touch::MATRIX);
 } }
 export! { 479, glMatrixLoaddEXT, first_glMatrixLoaddEXT, hook_glMatrixLoaddEXT, (mode: u32, m: Ptr) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glMatrixLoaddEXT(mode, m) };
     hooks::touch(Touch::DSA_MATRIX);
 } }
 export! { 480, glMatrixLoadfEXT, first_glMatrixLoadfEXT, hook_glMatrixLoadfEXT, (mode: u32, m: Ptr) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glMatrixLoadfEXT(mode, m) };
     hooks::touch(Touch::DSA_MATRIX);
 } }
 export! { 481, glMatrixLoadIdentityEXT, first_glMatrixLoadIdentityEXT, hook_glMatrixLoadIdentityEXT, (mode: u32) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glMatrixLoadIdentityEXT(mode) };
     hooks::touch(Touch::DSA_MATRIX);
 } }
 export! { 482, glMatrixMultdEXT, first_glMatrixMultdEXT, hook_glMatrixMultdEXT, (mode: u32, m: Ptr) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glMatrixMultdEXT(mode, m) };
     hooks::touch(Touch::DSA_MATRIX);
 } }
 export! { 483, glMatrixMultfEXT, first_glMatrixMultfEXT, hook_glMatrixMultfEXT, (mode: u32, m: Ptr) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glMatrixMultfEXT(mode, m) };
     hooks::touch(Touch::DSA_MATRIX);
 } }
 export! { 484, glMatrixFrustumEXT, first_glMatrixFrustumEXT, hook_glMatrixFrustumEXT, (mode: u32, left: f64, right: f64, bottom: f64, top: f64, zNear: f64, zFar: f64) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glMatrixFrustumEXT(mode, left, right, bottom, top, zNear, zFar) };
     hooks::touch(Touch::DSA_MATRIX);
 } }
 export! { 485, glMatrixOrthoEXT, first_glMatrixOrthoEXT, hook_glMatrixOrthoEXT, (mode: u32, left: f64, right: f64, bottom: f64, top: f64, zNear: f64, zFar: f64) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glMatrixOrthoEXT(mode, left, right, bottom, top, zNear, zFar) };
     hooks::touch(Touch::DSA_MATRIX);
 } }
 export! { 486, glMatrixPopEXT, first_glMatrixPopEXT, hook_glMatrixPopEXT, (mode: u32) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glMatrixPopEXT(mode) };
     hooks::touch(Touch::DSA_MATRIX);
 } }
 export! { 487, glMatrixRotatedEXT, first_glMatrixRotatedEXT, hook_glMatrixRotatedEXT, (mode: u32, angle: f64, x: f64, y: f64, z: f64) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glMatrixRotatedEXT(mode, angle, x, y, z) };
     hooks::touch(Touch::DSA_MATRIX);
 } }
 export! { 488, glMatrixRotatefEXT, first_glMatrixRotatefEXT, hook_glMatrixRotatefEXT, (mode: u32, angle: f32, x: f32, y: f32, z: f32) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glMatrixRotatefEXT(mode, angle, x, y, z) };
     hooks::touch(Touch::DSA_MATRIX);
 } }
 export! { 489, glMatrixScaledEXT, first_glMatrixScaledEXT, hook_glMatrixScaledEXT, (mode: u32, x: f64, y: f64, z: f64) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glMatrixScaledEXT(mode, x, y, z) };
     hooks::touch(Touch::DSA_MATRIX);
 } }
 export! { 490, glMatrixScalefEXT, first_glMatrixScalefEXT, hook_glMatrixScalefEXT, (mode: u32, x: f32, y: f32, z: f32) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glMatrixScalefEXT(mode, x, y, z) };
     hooks::touch(Touch::DSA_MATRIX);
 } }
 export! { 491, glMatrixTranslatedEXT, first_glMatrixTranslatedEXT, hook_glMatrixTranslatedEXT, (mode: u32, x: f64, y: f64, z: f64) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glMatrixTranslatedEXT(mode, x, y, z) };
     hooks::touch(Touch::DSA_MATRIX);
 } }
 export! { 492, glMatrixTranslatefEXT, first_glMatrixTranslatefEXT, hook_glMatrixTranslatefEXT, (mode: u32, x: f32, y: f32, z: f32) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glMatrixTranslatefEXT(mode, x, y, z) };
     hooks::touch(Touch::DSA_MATRIX);
 } }
 export! { 493, glMatrixLoadTransposedEXT, first_glMatrixLoadTransposedEXT, hook_glMatrixLoadTransposedEXT, (mode: u32, m: Ptr) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glMatrixLoadTransposedEXT(mode, m) };
     hooks::touch(Touch::DSA_MATRIX);
 } }
 export! { 494, glMatrixLoadTransposefEXT, first_glMatrixLoadTransposefEXT, hook_glMatrixLoadTransposefEXT, (mode: u32, m: Ptr) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glMatrixLoadTransposefEXT(mode, m) };
     hooks::touch(Touch::DSA_MATRIX);
 } }
 export! { 495, glMatrixMultTransposedEXT, first_glMatrixMultTransposedEXT, hook_glMatrixMultTransposedEXT, (mode: u32, m: Ptr) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glMatrixMultTransposedEXT(mode, m) };
     hooks::touch(Touch::DSA_MATRIX);
 } }
 export! { 496, glMatrixMultTransposefEXT, first_glMatrixMultTransposefEXT, hook_glMatrixMultTransposefEXT, (mode: u32, m: Ptr) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glMatrixMultTransposefEXT(mode, m) };
     hooks::touch(Touch::DSA_MATRIX);
 } }
 export! { 497, glViewport, first_glViewport, hook_glViewport, (x: i32, y: i32, width: i32, height: i32) -> (), {
+    // SAFETY: the program's own arguments.
     unsafe { special::glViewport(x, y, width, height) }
 } }
 export! { 498, glScissor, first_glScissor, hook_glScissor, (x: i32, y: i32, width: i32, height: i32) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glScissor(x, y, width, height) };
     hooks::touch(Touch::RECTS);
 } }
 export! { 499, glScissorArrayv, first_glScissorArrayv, hook_glScissorArrayv, (first: u32, count: i32, v: Ptr) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glScissorArrayv(first, count, v) };
     hooks::touch(Touch::RECTS);
 } }
 export! { 500, glScissorArrayvNV, first_glScissorArrayvNV, hook_glScissorArrayvNV, (first: u32, count: i32, v: Ptr) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glScissorArrayvNV(first, count, v) };
     hooks::touch(Touch::RECTS);
 } }
 export! { 501, glScissorArrayvOES, first_glScissorArrayvOES, hook_glScissorArrayvOES, (first: u32, count: i32, v: Ptr) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glScissorArrayvOES(first, count, v) };
     hooks::touch(Touch::RECTS);
 } }
 export! { 502, glScissorIndexed, first_glScissorIndexed, hook_glScissorIndexed, (index: u32, left: i32, bottom: i32, width: i32, height: i32) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glScissorIndexed(index, left, bottom, width, height) };
     hooks::touch(Touch::RECTS);
 } }
 export! { 503, glScissorIndexedNV, first_glScissorIndexedNV, hook_glScissorIndexedNV, (index: u32, left: i32, bottom: i32, width: i32, height: i32) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glScissorIndexedNV(index, left, bottom, width, height) };
     hooks::touch(Touch::RECTS);
 } }
 export! { 504, glScissorIndexedOES, first_glScissorIndexedOES, hook_glScissorIndexedOES, (index: u32, left: i32, bottom: i32, width: i32, height: i32) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glScissorIndexedOES(index, left, bottom, width, height) };
     hooks::touch(Touch::RECTS);
 } }
 export! { 505, glScissorIndexedv, first_glScissorIndexedv, hook_glScissorIndexedv, (index: u32, v: Ptr) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glScissorIndexedv(index, v) };
     hooks::touch(Touch::RECTS);
 } }
 export! { 506, glScissorIndexedvNV, first_glScissorIndexedvNV, hook_glScissorIndexedvNV, (index: u32, v: Ptr) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glScissorIndexedvNV(index, v) };
     hooks::touch(Touch::RECTS);
 } }
 export! { 507, glScissorIndexedvOES, first_glScissorIndexedvOES, hook_glScissorIndexedvOES, (index: u32, v: Ptr) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glScissorIndexedvOES(index, v) };
     hooks::touch(Touch::RECTS);
 } }
 export! { 508, glViewportArrayv, first_glViewportArrayv, hook_glViewportArrayv, (first: u32, count: i32, v: Ptr) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glViewportArrayv(first, count, v) };
     hooks::touch(Touch::RECTS);
 } }
 export! { 509, glViewportArrayvNV, first_glViewportArrayvNV, hook_glViewportArrayvNV, (first: u32, count: i32, v: Ptr) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glViewportArrayvNV(first, count, v) };
     hooks::touch(Touch::RECTS);
 } }
 export! { 510, glViewportArrayvOES, first_glViewportArrayvOES, hook_glViewportArrayvOES, (first: u32, count: i32, v: Ptr) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glViewportArrayvOES(first, count, v) };
     hooks::touch(Touch::RECTS);
 } }
 export! { 511, glViewportIndexedf, first_glViewportIndexedf, hook_glViewportIndexedf, (index: u32, x: f32, y: f32, w: f32, h: f32) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glViewportIndexedf(index, x, y, w, h) };
     hooks::touch(Touch::RECTS);
 } }
 export! { 512, glViewportIndexedfNV, first_glViewportIndexedfNV, hook_glViewportIndexedfNV, (index: u32, x: f32, y: f32, w: f32, h: f32) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glViewportIndexedfNV(index, x, y, w, h) };
     hooks::touch(Touch::RECTS);
 } }
 export! { 513, glViewportIndexedfOES, first_glViewportIndexedfOES, hook_glViewportIndexedfOES, (index: u32, x: f32, y: f32, w: f32, h: f32) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glViewportIndexedfOES(index, x, y, w, h) };
     hooks::touch(Touch::RECTS);
 } }
 export! { 514, glViewportIndexedfv, first_glViewportIndexedfv, hook_glViewportIndexedfv, (index: u32, v: Ptr) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glViewportIndexedfv(index, v) };
     hooks::touch(Touch::RECTS);
 } }
 export! { 515, glViewportIndexedfvNV, first_glViewportIndexedfvNV, hook_glViewportIndexedfvNV, (index: u32, v: Ptr) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glViewportIndexedfvNV(index, v) };
     hooks::touch(Touch::RECTS);
 } }
 export! { 516, glViewportIndexedfvOES, first_glViewportIndexedfvOES, hook_glViewportIndexedfvOES, (index: u32, v: Ptr) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glViewportIndexedfvOES(index, v) };
     hooks::touch(Touch::RECTS);
 } }
 export! { 517, glEnable, first_glEnable, hook_glEnable, (cap: u32) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glEnable(cap) };
     hooks::touch(Touch::RECTS | Touch::FIXED);
 } }
 export! { 518, glDisable, first_glDisable, hook_glDisable, (cap: u32) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glDisable(cap) };
     hooks::touch(Touch::RECTS | Touch::FIXED);
 } }
 export! { 519, glEnablei, first_glEnablei, hook_glEnablei, (target: u32, index: u32) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glEnablei(target, index) };
     hooks::touch(Touch::RECTS | Touch::FIXED);
 } }
 export! { 520, glEnableIndexedEXT, first_glEnableIndexedEXT, hook_glEnableIndexedEXT, (target: u32, index: u32) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glEnableIndexedEXT(target, index) };
     hooks::touch(Touch::RECTS | Touch::FIXED);
 } }
 export! { 521, glEnableiEXT, first_glEnableiEXT, hook_glEnableiEXT, (target: u32, index: u32) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glEnableiEXT(target, index) };
     hooks::touch(Touch::RECTS | Touch::FIXED);
 } }
 export! { 522, glEnableiNV, first_glEnableiNV, hook_glEnableiNV, (target: u32, index: u32) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glEnableiNV(target, index) };
     hooks::touch(Touch::RECTS | Touch::FIXED);
 } }
 export! { 523, glEnableiOES, first_glEnableiOES, hook_glEnableiOES, (target: u32, index: u32) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glEnableiOES(target, index) };
     hooks::touch(Touch::RECTS | Touch::FIXED);
 } }
 export! { 524, glDisablei, first_glDisablei, hook_glDisablei, (target: u32, index: u32) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glDisablei(target, index) };
     hooks::touch(Touch::RECTS | Touch::FIXED);
 } }
 export! { 525, glDisableIndexedEXT, first_glDisableIndexedEXT, hook_glDisableIndexedEXT, (target: u32, index: u32) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glDisableIndexedEXT(target, index) };
     hooks::touch(Touch::RECTS | Touch::FIXED);
 } }
 export! { 526, glDisableiEXT, first_glDisableiEXT, hook_glDisableiEXT, (target: u32, index: u32) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glDisableiEXT(target, index) };
     hooks::touch(Touch::RECTS | Touch::FIXED);
 } }
 export! { 527, glDisableiNV, first_glDisableiNV, hook_glDisableiNV, (target: u32, index: u32) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glDisableiNV(target, index) };
     hooks::touch(Touch::RECTS | Touch::FIXED);
 } }
 export! { 528, glDisableiOES, first_glDisableiOES, hook_glDisableiOES, (target: u32, index: u32) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glDisableiOES(target, index) };
     hooks::touch(Touch::RECTS | Touch::FIXED);
 } }
 export! { 529, glLightf, first_glLightf, hook_glLightf, (light: u32, pname: u32, param: f32) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glLightf(light, pname, param) };
     hooks::touch(Touch::FIXED);
 } }
 export! { 530, glLightfv, first_glLightfv, hook_glLightfv, (light: u32, pname: u32, params: Ptr) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glLightfv(light, pname, params) };
     hooks::touch(Touch::FIXED);
 } }
 export! { 531, glLighti, first_glLighti, hook_glLighti, (light: u32, pname: u32, param: i32) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glLighti(light, pname, param) };
     hooks::touch(Touch::FIXED);
 } }
 export! { 532, glLightiv, first_glLightiv, hook_glLightiv, (light: u32, pname: u32, params: Ptr) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glLightiv(light, pname, params) };
     hooks::touch(Touch::FIXED);
 } }
 export! { 533, glLightModelf, first_glLightModelf, hook_glLightModelf, (pname: u32, param: f32) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glLightModelf(pname, param) };
     hooks::touch(Touch::FIXED);
 } }
 export! { 534, glLightModelfv, first_glLightModelfv, hook_glLightModelfv, (pname: u32, params: Ptr) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glLightModelfv(pname, params) };
     hooks::touch(Touch::FIXED);
 } }
 export! { 535, glLightModeli, first_glLightModeli, hook_glLightModeli, (pname: u32, param: i32) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glLightModeli(pname, param) };
     hooks::touch(Touch::FIXED);
 } }
 export! { 536, glLightModeliv, first_glLightModeliv, hook_glLightModeliv, (pname: u32, params: Ptr) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glLightModeliv(pname, params) };
     hooks::touch(Touch::FIXED);
 } }
 export! { 537, glColorMaterial, first_glColorMaterial, hook_glColorMaterial, (face: u32, mode: u32) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glColorMaterial(face, mode) };
     hooks::touch(Touch::FIXED);
 } }
 export! { 538, glTexGend, first_glTexGend, hook_glTexGend, (coord: u32, pname: u32, param: f64) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glTexGend(coord, pname, param) };
     hooks::touch(Touch::FIXED);
 } }
 export! { 539, glTexGendv, first_glTexGendv, hook_glTexGendv, (coord: u32, pname: u32, params: Ptr) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glTexGendv(coord, pname, params) };
     hooks::touch(Touch::FIXED);
 } }
 export! { 540, glTexGenf, first_glTexGenf, hook_glTexGenf, (coord: u32, pname: u32, param: f32) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glTexGenf(coord, pname, param) };
     hooks::touch(Touch::FIXED);
 } }
 export! { 541, glTexGenfv, first_glTexGenfv, hook_glTexGenfv, (coord: u32, pname: u32, params: Ptr) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glTexGenfv(coord, pname, params) };
     hooks::touch(Touch::FIXED);
 } }
 export! { 542, glTexGeni, first_glTexGeni, hook_glTexGeni, (coord: u32, pname: u32, param: i32) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glTexGeni(coord, pname, param) };
     hooks::touch(Touch::FIXED);
 } }
 export! { 543, glTexGeniv, first_glTexGeniv, hook_glTexGeniv, (coord: u32, pname: u32, params: Ptr) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glTexGeniv(coord, pname, params) };
     hooks::touch(Touch::FIXED);
 } }
 export! { 544, glFogf, first_glFogf, hook_glFogf, (pname: u32, param: f32) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glFogf(pname, param) };
     hooks::touch(Touch::FIXED);
 } }
 export! { 545, glFogfv, first_glFogfv, hook_glFogfv, (pname: u32, params: Ptr) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glFogfv(pname, params) };
     hooks::touch(Touch::FIXED);
 } }
 export! { 546, glFogi, first_glFogi, hook_glFogi, (pname: u32, param: i32) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glFogi(pname, param) };
     hooks::touch(Touch::FIXED);
 } }
 export! { 547, glFogiv, first_glFogiv, hook_glFogiv, (pname: u32, params: Ptr) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glFogiv(pname, params) };
     hooks::touch(Touch::FIXED);
 } }
 export! { 548, glPointParameterf, first_glPointParameterf, hook_glPointParameterf, (pname: u32, param: f32) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glPointParameterf(pname, param) };
     hooks::touch(Touch::FIXED);
 } }
 export! { 549, glPointParameterfARB, first_glPointParameterfARB, hook_glPointParameterfARB, (pname: u32, param: f32) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glPointParameterfARB(pname, param) };
     hooks::touch(Touch::FIXED);
 } }
 export! { 550, glPointParameterfEXT, first_glPointParameterfEXT, hook_glPointParameterfEXT, (pname: u32, param: f32) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glPointParameterfEXT(pname, param) };
     hooks::touch(Touch::FIXED);
 } }
 export! { 551, glPointParameterfSGIS, first_glPointParameterfSGIS, hook_glPointParameterfSGIS, (pname: u32, param: f32) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glPointParameterfSGIS(pname, param) };
     hooks::touch(Touch::FIXED);
 } }
 export! { 552, glPointParameterfv, first_glPointParameterfv, hook_glPointParameterfv, (pname: u32, params: Ptr) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glPointParameterfv(pname, params) };
     hooks::touch(Touch::FIXED);
 } }
 export! { 553, glPointParameterfvARB, first_glPointParameterfvARB, hook_glPointParameterfvARB, (pname: u32, params: Ptr) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glPointParameterfvARB(pname, params) };
     hooks::touch(Touch::FIXED);
 } }
 export! { 554, glPointParameterfvEXT, first_glPointParameterfvEXT, hook_glPointParameterfvEXT, (pname: u32, params: Ptr) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glPointParameterfvEXT(pname, params) };
     hooks::touch(Touch::FIXED);
 } }
 export! { 555, glPointParameterfvSGIS, first_glPointParameterfvSGIS, hook_glPointParameterfvSGIS, (pname: u32, params: Ptr) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glPointParameterfvSGIS(pname, params) };
     hooks::touch(Touch::FIXED);
 } }
 export! { 556, glPointParameteri, first_glPointParameteri, hook_glPointParameteri, (pname: u32, param: i32) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glPointParameteri(pname, param) };
     hooks::touch(Touch::FIXED);
 } }
 export! { 557, glPointParameteriNV, first_glPointParameteriNV, hook_glPointParameteriNV, (pname: u32, param: i32) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glPointParameteriNV(pname, param) };
     hooks::touch(Touch::FIXED);
 } }
 export! { 558, glPointParameteriv, first_glPointParameteriv, hook_glPointParameteriv, (pname: u32, params: Ptr) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glPointParameteriv(pname, params) };
     hooks::touch(Touch::FIXED);
 } }
 export! { 559, glPointParameterivNV, first_glPointParameterivNV, hook_glPointParameterivNV, (pname: u32, params: Ptr) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glPointParameterivNV(pname, params) };
     hooks::touch(Touch::FIXED);
 } }
 export! { 560, glPointSize, first_glPointSize, hook_glPointSize, (size: f32) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glPointSize(size) };
     hooks::touch(Touch::FIXED);
 } }
 export! { 561, glShadeModel, first_glShadeModel, hook_glShadeModel, (mode: u32) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glShadeModel(mode) };
     hooks::touch(Touch::FIXED);
 } }
 export! { 562, glPolygonMode, first_glPolygonMode, hook_glPolygonMode, (face: u32, mode: u32) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glPolygonMode(face, mode) };
     hooks::touch(Touch::FIXED);
 } }
 export! { 563, glPolygonModeNV, first_glPolygonModeNV, hook_glPolygonModeNV, (face: u32, mode: u32) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glPolygonModeNV(face, mode) };
     hooks::touch(Touch::FIXED);
 } }
 export! { 564, glTexEnvf, first_glTexEnvf, hook_glTexEnvf, (target: u32, pname: u32, param: f32) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glTexEnvf(target, pname, param) };
     hooks::touch(Touch::FIXED);
 } }
 export! { 565, glTexEnvfv, first_glTexEnvfv, hook_glTexEnvfv, (target: u32, pname: u32, params: Ptr) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glTexEnvfv(target, pname, params) };
     hooks::touch(Touch::FIXED);
 } }
 export! { 566, glTexEnvi, first_glTexEnvi, hook_glTexEnvi, (target: u32, pname: u32, param: i32) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glTexEnvi(target, pname, param) };
     hooks::touch(Touch::FIXED);
 } }
 export! { 567, glTexEnviv, first_glTexEnviv, hook_glTexEnviv, (target: u32, pname: u32, params: Ptr) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glTexEnviv(target, pname, params) };
     hooks::touch(Touch::FIXED);
 } }
 export! { 568, glHint, first_glHint, hook_glHint, (target: u32, mode: u32) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glHint(target, mode) };
     hooks::touch(Touch::FIXED);
 } }
 export! { 569, glLineWidth, first_glLineWidth, hook_glLineWidth, (width: f32) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glLineWidth(width) };
     hooks::touch(Touch::FIXED);
 } }
 export! { 570, glProvokingVertex, first_glProvokingVertex, hook_glProvokingVertex, (mode: u32) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glProvokingVertex(mode) };
     hooks::touch(Touch::FIXED);
 } }
 export! { 571, glProvokingVertexEXT, first_glProvokingVertexEXT, hook_glProvokingVertexEXT, (mode: u32) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glProvokingVertexEXT(mode) };
     hooks::touch(Touch::FIXED);
 } }
 export! { 572, glClipControl, first_glClipControl, hook_glClipControl, (origin: u32, depth: u32) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glClipControl(origin, depth) };
     hooks::touch(Touch::FIXED);
 } }
 export! { 573, glClipControlEXT, first_glClipControlEXT, hook_glClipControlEXT, (origin: u32, depth: u32) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glClipControlEXT(origin, depth) };
     hooks::touch(Touch::FIXED);
 } }
 export! { 574, glBindProgramARB, first_glBindProgramARB, hook_glBindProgramARB, (target: u32, program: u32) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glBindProgramARB(target, program) };
     hooks::touch(Touch::FIXED);
 } }
 export! { 575, glBindProgramNV, first_glBindProgramNV, hook_glBindProgramNV, (target: u32, id: u32) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glBindProgramNV(target, id) };
     hooks::touch(Touch::FIXED);
 } }
 export! { 576, glUseProgramStages, first_glUseProgramStages, hook_glUseProgramStages, (pipeline: u32, stages: u32, program: u32) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glUseProgramStages(pipeline, stages, program) };
     hooks::touch(Touch::FIXED);
 } }
 export! { 577, glClampColor, first_glClampColor, hook_glClampColor, (target: u32, clamp: u32) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glClampColor(target, clamp) };
     hooks::touch(Touch::FIXED);
 } }
 export! { 578, glClampColorARB, first_glClampColorARB, hook_glClampColorARB, (target: u32, clamp: u32) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glClampColorARB(target, clamp) };
     hooks::touch(Touch::FIXED);
 } }
 export! { 579, glUseProgram, first_glUseProgram, hook_glUseProgram, (program: u32) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glUseProgram(program) };
     hooks::touch(Touch::OBJECTS | Touch::FIXED);
 } }
 export! { 580, glUseProgramObjectARB, first_glUseProgramObjectARB, hook_glUseProgramObjectARB, (programObj: u32) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glUseProgramObjectARB(programObj) };
     hooks::touch(Touch::OBJECTS | Touch::FIXED);
 } }
 export! { 581, glBindProgramPipeline, first_glBindProgramPipeline, hook_glBindProgramPipeline, (pipeline: u32) -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glBindProgramPipeline(pipeline) };
     hooks::touch(Touch::OBJECTS | Touch::FIXED);
 } }
 export! { 582, glPopAttrib, first_glPopAttrib, hook_glPopAttrib, () -> (), {
     let gl = hooks::real();
+    // SAFETY: the program's own call.
     unsafe { gl.glPopAttrib() };
     hooks::touch(Touch::ALL);
 } }
 export! { 583, glRenderMode, first_glRenderMode, hook_glRenderMode, (mode: u32) -> i32, {
+    // SAFETY: the program's own arguments.
     unsafe { special::glRenderMode(mode) }
 } }
 export! { 584, glBeginTransformFeedback, first_glBeginTransformFeedback, hook_glBeginTransformFeedback, (primitiveMode: u32) -> (), {
+    // SAFETY: the program's own arguments.
     unsafe { special::glBeginTransformFeedback(primitiveMode) }
 } }
 export! { 585, glBeginTransformFeedbackEXT, first_glBeginTransformFeedbackEXT, hook_glBeginTransformFeedbackEXT, (primitiveMode: u32) -> (), {
+    // SAFETY: the program's own arguments.
     unsafe { special::glBeginTransformFeedback(primitiveMode) }
 } }
 export! { 586, glBeginTransformFeedbackNV, first_glBeginTransformFeedbackNV, hook_glBeginTransformFeedbackNV, (primitiveMode: u32) -> (), {
+    // SAFETY: the program's own arguments.
     unsafe { special::glBeginTransformFeedback(primitiveMode) }
 } }
 export! { 587, glEndTransformFeedback, first_glEndTransformFeedback, hook_glEndTransformFeedback, () -> (), {
+    // SAFETY: the program's own arguments.
     unsafe { special::glEndTransformFeedback() }
 } }
 export! { 588, glEndTransformFeedbackEXT, first_glEndTransformFeedbackEXT, hook_glEndTransformFeedbackEXT, () -> (), {
+    // SAFETY: the program's own arguments.
     unsafe { special::glEndTransformFeedback() }
 } }
 export! { 589, glEndTransformFeedbackNV, first_glEndTransformFeedbackNV, hook_glEndTransformFeedbackNV, () -> (), {
+    // SAFETY: the program's own arguments.
     unsafe { special::glEndTransformFeedback() }
 } }
 export! { 590, glClear, first_glClear, hook_glClear, (mask: u32) -> (), {
+    // SAFETY: the program's own call.
     hooks::draw(Kind::CLEAR, &mut |gl| unsafe { gl.glClear(mask) })
 } }
 export! { 591, glClearBufferfi, first_glClearBufferfi, hook_glClearBufferfi, (buffer: u32, drawbuffer: i32, depth: f32, stencil: i32) -> (), {
+    // SAFETY: the program's own call.
     hooks::draw(Kind::CLEAR, &mut |gl| unsafe { gl.glClearBufferfi(buffer, drawbuffer, depth, stencil) })
 } }
 export! { 592, glClearBufferfv, first_glClearBufferfv, hook_glClearBufferfv, (buffer: u32, drawbuffer: i32, value: Ptr) -> (), {
+    // SAFETY: the program's own call.
     hooks::draw(Kind::CLEAR, &mut |gl| unsafe { gl.glClearBufferfv(buffer, drawbuffer, value) })
 } }
 export! { 593, glClearBufferiv, first_glClearBufferiv, hook_glClearBufferiv, (buffer: u32, drawbuffer: i32, value: Ptr) -> (), {
+    // SAFETY: the program's own call.
     hooks::draw(Kind::CLEAR, &mut |gl| unsafe { gl.glClearBufferiv(buffer, drawbuffer, value) })
 } }
 export! { 594, glClearBufferuiv, first_glClearBufferuiv, hook_glClearBufferuiv, (buffer: u32, drawbuffer: i32, value: Ptr) -> (), {
+    // SAFETY: the program's own call.
     hooks::draw(Kind::CLEAR, &mut |gl| unsafe { gl.glClearBufferuiv(buffer, drawbuffer, value) })
 } }
 export! { 595, glDrawArrays, first_glDrawArrays, hook_glDrawArrays, (mode: u32, first: i32, count: i32) -> (), {
+    // SAFETY: the program's own arguments.
     unsafe { special::glDrawArrays(mode, first, count) }
 } }
 export! { 596, glDrawArraysEXT, first_glDrawArraysEXT, hook_glDrawArraysEXT, (mode: u32, first: i32, count: i32) -> (), {
+    // SAFETY: the program's own arguments.
     unsafe { special::glDrawArrays(mode, first, count) }
 } }
 export! { 597, glDrawElements, first_glDrawElements, hook_glDrawElements, (mode: u32, count: i32, type_: u32, indices: Ptr) -> (), {
+    // SAFETY: the program's own arguments.
     unsafe { special::glDrawElements(mode, count, type_, indices) }
 } }
 export! { 598, glDrawRangeElements, first_glDrawRangeElements, hook_glDrawRangeElements, (mode: u32, start: u32, end: u32, count: i32, type_: u32, indices: Ptr) -> (), {
+    // SAFETY: the program's own arguments.
     unsafe { special::glDrawRangeElements(mode, start, end, count, type_, indices) }
 } }
 export! { 599, glDrawRangeElementsEXT, first_glDrawRangeElementsEXT, hook_glDrawRangeElementsEXT, (mode: u32, start: u32, end: u32, count: i32, type_: u32, indices: Ptr) -> (), {
+    // SAFETY: the program's own arguments.
     unsafe { special::glDrawRangeElements(mode, start, end, count, type_, indices) }
 } }
 export! { 600, glMultiDrawArrays, first_glMultiDrawArrays, hook_glMultiDrawArrays, (mode: u32, first: Ptr, count: Ptr, drawcount: i32) -> (), {
+    // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawArrays(mode, first, count, drawcount) })
 } }
 export! { 601, glMultiDrawArraysEXT, first_glMultiDrawArraysEXT, hook_glMultiDrawArraysEXT, (mode: u32, first: Ptr, count: Ptr, primcount: i32) -> (), {
+    // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawArraysEXT(mode, first, count, primcount) })
 } }
 export! { 602, glMultiDrawElements, first_glMultiDrawElements, hook_glMultiDrawElements, (mode: u32, count: Ptr, type_: u32, indices: Ptr, drawcount: i32) -> (), {
+    // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawElements(mode, count, type_, indices, drawcount) })
 } }
 export! { 603, glMultiDrawElementsEXT, first_glMultiDrawElementsEXT, hook_glMultiDrawElementsEXT, (mode: u32, count: Ptr, type_: u32, indices: Ptr, primcount: i32) -> (), {
+    // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawElementsEXT(mode, count, type_, indices, primcount) })
 } }
 export! { 604, glDrawElementsBaseVertex, first_glDrawElementsBaseVertex, hook_glDrawElementsBaseVertex, (mode: u32, count: i32, type_: u32, indices: Ptr, basevertex: i32) -> (), {
+    // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsBaseVertex(mode, count, type_, indices, basevertex) })
 } }
 export! { 605, glDrawElementsBaseVertexEXT, first_glDrawElementsBaseVertexEXT, hook_glDrawElementsBaseVertexEXT, (mode: u32, count: i32, type_: u32, indices: Ptr, basevertex: i32) -> (), {
+    // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsBaseVertexEXT(mode, count, type_, indices, basevertex) })
 } }
 export! { 606, glDrawElementsBaseVertexOES, first_glDrawElementsBaseVertexOES, hook_glDrawElementsBaseVertexOES, (mode: u32, count: i32, type_: u32, indices: Ptr, basevertex: i32) -> (), {
+    // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsBaseVertexOES(mode, count, type_, indices, basevertex) })
 } }
 export! { 607, glDrawRangeElementsBaseVertex, first_glDrawRangeElementsBaseVertex, hook_glDrawRangeElementsBaseVertex, (mode: u32, start: u32, end: u32, count: i32, type_: u32, indices: Ptr, basevertex: i32) -> (), {
+    // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawRangeElementsBaseVertex(mode, start, end, count, type_, indices, basevertex) })
 } }
 export! { 608, glDrawRangeElementsBaseVertexEXT, first_glDrawRangeElementsBaseVertexEXT, hook_glDrawRangeElementsBaseVertexEXT, (mode: u32, start: u32, end: u32, count: i32, type_: u32, indices: Ptr, basevertex: i32) -> (), {
+    // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawRangeElementsBaseVertexEXT(mode, start, end, count, type_, indices, basevertex) })
 } }
 export! { 609, glDrawRangeElementsBaseVertexOES, first_glDrawRangeElementsBaseVertexOES, hook_glDrawRangeElementsBaseVertexOES, (mode: u32, start: u32, end: u32, count: i32, type_: u32, indices: Ptr, basevertex: i32) -> (), {
+    // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawRangeElementsBaseVertexOES(mode, start, end, count, type_, indices, basevertex) })
 } }
 export! { 610, glMultiDrawElementsBaseVertex, first_glMultiDrawElementsBaseVertex, hook_glMultiDrawElementsBaseVertex, (mode: u32, count: Ptr, type_: u32, indices: Ptr, drawcount: i32, basevertex: Ptr) -> (), {
+    // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawElementsBaseVertex(mode, count, type_, indices, drawcount, basevertex) })
 } }
 export! { 611, glMultiDrawElementsBaseVertexEXT, first_glMultiDrawElementsBaseVertexEXT, hook_glMultiDrawElementsBaseVertexEXT, (mode: u32, count: Ptr, type_: u32, indices: Ptr, drawcount: i32, basevertex: Ptr) -> (), {
+    // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawElementsBaseVertexEXT(mode, count, type_, indices, drawcount, basevertex) })
 } }
 export! { 612, glDrawArraysInstanced, first_glDrawArraysInstanced, hook_glDrawArraysInstanced, (mode: u32, first: i32, count: i32, instancecount: i32) -> (), {
+    // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawArraysInstanced(mode, first, count, instancecount) })
 } }
 export! { 613, glDrawArraysInstancedANGLE, first_glDrawArraysInstancedANGLE, hook_glDrawArraysInstancedANGLE, (mode: u32, first: i32, count: i32, primcount: i32) -> (), {
+    // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawArraysInstancedANGLE(mode, first, count, primcount) })
 } }
 export! { 614, glDrawArraysInstancedARB, first_glDrawArraysInstancedARB, hook_glDrawArraysInstancedARB, (mode: u32, first: i32, count: i32, primcount: i32) -> (), {
+    // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawArraysInstancedARB(mode, first, count, primcount) })
 } }
 export! { 615, glDrawArraysInstancedEXT, first_glDrawArraysInstancedEXT, hook_glDrawArraysInstancedEXT, (mode: u32, start: i32, count: i32, primcount: i32) -> (), {
+    // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawArraysInstancedEXT(mode, start, count, primcount) })
 } }
 export! { 616, glDrawArraysInstancedNV, first_glDrawArraysInstancedNV, hook_glDrawArraysInstancedNV, (mode: u32, first: i32, count: i32, primcount: i32) -> (), {
+    // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawArraysInstancedNV(mode, first, count, primcount) })
 } }
 export! { 617, glDrawElementsInstanced, first_glDrawElementsInstanced, hook_glDrawElementsInstanced, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32) -> (), {
+    // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsInstanced(mode, count, type_, indices, instancecount) })
 } }
 export! { 618, glDrawElementsInstancedANGLE, first_glDrawElementsInstancedANGLE, hook_glDrawElementsInstancedANGLE, (mode: u32, count: i32, type_: u32, indices: Ptr, primcount: i32) -> (), {
+    // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsInstancedANGLE(mode, count, type_, indices, primcount) })
 } }
 export! { 619, glDrawElementsInstancedARB, first_glDrawElementsInstancedARB, hook_glDrawElementsInstancedARB, (mode: u32, count: i32, type_: u32, indices: Ptr, primcount: i32) -> (), {
+    // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsInstancedARB(mode, count, type_, indices, primcount) })
 } }
 export! { 620, glDrawElementsInstancedEXT, first_glDrawElementsInstancedEXT, hook_glDrawElementsInstancedEXT, (mode: u32, count: i32, type_: u32, indices: Ptr, primcount: i32) -> (), {
+    // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsInstancedEXT(mode, count, type_, indices, primcount) })
 } }
 export! { 621, glDrawElementsInstancedNV, first_glDrawElementsInstancedNV, hook_glDrawElementsInstancedNV, (mode: u32, count: i32, type_: u32, indices: Ptr, primcount: i32) -> (), {
+    // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsInstancedNV(mode, count, type_, indices, primcount) })
 } }
 export! { 622, glDrawElementsInstancedBaseVertex, first_glDrawElementsInstancedBaseVertex, hook_glDrawElementsInstancedBaseVertex, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32, basevertex: i32) -> (), {
+    // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsInstancedBaseVertex(mode, count, type_, indices, instancecount, basevertex) })
 } }
 export! { 623, glDrawElementsInstancedBaseVertexEXT, first_glDrawElementsInstancedBaseVertexEXT, hook_glDrawElementsInstancedBaseVertexEXT, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32, basevertex: i32) -> (), {
+    // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsInstancedBaseVertexEXT(mode, count, type_, indices, instancecount, basevertex) })
 } }
 export! { 624, glDrawElementsInstancedBaseVertexOES, first_glDrawElementsInstancedBaseVertexOES, hook_glDrawElementsInstancedBaseVertexOES, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32, basevertex: i32) -> (), {
+    // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsInstancedBaseVertexOES(mode, count, type_, indices, instancecount, basevertex) })
 } }
 export! { 625, glDrawArraysInstancedBaseInstance, first_glDrawArraysInstancedBaseInstance, hook_glDrawArraysInstancedBaseInstance, (mode: u32, first: i32, count: i32, instancecount: i32, baseinstance: u32) -> (), {
+    // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawArraysInstancedBaseInstance(mode, first, count, instancecount, baseinstance) })
 } }
 export! { 626, glDrawArraysInstancedBaseInstanceEXT, first_glDrawArraysInstancedBaseInstanceEXT, hook_glDrawArraysInstancedBaseInstanceEXT, (mode: u32, first: i32, count: i32, instancecount: i32, baseinstance: u32) -> (), {
+    // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawArraysInstancedBaseInstanceEXT(mode, first, count, instancecount, baseinstance) })
 } }
 export! { 627, glDrawElementsInstancedBaseInstance, first_glDrawElementsInstancedBaseInstance, hook_glDrawElementsInstancedBaseInstance, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32, baseinstance: u32) -> (), {
+    // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsInstancedBaseInstance(mode, count, type_, indices, instancecount, baseinstance) })
 } }
 export! { 628, glDrawElementsInstancedBaseInstanceEXT, first_glDrawElementsInstancedBaseInstanceEXT, hook_glDrawElementsInstancedBaseInstanceEXT, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32, baseinstance: u32) -> (), {
+    // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsInstancedBaseInstanceEXT(mode, count, type_, indices, instancecount, baseinstance) })
 } }
 export! { 629, glDrawElementsInstancedBaseVertexBaseInstance, first_glDrawElementsInstancedBaseVertexBaseInstance, hook_glDrawElementsInstancedBaseVertexBaseInstance, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32, basevertex: i32, baseinstance: u32) -> (), {
+    // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsInstancedBaseVertexBaseInstance(mode, count, type_, indices, instancecount, basevertex, baseinstance) })
 } }
 export! { 630, glDrawElementsInstancedBaseVertexBaseInstanceEXT, first_glDrawElementsInstancedBaseVertexBaseInstanceEXT, hook_glDrawElementsInstancedBaseVertexBaseInstanceEXT, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32, basevertex: i32, baseinstance: u32) -> (), {
+    // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsInstancedBaseVertexBaseInstanceEXT(mode, count, type_, indices, instancecount, basevertex, baseinstance) })
 } }
 export! { 631, glDrawArraysIndirect, first_glDrawArraysIndirect, hook_glDrawArraysIndirect, (mode: u32, indirect: Ptr) -> (), {
+    // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawArraysIndirect(mode, indirect) })
 } }
 export! { 632, glDrawElementsIndirect, first_glDrawElementsIndirect, hook_glDrawElementsIndirect, (mode: u32, type_: u32, indirect: Ptr) -> (), {
+    // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsIndirect(mode, type_, indirect) })
 } }
 export! { 633, glMultiDrawArraysIndirect, first_glMultiDrawArraysIndirect, hook_glMultiDrawArraysIndirect, (mode: u32, indirect: Ptr, drawcount: i32, stride: i32) -> (), {
+    // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawArraysIndirect(mode, indirect, drawcount, stride) })
 } }
 export! { 634, glMultiDrawArraysIndirectAMD, first_glMultiDrawArraysIndirectAMD, hook_glMultiDrawArraysIndirectAMD, (mode: u32, indirect: Ptr, primcount: i32, stride: i32) -> (), {
+    // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawArraysIndirectAMD(mode, indirect, primcount, stride) })
 } }
 export! { 635, glMultiDrawArraysIndirectEXT, first_glMultiDrawArraysIndirectEXT, hook_glMultiDrawArraysIndirectEXT, (mode: u32, indirect: Ptr, drawcount: i32, stride: i32) -> (), {
+    // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawArraysIndirectEXT(mode, indirect, drawcount, stride) })
 } }
 export! { 636, glMultiDrawElementsIndirect, first_glMultiDrawElementsIndirect, hook_glMultiDrawElementsIndirect, (mode: u32, type_: u32, indirect: Ptr, drawcount: i32, stride: i32) -> (), {
+    // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawElementsIndirect(mode, type_, indirect, drawcount, stride) })
 } }
 export! { 637, glMultiDrawElementsIndirectAMD, first_glMultiDrawElementsIndirectAMD, hook_glMultiDrawElementsIndirectAMD, (mode: u32, type_: u32, indirect: Ptr, primcount: i32, stride: i32) -> (), {
+    // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawElementsIndirectAMD(mode, type_, indirect, primcount, stride) })
 } }
 export! { 638, glMultiDrawElementsIndirectEXT, first_glMultiDrawElementsIndirectEXT, hook_glMultiDrawElementsIndirectEXT, (mode: u32, type_: u32, indirect: Ptr, drawcount: i32, stride: i32) -> (), {
+    // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawElementsIndirectEXT(mode, type_, indirect, drawcount, stride) })
 } }
 export! { 639, glDrawTransformFeedback, first_glDrawTransformFeedback, hook_glDrawTransformFeedback, (mode: u32, id: u32) -> (), {
+    // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawTransformFeedback(mode, id) })
 } }
 export! { 640, glDrawTransformFeedbackEXT, first_glDrawTransformFeedbackEXT, hook_glDrawTransformFeedbackEXT, (mode: u32, id: u32) -> (), {
+    // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawTransformFeedbackEXT(mode, id) })
 } }
 export! { 641, glDrawTransformFeedbackNV, first_glDrawTransformFeedbackNV, hook_glDrawTransformFeedbackNV, (mode: u32, id: u32) -> (), {
+    // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawTransformFeedbackNV(mode, id) })
 } }
 export! { 642, glDrawTransformFeedbackInstanced, first_glDrawTransformFeedbackInstanced, hook_glDrawTransformFeedbackInstanced, (mode: u32, id: u32, instancecount: i32) -> (), {
+    // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawTransformFeedbackInstanced(mode, id, instancecount) })
 } }
 export! { 643, glDrawTransformFeedbackInstancedEXT, first_glDrawTransformFeedbackInstancedEXT, hook_glDrawTransformFeedbackInstancedEXT, (mode: u32, id: u32, instancecount: i32) -> (), {
+    // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawTransformFeedbackInstancedEXT(mode, id, instancecount) })
 } }
 export! { 644, glDrawTransformFeedbackStream, first_glDrawTransformFeedbackStream, hook_glDrawTransformFeedbackStream, (mode: u32, id: u32, stream: u32) -> (), {
+    // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawTransformFeedbackStream(mode, id, stream) })
 } }
 export! { 645, glDrawTransformFeedbackStreamInstanced, first_glDrawTransformFeedbackStreamInstanced, hook_glDrawTransformFeedbackStreamInstanced, (mode: u32, id: u32, stream: u32, instancecount: i32) -> (), {
+    // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawTransformFeedbackStreamInstanced(mode, id, stream, instancecount) })
 } }
 export! { 646, glRectd, first_glRectd, hook_glRectd, (x1: f64, y1: f64, x2: f64, y2: f64) -> (), {
+    // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glRectd(x1, y1, x2, y2) })
 } }
 export! { 647, glRectdv, first_glRectdv, hook_glRectdv, (v1: Ptr, v2: Ptr) -> (), {
+    // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glRectdv(v1, v2) })
 } }
 export! { 648, glRectf, first_glRectf, hook_glRectf, (x1: f32, y1: f32, x2: f32, y2: f32) -> (), {
+    // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glRectf(x1, y1, x2, y2) })
 } }
 export! { 649, glRectfv, first_glRectfv, hook_glRectfv, (v1: Ptr, v2: Ptr) -> (), {
+    // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glRectfv(v1, v2) })
 } }
 export! { 650, glRecti, first_glRecti, hook_glRecti, (x1: i32, y1: i32, x2: i32, y2: i32) -> (), {
+    // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glRecti(x1, y1, x2, y2) })
 } }
 export! { 651, glRectiv, first_glRectiv, hook_glRectiv, (v1: Ptr, v2: Ptr) -> (), {
+    // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glRectiv(v1, v2) })
 } }
 export! { 652, glRects, first_glRects, hook_glRects, (x1: i16, y1: i16, x2: i16, y2: i16) -> (), {
+    // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glRects(x1, y1, x2, y2) })
 } }
 export! { 653, glRectsv, first_glRectsv, hook_glRectsv, (v1: Ptr, v2: Ptr) -> (), {
+    // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glRectsv(v1, v2) })
 } }
 export! { 654, glEvalMesh1, first_glEvalMesh1, hook_glEvalMesh1, (mode: u32, i1: i32, i2: i32) -> (), {
+    // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glEvalMesh1(mode, i1, i2) })
 } }
 export! { 655, glEvalMesh2, first_glEvalMesh2, hook_glEvalMesh2, (mode: u32, i1: i32, i2: i32, j1: i32, j2: i32) -> (), {
+    // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glEvalMesh2(mode, i1, i2, j1, j2) })
 } }
 export! { 656, glAccum, first_glAccum, hook_glAccum, (op: u32, value: f32) -> (), {
+    // SAFETY: the program's own call.
     hooks::draw(Kind::ACCUM, &mut |gl| unsafe { gl.glAccum(op, value) })
 } }
 export! { 657, glBitmap, first_glBitmap, hook_glBitmap, (width: i32, height: i32, xorig: f32, yorig: f32, xmove: f32, ymove: f32, bitmap: Ptr) -> (), {
+    // SAFETY: the program's own arguments.
     unsafe { special::glBitmap(width, height, xorig, yorig, xmove, ymove, bitmap) }
 } }
 export! { 658, glDrawPixels, first_glDrawPixels, hook_glDrawPixels, (width: i32, height: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
+    // SAFETY: the program's own arguments.
     unsafe { special::glDrawPixels(width, height, format, type_, pixels) }
 } }
 export! { 659, glCopyPixels, first_glCopyPixels, hook_glCopyPixels, (x: i32, y: i32, width: i32, height: i32, type_: u32) -> (), {
+    // SAFETY: the program's own arguments.
     unsafe { special::glCopyPixels(x, y, width, height, type_) }
 } }
 export! { 660, glNewList, first_glNewList, hook_glNewList, (list: u32, mode: u32) -> (), {
+    // SAFETY: the program's own arguments.
     unsafe { special::glNewList(list, mode) }
 } }
 export! { 661, glEndList, first_glEndList, hook_glEndList, () -> (), {
+    // SAFETY: the program's own arguments.
     unsafe { special::glEndList() }
 } }
 export! { 662, glCallList, first_glCallList, hook_glCallList, (list: u32) -> (), {
+    // SAFETY: the program's own arguments.
     unsafe { special::glCallList(list) }
 } }
 export! { 663, glCallLists, first_glCallLists, hook_glCallLists, (n: i32, type_: u32, lists: Ptr) -> (), {
+    // SAFETY: the program's own arguments.
     unsafe { special::glCallLists(n, type_, lists) }
 } }
 export! { 664, glBindTexture, first_glBindTexture, hook_glBindTexture, (target: u32, texture: u32) -> (), {
+    // SAFETY: the program's own arguments.
     unsafe { special::glBindTexture(target, texture) }
 } }
 export! { 665, glBindTextureEXT, first_glBindTextureEXT, hook_glBindTextureEXT, (target: u32, texture: u32) -> (), {
+    // SAFETY: the program's own arguments.
     unsafe { special::glBindTexture(target, texture) }
 } }
 export! { 666, glDeleteTextures, first_glDeleteTextures, hook_glDeleteTextures, (n: i32, textures: Ptr) -> (), {
+    // SAFETY: the program's own arguments.
     unsafe { special::glDeleteTextures(n, textures) }
 } }
 export! { 667, glBindFramebuffer, first_glBindFramebuffer, hook_glBindFramebuffer, (target: u32, framebuffer: u32) -> (), {
+    // SAFETY: the program's own arguments.
     unsafe { special::glBindFramebuffer(target, framebuffer) }
 } }
 export! { 668, glBindFramebufferEXT, first_glBindFramebufferEXT, hook_glBindFramebufferEXT, (target: u32, framebuffer: u32) -> (), {
+    // SAFETY: the program's own arguments.
     unsafe { special::glBindFramebufferEXT(target, framebuffer) }
 } }
 export! { 669, glDeleteFramebuffers, first_glDeleteFramebuffers, hook_glDeleteFramebuffers, (n: i32, framebuffers: Ptr) -> (), {
+    // SAFETY: the program's own arguments.
     unsafe { special::glDeleteFramebuffers(n, framebuffers) }
 } }
 export! { 670, glDeleteFramebuffersEXT, first_glDeleteFramebuffersEXT, hook_glDeleteFramebuffersEXT, (n: i32, framebuffers: Ptr) -> (), {
+    // SAFETY: the program's own arguments.
     unsafe { special::glDeleteFramebuffers(n, framebuffers) }
 } }
 export! { 671, glDrawBuffer, first_glDrawBuffer, hook_glDrawBuffer, (buf: u32) -> (), {
+    // SAFETY: the program's own arguments.
     unsafe { special::glDrawBuffer(buf) }
 } }
 export! { 672, glDrawBuffers, first_glDrawBuffers, hook_glDrawBuffers, (n: i32, bufs: Ptr) -> (), {
+    // SAFETY: the program's own arguments.
     unsafe { special::glDrawBuffers(n, bufs) }
 } }
 export! { 673, glDrawBuffersARB, first_glDrawBuffersARB, hook_glDrawBuffersARB, (n: i32, bufs: Ptr) -> (), {
+    // SAFETY: the program's own arguments.
     unsafe { special::glDrawBuffers(n, bufs) }
 } }
 export! { 674, glDrawBuffersATI, first_glDrawBuffersATI, hook_glDrawBuffersATI, (n: i32, bufs: Ptr) -> (), {
+    // SAFETY: the program's own arguments.
     unsafe { special::glDrawBuffers(n, bufs) }
 } }
 export! { 675, glDrawBuffersEXT, first_glDrawBuffersEXT, hook_glDrawBuffersEXT, (n: i32, bufs: Ptr) -> (), {
+    // SAFETY: the program's own arguments.
     unsafe { special::glDrawBuffers(n, bufs) }
 } }
 export! { 676, glReadBuffer, first_glReadBuffer, hook_glReadBuffer, (src: u32) -> (), {
+    // SAFETY: the program's own arguments.
     unsafe { special::glReadBuffer(src) }
 } }
 export! { 677, glNamedFramebufferDrawBuffer, first_glNamedFramebufferDrawBuffer, hook_glNamedFramebufferDrawBuffer, (framebuffer: u32, buf: u32) -> (), {
+    // SAFETY: the program's own arguments.
     unsafe { special::glNamedFramebufferDrawBuffer(framebuffer, buf) }
 } }
 export! { 678, glNamedFramebufferDrawBuffers, first_glNamedFramebufferDrawBuffers, hook_glNamedFramebufferDrawBuffers, (framebuffer: u32, n: i32, bufs: Ptr) -> (), {
+    // SAFETY: the program's own arguments.
     unsafe { special::glNamedFramebufferDrawBuffers(framebuffer, n, bufs) }
 } }
 export! { 679, glNamedFramebufferReadBuffer, first_glNamedFramebufferReadBuffer, hook_glNamedFramebufferReadBuffer, (framebuffer: u32, src: u32) -> (), {
+    // SAFETY: the program's own arguments.
     unsafe { special::glNamedFramebufferReadBuffer(framebuffer, src) }
 } }
 export! { 680, glFramebufferDrawBufferEXT, first_glFramebufferDrawBufferEXT, hook_glFramebufferDrawBufferEXT, (framebuffer: u32, mode: u32) -> (), {
+    // SAFETY: the program's own arguments.
     unsafe { special::glFramebufferDrawBufferEXT(framebuffer, mode) }
 } }
 export! { 681, glFramebufferDrawBuffersEXT, first_glFramebufferDrawBuffersEXT, hook_glFramebufferDrawBuffersEXT, (framebuffer: u32, n: i32, bufs: Ptr) -> (), {
+    // SAFETY: the program's own arguments.
     unsafe { special::glFramebufferDrawBuffersEXT(framebuffer, n, bufs) }
 } }
 export! { 682, glFramebufferReadBufferEXT, first_glFramebufferReadBufferEXT, hook_glFramebufferReadBufferEXT, (framebuffer: u32, mode: u32) -> (), {
+    // SAFETY: the program's own arguments.
     unsafe { special::glFramebufferReadBufferEXT(framebuffer, mode) }
 } }
 export! { 683, glBlitFramebuffer, first_glBlitFramebuffer, hook_glBlitFramebuffer, (srcX0: i32, srcY0: i32, srcX1: i32, srcY1: i32, dstX0: i32, dstY0: i32, dstX1: i32, dstY1: i32, mask: u32, filter: u32) -> (), {
+    // SAFETY: the program's own arguments.
     unsafe { special::glBlitFramebuffer(srcX0, srcY0, srcX1, srcY1, dstX0, dstY0, dstX1, dstY1, mask, filter) }
 } }
 export! { 684, glBlitFramebufferEXT, first_glBlitFramebufferEXT, hook_glBlitFramebufferEXT, (srcX0: i32, srcY0: i32, srcX1: i32, srcY1: i32, dstX0: i32, dstY0: i32, dstX1: i32, dstY1: i32, mask: u32, filter: u32) -> (), {
+    // SAFETY: the program's own arguments.
     unsafe { special::glBlitFramebuffer(srcX0, srcY0, srcX1, srcY1, dstX0, dstY0, dstX1, dstY1, mask, filter) }
 } }
 export! { 685, glBlitFramebufferNV, first_glBlitFramebufferNV, hook_glBlitFramebufferNV, (srcX0: i32, srcY0: i32, srcX1: i32, srcY1: i32, dstX0: i32, dstY0: i32, dstX1: i32, dstY1: i32, mask: u32, filter: u32) -> (), {
+    // SAFETY: the program's own arguments.
     unsafe { special::glBlitFramebuffer(srcX0, srcY0, srcX1, srcY1, dstX0, dstY0, dstX1, dstY1, mask, filter) }
 } }
 export! { 686, glBlitNamedFramebuffer, first_glBlitNamedFramebuffer, hook_glBlitNamedFramebuffer, (readFramebuffer: u32, drawFramebuffer: u32, srcX0: i32, srcY0: i32, srcX1: i32, srcY1: i32, dstX0: i32, dstY0: i32, dstX1: i32, dstY1: i32, mask: u32, filter: u32) -> (), {
+    // SAFETY: the program's own arguments.
     unsafe { special::glBlitNamedFramebuffer(readFramebuffer, drawFramebuffer, srcX0, srcY0, srcX1, srcY1, dstX0, dstY0, dstX1, dstY1, mask, filter) }
 } }
 export! { 687, glClearNamedFramebufferfv, first_glClearNamedFramebufferfv, hook_glClearNamedFramebufferfv, (framebuffer: u32, buffer: u32, drawbuffer: i32, value: Ptr) -> (), {
+    // SAFETY: the program's own arguments.
     unsafe { special::glClearNamedFramebufferfv(framebuffer, buffer, drawbuffer, value) }
 } }
 export! { 688, glClearNamedFramebufferiv, first_glClearNamedFramebufferiv, hook_glClearNamedFramebufferiv, (framebuffer: u32, buffer: u32, drawbuffer: i32, value: Ptr) -> (), {
+    // SAFETY: the program's own arguments.
     unsafe { special::glClearNamedFramebufferiv(framebuffer, buffer, drawbuffer, value) }
 } }
 export! { 689, glClearNamedFramebufferuiv, first_glClearNamedFramebufferuiv, hook_glClearNamedFramebufferuiv, (framebuffer: u32, buffer: u32, drawbuffer: i32, value: Ptr) -> (), {
+    // SAFETY: the program's own arguments.
     unsafe { special::glClearNamedFramebufferuiv(framebuffer, buffer, drawbuffer, value) }
 } }
 export! { 690, glClearNamedFramebufferfi, first_glClearNamedFramebufferfi, hook_glClearNamedFramebufferfi, (framebuffer: u32, buffer: u32, drawbuffer: i32, depth: f32, stencil: i32) -> (), {
+    // SAFETY: the program's own arguments.
     unsafe { special::glClearNamedFramebufferfi(framebuffer, buffer, drawbuffer, depth, stencil) }
 } }
 export! { 691, glGetIntegerv, first_glGetIntegerv, hook_glGetIntegerv, (pname: u32, data: Ptr) -> (), {
+    // SAFETY: the program's own arguments.
     unsafe { special::glGetIntegerv(pname, data) }
 } }
 export! { 692, glGetBooleanv, first_glGetBooleanv, hook_glGetBooleanv, (pname: u32, data: Ptr) -> (), {
+    // SAFETY: the program's own arguments.
     unsafe { special::glGetBooleanv(pname, data) }
 } }
 export! { 693, glGetFloatv, first_glGetFloatv, hook_glGetFloatv, (pname: u32, data: Ptr) -> (), {
+    // SAFETY: the program's own arguments.
     unsafe { special::glGetFloatv(pname, data) }
 } }
 export! { 694, glGetDoublev, first_glGetDoublev, hook_glGetDoublev, (pname: u32, data: Ptr) -> (), {
+    // SAFETY: the program's own arguments.
     unsafe { special::glGetDoublev(pname, data) }
 } }
 export! { 695, glGetInteger64v, first_glGetInteger64v, hook_glGetInteger64v, (pname: u32, data: Ptr) -> (), {
+    // SAFETY: the program's own arguments.
     unsafe { special::glGetInteger64v(pname, data) }
 } }
 export! { 696, glGetInteger64vAPPLE, first_glGetInteger64vAPPLE, hook_glGetInteger64vAPPLE, (pname: u32, params: Ptr) -> (), {
+    // SAFETY: the program's own arguments.
     unsafe { special::glGetInteger64v(pname, params) }
 } }
 export! { 697, glGetInteger64vEXT, first_glGetInteger64vEXT, hook_glGetInteger64vEXT, (pname: u32, data: Ptr) -> (), {
+    // SAFETY: the program's own arguments.
     unsafe { special::glGetInteger64v(pname, data) }
 } }
 export! { 698, glFramebufferTexture, first_glFramebufferTexture, hook_glFramebufferTexture, (target: u32, attachment: u32, texture: u32, level: i32) -> (), {
+    // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glFramebufferTexture(target, attachment, texture, level) })
 } }
 export! { 699, glFramebufferTextureARB, first_glFramebufferTextureARB, hook_glFramebufferTextureARB, (target: u32, attachment: u32, texture: u32, level: i32) -> (), {
+    // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glFramebufferTextureARB(target, attachment, texture, level) })
 } }
 export! { 700, glFramebufferTextureEXT, first_glFramebufferTextureEXT, hook_glFramebufferTextureEXT, (target: u32, attachment: u32, texture: u32, level: i32) -> (), {
+    // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glFramebufferTextureEXT(target, attachment, texture, level) })
 } }
 export! { 701, glFramebufferTextureOES, first_glFramebufferTextureOES, hook_glFramebufferTextureOES, (target: u32, attachment: u32, texture: u32, level: i32) -> (), {
+    // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glFramebufferTextureOES(target, attachment, texture, level) })
 } }
 export! { 702, glFramebufferTexture1D, first_glFramebufferTexture1D, hook_glFramebufferTexture1D, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32) -> (), {
+    // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glFramebufferTexture1D(target, attachment, textarget, texture, level) })
 } }
 export! { 703, glFramebufferTexture1DEXT, first_glFramebufferTexture1DEXT, hook_glFramebufferTexture1DEXT, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32) -> (), {
+    // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glFramebufferTexture1DEXT(target, attachment, textarget, texture, level) })
 } }
 export! { 704, glFramebufferTexture2D, first_glFramebufferTexture2D, hook_glFramebufferTexture2D, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32) -> (), {
+    // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glFramebufferTexture2D(target, attachment, textarget, texture, level) })
 } }
 export! { 705, glFramebufferTexture2DEXT, first_glFramebufferTexture2DEXT, hook_glFramebufferTexture2DEXT, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32) -> (), {
+    // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glFramebufferTexture2DEXT(target, attachment, textarget, texture, level) })
 } }
 export! { 706, glFramebufferTexture3D, first_glFramebufferTexture3D, hook_glFramebufferTexture3D, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32, zoffset: i32) -> (), {
+    // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glFramebufferTexture3D(target, attachment, textarget, texture, level, zoffset) })
 } }
 export! { 707, glFramebufferTexture3DEXT, first_glFramebufferTexture3DEXT, hook_glFramebufferTexture3DEXT, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32, zoffset: i32) -> (), {
+    // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glFramebufferTexture3DEXT(target, attachment, textarget, texture, level, zoffset) })
 } }
 export! { 708, glFramebufferTextureLayer, first_glFramebufferTextureLayer, hook_glFramebufferTextureLayer, (target: u32, attachment: u32, texture: u32, level: i32, layer: i32) -> (), {
+    // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glFramebufferTextureLayer(target, attachment, texture, level, layer) })
 } }
 export! { 709, glFramebufferTextureLayerARB, first_glFramebufferTextureLayerARB, hook_glFramebufferTextureLayerARB, (target: u32, attachment: u32, texture: u32, level: i32, layer: i32) -> (), {
+    // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glFramebufferTextureLayerARB(target, attachment, texture, level, layer) })
 } }
 export! { 710, glFramebufferTextureLayerEXT, first_glFramebufferTextureLayerEXT, hook_glFramebufferTextureLayerEXT, (target: u32, attachment: u32, texture: u32, level: i32, layer: i32) -> (), {
+    // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glFramebufferTextureLayerEXT(target, attachment, texture, level, layer) })
 } }
 export! { 711, glFramebufferRenderbuffer, first_glFramebufferRenderbuffer, hook_glFramebufferRenderbuffer, (target: u32, attachment: u32, renderbuffertarget: u32, renderbuffer: u32) -> (), {
+    // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glFramebufferRenderbuffer(target, attachment, renderbuffertarget, renderbuffer) })
 } }
 export! { 712, glFramebufferRenderbufferEXT, first_glFramebufferRenderbufferEXT, hook_glFramebufferRenderbufferEXT, (target: u32, attachment: u32, renderbuffertarget: u32, renderbuffer: u32) -> (), {
+    // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glFramebufferRenderbufferEXT(target, attachment, renderbuffertarget, renderbuffer) })
 } }
 export! { 713, glGetFramebufferAttachmentParameteriv, first_glGetFramebufferAttachmentParameteriv, hook_glGetFramebufferAttachmentParameteriv, (target: u32, attachment: u32, pname: u32, params: Ptr) -> (), {
+    // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glGetFramebufferAttachmentParameteriv(target, attachment, pname, params) })
 } }
 export! { 714, glGetFramebufferAttachmentParameterivEXT, first_glGetFramebufferAttachmentParameterivEXT, hook_glGetFramebufferAttachmentParameterivEXT, (target: u32, attachment: u32, pname: u32, params: Ptr) -> (), {
+    // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glGetFramebufferAttachmentParameterivEXT(target, attachment, pname, params) })
 } }
 export! { 715, glCheckFramebufferStatus, first_glCheckFramebufferStatus, hook_glCheckFramebufferStatus, (target: u32) -> u32, {
+    // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glCheckFramebufferStatus(target) })
 } }
 export! { 716, glCheckFramebufferStatusEXT, first_glCheckFramebufferStatusEXT, hook_glCheckFramebufferStatusEXT, (target: u32) -> u32, {
+    // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glCheckFramebufferStatusEXT(target) })
 } }
 export! { 717, glFramebufferParameteri, first_glFramebufferParameteri, hook_glFramebufferParameteri, (target: u32, pname: u32, param: i32) -> (), {
+    // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glFramebufferParameteri(target, pname, param) })
 } }
 export! { 718, glGetFramebufferParameteriv, first_glGetFramebufferParameteriv, hook_glGetFramebufferParameteriv, (target: u32, pname: u32, params: Ptr) -> (), {
+    // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glGetFramebufferParameteriv(target, pname, params) })
 } }
 export! { 719, glInvalidateFramebuffer, first_glInvalidateFramebuffer, hook_glInvalidateFramebuffer, (target: u32, numAttachments: i32, attachments: Ptr) -> (), {
+    // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glInvalidateFramebuffer(target, numAttachments, attachments) })
 } }
 export! { 720, glInvalidateSubFramebuffer, first_glInvalidateSubFramebuffer, hook_glInvalidateSubFramebuffer, (target: u32, numAttachments: i32, attachments: Ptr, x: i32, y: i32, width: i32, height: i32) -> (), {
+    // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glInvalidateSubFramebuffer(target, numAttachments, attachments, x, y, width, height) })
 } }
 export! { 721, glDiscardFramebufferEXT, first_glDiscardFramebufferEXT, hook_glDiscardFramebufferEXT, (target: u32, numAttachments: i32, attachments: Ptr) -> (), {
+    // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glDiscardFramebufferEXT(target, numAttachments, attachments) })
 } }
 export! { 722, glReadPixels, first_glReadPixels, hook_glReadPixels, (x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
+    // SAFETY: the program's own call.
     hooks::read(&mut |gl| unsafe { gl.glReadPixels(x, y, width, height, format, type_, pixels) })
 } }
 export! { 723, glReadnPixels, first_glReadnPixels, hook_glReadnPixels, (x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, bufSize: i32, data: Ptr) -> (), {
+    // SAFETY: the program's own call.
     hooks::read(&mut |gl| unsafe { gl.glReadnPixels(x, y, width, height, format, type_, bufSize, data) })
 } }
 export! { 724, glReadnPixelsARB, first_glReadnPixelsARB, hook_glReadnPixelsARB, (x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, bufSize: i32, data: Ptr) -> (), {
+    // SAFETY: the program's own call.
     hooks::read(&mut |gl| unsafe { gl.glReadnPixelsARB(x, y, width, height, format, type_, bufSize, data) })
 } }
 export! { 725, glReadnPixelsEXT, first_glReadnPixelsEXT, hook_glReadnPixelsEXT, (x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, bufSize: i32, data: Ptr) -> (), {
+    // SAFETY: the program's own call.
     hooks::read(&mut |gl| unsafe { gl.glReadnPixelsEXT(x, y, width, height, format, type_, bufSize, data) })
 } }
 export! { 726, glReadnPixelsKHR, first_glReadnPixelsKHR, hook_glReadnPixelsKHR, (x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, bufSize: i32, data: Ptr) -> (), {
+    // SAFETY: the program's own call.
     hooks::read(&mut |gl| unsafe { gl.glReadnPixelsKHR(x, y, width, height, format, type_, bufSize, data) })
 } }
 export! { 727, glCopyTexImage1D, first_glCopyTexImage1D, hook_glCopyTexImage1D, (target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, border: i32) -> (), {
+    // SAFETY: the program's own call.
     hooks::read(&mut |gl| unsafe { gl.glCopyTexImage1D(target, level, internalformat, x, y, width, border) })
 } }
 export! { 728, glCopyTexImage1DEXT, first_glCopyTexImage1DEXT, hook_glCopyTexImage1DEXT, (target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, border: i32) -> (), {
+    // SAFETY: the program's own call.
     hooks::read(&mut |gl| unsafe { gl.glCopyTexImage1DEXT(target, level, internalformat, x, y, width, border) })
 } }
 export! { 729, glCopyTexImage2D, first_glCopyTexImage2D, hook_glCopyTexImage2D, (target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, height: i32, border: i32) -> (), {
+    // SAFETY: the program's own call.
     hooks::read(&mut |gl| unsafe { gl.glCopyTexImage2D(target, level, internalformat, x, y, width, height, border) })
 } }
 export! { 730, glCopyTexImage2DEXT, first_glCopyTexImage2DEXT, hook_glCopyTexImage2DEXT, (target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, height: i32, border: i32) -> (), {
+    // SAFETY: the program's own call.
     hooks::read(&mut |gl| unsafe { gl.glCopyTexImage2DEXT(target, level, internalformat, x, y, width, height, border) })
 } }
 export! { 731, glCopyTexSubImage1D, first_glCopyTexSubImage1D, hook_glCopyTexSubImage1D, (target: u32, level: i32, xoffset: i32, x: i32, y: i32, width: i32) -> (), {
+    // SAFETY: the program's own call.
     hooks::read(&mut |gl| unsafe { gl.glCopyTexSubImage1D(target, level, xoffset, x, y, width) })
 } }
 export! { 732, glCopyTexSubImage1DEXT, first_glCopyTexSubImage1DEXT, hook_glCopyTexSubImage1DEXT, (target: u32, level: i32, xoffset: i32, x: i32, y: i32, width: i32) -> (), {
+    // SAFETY: the program's own call.
     hooks::read(&mut |gl| unsafe { gl.glCopyTexSubImage1DEXT(target, level, xoffset, x, y, width) })
 } }
 export! { 733, glCopyTexSubImage2D, first_glCopyTexSubImage2D, hook_glCopyTexSubImage2D, (target: u32, level: i32, xoffset: i32, yoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
+    // SAFETY: the program's own call.
     hooks::read(&mut |gl| unsafe { gl.glCopyTexSubImage2D(target, level, xoffset, yoffset, x, y, width, height) })
 } }
 export! { 734, glCopyTexSubImage2DEXT, first_glCopyTexSubImage2DEXT, hook_glCopyTexSubImage2DEXT, (target: u32, level: i32, xoffset: i32, yoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
+    // SAFETY: the program's own call.
     hooks::read(&mut |gl| unsafe { gl.glCopyTexSubImage2DEXT(target, level, xoffset, yoffset, x, y, width, height) })
 } }
 export! { 735, glCopyTexSubImage3D, first_glCopyTexSubImage3D, hook_glCopyTexSubImage3D, (target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
+    // SAFETY: the program's own call.
     hooks::read(&mut |gl| unsafe { gl.glCopyTexSubImage3D(target, level, xoffset, yoffset, zoffset, x, y, width, height) })
 } }
 export! { 736, glCopyTexSubImage3DEXT, first_glCopyTexSubImage3DEXT, hook_glCopyTexSubImage3DEXT, (target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
+    // SAFETY: the program's own call.
     hooks::read(&mut |gl| unsafe { gl.glCopyTexSubImage3DEXT(target, level, xoffset, yoffset, zoffset, x, y, width, height) })
 } }
 export! { 737, glCopyTextureSubImage1D, first_glCopyTextureSubImage1D, hook_glCopyTextureSubImage1D, (texture: u32, level: i32, xoffset: i32, x: i32, y: i32, width: i32) -> (), {
+    // SAFETY: the program's own call.
     hooks::read(&mut |gl| unsafe { gl.glCopyTextureSubImage1D(texture, level, xoffset, x, y, width) })
 } }
 export! { 738, glCopyTextureSubImage2D, first_glCopyTextureSubImage2D, hook_glCopyTextureSubImage2D, (texture: u32, level: i32, xoffset: i32, yoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
+    // SAFETY: the program's own call.
     hooks::read(&mut |gl| unsafe { gl.glCopyTextureSubImage2D(texture, level, xoffset, yoffset, x, y, width, height) })
 } }
 export! { 739, glCopyTextureSubImage3D, first_glCopyTextureSubImage3D, hook_glCopyTextureSubImage3D, (texture: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
+    // SAFETY: the program's own call.
     hooks::read(&mut |gl| unsafe { gl.glCopyTextureSubImage3D(texture, level, xoffset, yoffset, zoffset, x, y, width, height) })
 } }
 export! { 740, glCopyMultiTexImage1DEXT, first_glCopyMultiTexImage1DEXT, hook_glCopyMultiTexImage1DEXT, (texunit: u32, target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, border: i32) -> (), {
+    // SAFETY: the program's own call.
     hooks::read(&mut |gl| unsafe { gl.glCopyMultiTexImage1DEXT(texunit, target, level, internalformat, x, y, width, border) })
 } }
 export! { 741, glCopyMultiTexImage2DEXT, first_glCopyMultiTexImage2DEXT, hook_glCopyMultiTexImage2DEXT, (texunit: u32, target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, height: i32, border: i32) -> (), {
+    // SAFETY: the program's own call.
     hooks::read(&mut |gl| unsafe { gl.glCopyMultiTexImage2DEXT(texunit, target, level, internalformat, x, y, width, height, border) })
 } }
 export! { 742, glCopyTextureImage1DEXT, first_glCopyTextureImage1DEXT, hook_glCopyTextureImage1DEXT, (texture: u32, target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, border: i32) -> (), {
+    // SAFETY: the program's own call.
     hooks::read(&mut |gl| unsafe { gl.glCopyTextureImage1DEXT(texture, target, level, internalformat, x, y, width, border) })
 } }
 export! { 743, glCopyTextureImage2DEXT, first_glCopyTextureImage2DEXT, hook_glCopyTextureImage2DEXT, (texture: u32, target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, height: i32, border: i32) -> (), {
+    // SAFETY: the program's own call.
     hooks::read(&mut |gl| unsafe { gl.glCopyTextureImage2DEXT(texture, target, level, internalformat, x, y, width, height, border) })
 } }
 export! { 744, glCopyColorTable, first_glCopyColorTable, hook_glCopyColorTable, (target: u32, internalformat: u32, x: i32, y: i32, width: i32) -> (), {
+    // SAFETY: the program's own call.
     hooks::read(&mut |gl| unsafe { gl.glCopyColorTable(target, internalformat, x, y, width) })
 } }
 export! { 745, glCopyColorTableSGI, first_glCopyColorTableSGI, hook_glCopyColorTableSGI, (target: u32, internalformat: u32, x: i32, y: i32, width: i32) -> (), {
+    // SAFETY: the program's own call.
     hooks::read(&mut |gl| unsafe { gl.glCopyColorTableSGI(target, internalformat, x, y, width) })
 } }
 export! { 746, glCopyConvolutionFilter1D, first_glCopyConvolutionFilter1D, hook_glCopyConvolutionFilter1D, (target: u32, internalformat: u32, x: i32, y: i32, width: i32) -> (), {
+    // SAFETY: the program's own call.
     hooks::read(&mut |gl| unsafe { gl.glCopyConvolutionFilter1D(target, internalformat, x, y, width) })
 } }
 export! { 747, glCopyConvolutionFilter1DEXT, first_glCopyConvolutionFilter1DEXT, hook_glCopyConvolutionFilter1DEXT, (target: u32, internalformat: u32, x: i32, y: i32, width: i32) -> (), {
+    // SAFETY: the program's own call.
     hooks::read(&mut |gl| unsafe { gl.glCopyConvolutionFilter1DEXT(target, internalformat, x, y, width) })
 } }
 export! { 748, glCopyConvolutionFilter2D, first_glCopyConvolutionFilter2D, hook_glCopyConvolutionFilter2D, (target: u32, internalformat: u32, x: i32, y: i32, width: i32, height: i32) -> (), {
+    // SAFETY: the program's own call.
     hooks::read(&mut |gl| unsafe { gl.glCopyConvolutionFilter2D(target, internalformat, x, y, width, height) })
 } }
 export! { 749, glCopyConvolutionFilter2DEXT, first_glCopyConvolutionFilter2DEXT, hook_glCopyConvolutionFilter2DEXT, (target: u32, internalformat: u32, x: i32, y: i32, width: i32, height: i32) -> (), {
+    // SAFETY: the program's own call.
     hooks::read(&mut |gl| unsafe { gl.glCopyConvolutionFilter2DEXT(target, internalformat, x, y, width, height) })
 } }
 export! { 750, glFinish, first_glFinish, hook_glFinish, () -> (), {
+    // SAFETY: the program's own arguments.
     unsafe { special::glFinish() }
 } }
 export! { 751, glFlush, first_glFlush, hook_glFlush, () -> (), {
+    // SAFETY: the program's own arguments.
     unsafe { special::glFlush() }
 } }
 export! { 752, glGetError, first_glGetError, hook_glGetError, () -> u32, {
+    // SAFETY: the program's own arguments.
     unsafe { special::glGetError() }
 } }
 export! { 753, glXSwapBuffers, first_glXSwapBuffers, hook_glXSwapBuffers, (dpy: Ptr, drawable: c_ulong) -> (), {
+    // SAFETY: the program's own arguments.
     unsafe { special::glXSwapBuffers(dpy, drawable) }
 } }
 export! { 754, glXSwapBuffersMscOML, first_glXSwapBuffersMscOML, hook_glXSwapBuffersMscOML, (dpy: Ptr, drawable: c_ulong, target_msc: i64, divisor: i64, remainder: i64) -> i64, {
+    // SAFETY: the program's own arguments.
     unsafe { special::glXSwapBuffersMscOML(dpy, drawable, target_msc, divisor, remainder) }
 } }
 export! { 755, glXMakeCurrent, first_glXMakeCurrent, hook_glXMakeCurrent, (dpy: Ptr, drawable: c_ulong, ctx: Ptr) -> i32, {
+    // SAFETY: the program's own arguments.
     unsafe { special::glXMakeCurrent(dpy, drawable, ctx) }
 } }
 export! { 756, glXMakeContextCurrent, first_glXMakeContextCurrent, hook_glXMakeContextCurrent, (dpy: Ptr, draw: c_ulong, read: c_ulong, ctx: Ptr) -> i32, {
+    // SAFETY: the program's own arguments.
     unsafe { special::glXMakeContextCurrent(dpy, draw, read, ctx) }
 } }
 export! { 757, glXMakeCurrentReadSGI, first_glXMakeCurrentReadSGI, hook_glXMakeCurrentReadSGI, (dpy: Ptr, draw: c_ulong, read: c_ulong, ctx: Ptr) -> i32, {
+    // SAFETY: the program's own arguments.
     unsafe { special::glXMakeCurrentReadSGI(dpy, draw, read, ctx) }
 } }
 export! { 758, glXDestroyContext, first_glXDestroyContext, hook_glXDestroyContext, (dpy: Ptr, ctx: Ptr) -> (), {
+    // SAFETY: the program's own arguments.
     unsafe { special::glXDestroyContext(dpy, ctx) }
 } }
 export! { 759, glXGetProcAddress, first_glXGetProcAddress, hook_glXGetProcAddress, (name: Ptr) -> Ptr, {
+    // SAFETY: the program's own arguments.
     unsafe { special::glXGetProcAddress(name) }
 } }
 export! { 760, glXGetProcAddressARB, first_glXGetProcAddressARB, hook_glXGetProcAddressARB, (name: Ptr) -> Ptr, {
+    // SAFETY: the program's own arguments.
     unsafe { special::glXGetProcAddressARB(name) }
 } }
 export! { 762, eglSwapBuffers, first_eglSwapBuffers, hook_eglSwapBuffers, (dpy: Ptr, surface: Ptr) -> u32, {
+    // SAFETY: the program's own arguments.
     unsafe { special::eglSwapBuffers(dpy, surface) }
 } }
 export! { 763, eglSwapBuffersWithDamageKHR, first_eglSwapBuffersWithDamageKHR, hook_eglSwapBuffersWithDamageKHR, (dpy: Ptr, surface: Ptr, rects: Ptr, n: i32) -> u32, {
+    // SAFETY: the program's own arguments.
     unsafe { special::eglSwapBuffersWithDamageKHR(dpy, surface, rects, n) }
 } }
 export! { 764, eglSwapBuffersWithDamageEXT, first_eglSwapBuffersWithDamageEXT, hook_eglSwapBuffersWithDamageEXT, (dpy: Ptr, surface: Ptr, rects: Ptr, n: i32) -> u32, {
+    // SAFETY: the program's own arguments.
     unsafe { special::eglSwapBuffersWithDamageEXT(dpy, surface, rects, n) }
 } }
 export! { 765, eglMakeCurrent, first_eglMakeCurrent, hook_eglMakeCurrent, (dpy: Ptr, draw: Ptr, read: Ptr, ctx: Ptr) -> u32, {
+    // SAFETY: the program's own arguments.
     unsafe { special::eglMakeCurrent(dpy, draw, read, ctx) }
 } }
 export! { 766, eglDestroyContext, first_eglDestroyContext, hook_eglDestroyContext, (dpy: Ptr, ctx: Ptr) -> u32, {
+    // SAFETY: the program's own arguments.
     unsafe { special::eglDestroyContext(dpy, ctx) }
 } }
 export! { 767, eglReleaseThread, first_eglReleaseThread, hook_eglReleaseThread, () -> u32, {
+    // SAFETY: the program's own arguments.
     unsafe { special::eglReleaseThread() }
 } }
 export! { 768, eglGetProcAddress, first_eglGetProcAddress, hook_eglGetProcAddress, (name: Ptr) -> Ptr, {
+    // SAFETY: the program's own arguments.
     unsafe { special::eglGetProcAddress(name) }
 } }
 export! { 773, OSMesaMakeCurrent, first_OSMesaMakeCurrent, hook_OSMesaMakeCurrent, (ctx: Ptr, buffer: Ptr, kind: u32, width: i32, height: i32) -> u8, {
+    // SAFETY: the program's own arguments.
     unsafe { special::OSMesaMakeCurrent(ctx, buffer, kind, width, height) }
 } }
 export! { 774, OSMesaDestroyContext, first_OSMesaDestroyContext, hook_OSMesaDestroyContext, (ctx: Ptr) -> (), {
+    // SAFETY: the program's own arguments.
     unsafe { special::OSMesaDestroyContext(ctx) }
 } }
 export! { 775, OSMesaGetProcAddress, first_OSMesaGetProcAddress, hook_OSMesaGetProcAddress, (name: Ptr) -> Ptr, {
+    // SAFETY: the program's own arguments.
     unsafe { special::OSMesaGetProcAddress(name) }
 } }

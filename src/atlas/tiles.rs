@@ -167,6 +167,20 @@ mod tests {
     }
 
     #[test]
+    fn only_the_own_view_and_the_first_change_places() {
+        for (views, slots) in [
+            (1, vec![0]),
+            (2, vec![0, 1]),
+            (3, vec![1, 0, 2]),
+            (5, vec![2, 1, 0, 3, 4]),
+            (8, vec![3, 1, 2, 0, 4, 5, 6, 7]),
+        ] {
+            let t = Tiles::new(views, 8, 8, AtlasLayout::Layers, BIG).expect("fits");
+            assert_eq!((0..views).map(|v| t.slot(v)).collect::<Vec<_>>(), slots);
+        }
+    }
+
+    #[test]
     fn what_does_not_fit_is_said() {
         assert!(Tiles::new(9, 20000, 10, AtlasLayout::SideBySide, BIG).is_err());
         let e = Tiles::new(

@@ -39,6 +39,23 @@ pub fn limits(gl: &Gl, glsl: u32) -> Limits {
     }
 }
 
+/// What does not change in the life of a context, and decides how its state is read.
+#[derive(Clone, Copy, Debug)]
+pub struct Driver {
+    mesa: bool,
+    fog_distance: bool,
+}
+
+impl Driver {
+    /// Asks the current context.
+    pub fn ask(gl: &Gl) -> Driver {
+        Driver {
+            mesa: gl.get_string(c::VERSION).contains("Mesa"),
+            fog_distance: gl.has_extension("GL_NV_fog_distance"),
+        }
+    }
+}
+
 /// State that the vertex stage reads, kept until a command touches it.
 #[derive(Clone, Copy, Debug)]
 pub struct FixedState {
@@ -60,7 +77,7 @@ pub struct FixedState {
 
 impl FixedState {
     /// Reads it. Changes no state.
-    pub fn read(gl: &Gl, mesa: bool, samples: u32) -> FixedState {
+    pub fn read(gl: &Gl, driver: Driver, samples: u32) -> FixedState {
         let on = |cap| gl.is_enabled(cap);
         let int = |name| gl.get_integer(name) as u32;
         let float = |name| gl.get_floats::<1>(name)[0];
@@ -80,7 +97,7 @@ impl FixedState {
                 (_, true) => NormalScaling::Rescale,
                 _ => NormalScaling::None,
             },
-            fog: fog(gl),
+            fog: fog(gl, driver),
             point: PointSize::Unused,
             clip_planes: (0..6)
                 .filter(|i| on(c::CLIP_PLANE0 + i))
@@ -94,7 +111,7 @@ impl FixedState {
             } else {
                 Provoking::First
             },
-            dialect: if mesa {
+            dialect: if driver.mesa {
                 Dialect::Mesa
             } else {
                 Dialect::Specification
@@ -241,14 +258,14 @@ fn dull(gl: &Gl) -> bool {
     })
 }
 
-fn fog(gl: &Gl) -> FogSource {
+fn fog(gl: &Gl, driver: Driver) -> FogSource {
     if !gl.is_enabled(c::FOG) {
         return FogSource::None;
     }
     if gl.get_integer(c::FOG_COORD_SRC) as u32 == c::FOG_COORDINATE {
         return FogSource::Coordinate;
     }
-    if !gl.has_extension("GL_NV_fog_distance") {
+    if !driver.fog_distance {
         return FogSource::DepthMagnitude;
     }
     match gl.get_integer(c::FOG_DISTANCE_MODE_NV) as u32 {

@@ -8,5 +8,5 @@ mod replay;
 
 pub use amplified::{Amplified, Programs};
 pub use current::Current;
-pub use fixed_state::{FixedState, limits};
+pub use fixed_state::{Driver, FixedState, limits};
 pub use replay::{Again, place, replay, unplace};

@@ -78,8 +78,6 @@ pub enum Tiles {
     /// the bottom and top.
     #[default]
     ClipLeftRight,
-    /// In a grid, or where the program's viewport is lower than its tile: four clip distances.
-    ClipFourSides,
     /// One layer of an array texture per view: `gl_Layer`, no clip distances, no map.
     Layer,
 }
@@ -89,7 +87,6 @@ impl Tiles {
     pub const fn clip_distances(self) -> u32 {
         match self {
             Tiles::ClipLeftRight => 2,
-            Tiles::ClipFourSides => 4,
             Tiles::Layer => 0,
         }
     }

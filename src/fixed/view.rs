@@ -32,7 +32,7 @@ pub(super) fn write_uniforms(text: &mut Text, key: &FixedKey) {
             "uniform vec4 {UNIFORM_MAP}; // scale of a tile x and y, -, -"
         ));
         text.line(format!(
-            "uniform vec4 {UNIFORM_CLIP}; // left, right, bottom, top of the tile's inside"
+            "uniform vec4 {UNIFORM_CLIP}; // left and right of the tile's inside, -, -"
         ));
     }
     text.line(format!(
@@ -59,21 +59,13 @@ pub(super) fn write_place(text: &mut Text, key: &FixedKey) {
     text.line("p.x = row.x * vertex.x + row.y * vertex.y + row.z * vertex.z + row.w * vertex.w;");
     match key.target.tiles {
         Tiles::Layer => text.line("gl_Layer = int(tile.z);"),
-        tiles => {
+        Tiles::ClipLeftRight => {
             text.line(format!(
                 "gl_ClipDistance[0] = p.x - {UNIFORM_CLIP}.x * p.w;"
             ));
             text.line(format!(
                 "gl_ClipDistance[1] = {UNIFORM_CLIP}.y * p.w - p.x;"
             ));
-            if tiles == Tiles::ClipFourSides {
-                text.line(format!(
-                    "gl_ClipDistance[2] = p.y - {UNIFORM_CLIP}.z * p.w;"
-                ));
-                text.line(format!(
-                    "gl_ClipDistance[3] = {UNIFORM_CLIP}.w * p.w - p.y;"
-                ));
-            }
             text.line(format!("p.xy = p.xy * {UNIFORM_MAP}.xy + tile.xy * p.w;"));
         }
     }

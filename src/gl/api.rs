@@ -56,7 +56,6 @@ plain! {
     bind_framebuffer = glBindFramebuffer(target: u32, name: u32);
     draw_buffer = glDrawBuffer(buffer: u32);
     read_buffer = glReadBuffer(buffer: u32);
-    framebuffer_texture_2d = glFramebufferTexture2D(target: u32, attachment: u32, kind: u32, texture: u32, level: i32);
     framebuffer_texture = glFramebufferTexture(target: u32, attachment: u32, texture: u32, level: i32);
     framebuffer_texture_layer = glFramebufferTextureLayer(target: u32, attachment: u32, texture: u32, level: i32, layer: i32);
     framebuffer_parameteri = glFramebufferParameteri(target: u32, name: u32, value: i32);
@@ -65,7 +64,6 @@ plain! {
     bind_texture = glBindTexture(target: u32, name: u32);
     active_texture = glActiveTexture(unit: u32);
     tex_parameteri = glTexParameteri(target: u32, name: u32, value: i32);
-    tex_image_2d_multisample = glTexImage2DMultisample(target: u32, samples: i32, format: u32, w: i32, h: i32, fixed: u8);
     tex_image_3d_multisample = glTexImage3DMultisample(target: u32, samples: i32, format: u32, w: i32, h: i32, d: i32, fixed: u8);
     bind_sampler = glBindSampler(unit: u32, sampler: u32);
     is_texture = glIsTexture(name: u32) -> u8;
@@ -80,10 +78,7 @@ plain! {
     uniform_1i = glUniform1i(location: i32, v: i32);
     uniform_1ui = glUniform1ui(location: i32, v: u32);
     uniform_2ui = glUniform2ui(location: i32, x: u32, y: u32);
-    uniform_4f = glUniform4f(location: i32, x: f32, y: f32, z: f32, w: f32);
-    uniform_block_binding = glUniformBlockBinding(program: u32, block: u32, binding: u32);
     bind_buffer = glBindBuffer(target: u32, name: u32);
-    bind_buffer_base = glBindBufferBase(target: u32, index: u32, name: u32);
     bind_vertex_array = glBindVertexArray(name: u32);
     pixel_storei = glPixelStorei(name: u32, value: i32);
     color_maski = glColorMaski(index: u32, r: u8, g: u8, b: u8, a: u8);
@@ -127,7 +122,6 @@ impl Gl {
     generate! {
         gen_texture = glGenTextures;
         gen_framebuffer = glGenFramebuffers;
-        gen_buffer = glGenBuffers;
         gen_vertex_array = glGenVertexArrays;
     }
 
@@ -183,14 +177,6 @@ impl Gl {
         let mut v = [0i32; 4];
         // SAFETY: room for 4 elements.
         unsafe { self.real.glGetTexGeniv(coord, name, v.as_mut_ptr().cast()) };
-        v[0]
-    }
-
-    /// glGetTexEnviv of one value.
-    pub fn get_tex_env(&self, target: u32, name: u32) -> i32 {
-        let mut v = [0i32; 4];
-        // SAFETY: room for 4 elements.
-        unsafe { self.real.glGetTexEnviv(target, name, v.as_mut_ptr().cast()) };
         v[0]
     }
 
@@ -253,24 +239,6 @@ impl Gl {
     pub fn load_matrix(&self, m: &[f32; 16]) {
         // SAFETY: 16 floats.
         unsafe { self.real.glLoadMatrixf(m.as_ptr() as Ptr) }
-    }
-
-    /// glTexImage2D without data.
-    pub fn tex_storage_2d(&self, internal: u32, w: i32, h: i32, format: u32, kind: u32) {
-        // SAFETY: no data (the caller sees to it that no unpack buffer is bound).
-        unsafe {
-            self.real.glTexImage2D(
-                super::consts::TEXTURE_2D,
-                0,
-                internal as i32,
-                w,
-                h,
-                0,
-                format,
-                kind,
-                core::ptr::null_mut(),
-            )
-        }
     }
 
     /// glTexImage3D of an array texture without data.
@@ -461,24 +429,6 @@ impl Gl {
         unsafe {
             self.real
                 .glUniform4fv(location, v.len() as i32, v.as_ptr() as Ptr)
-        }
-    }
-
-    /// glGetUniformBlockIndex
-    pub fn uniform_block_index(&self, program: u32, name: &CStr) -> u32 {
-        // SAFETY: a string that ends in NUL.
-        unsafe {
-            self.real
-                .glGetUniformBlockIndex(program, name.as_ptr() as Ptr)
-        }
-    }
-
-    /// glBufferData of bytes.
-    pub fn buffer_data(&self, target: u32, data: &[u8], usage: u32) {
-        // SAFETY: that many bytes.
-        unsafe {
-            self.real
-                .glBufferData(target, data.len() as isize, data.as_ptr() as Ptr, usage)
         }
     }
 

@@ -1,22 +1,5 @@
-//! Where a view lies: its slot in the atlas, its cell in a quilt.
+//! Where a view lies in a picture of whole views.
 #![forbid(unsafe_code)]
-
-/// The view nearest to the program's own camera; of an even number the left one of the two. `views` is at least 1.
-pub fn middle(views: u32) -> u32 {
-    views.saturating_sub(1) / 2
-}
-
-/// Slot of a view in the atlas: the middle view lies at the origin and view 0 in its place, all others in order.
-///
-/// Slot s is in column s % columns and row s / columns, from the origin of the framebuffer. The map undoes itself.
-pub fn slot(view: u32, views: u32) -> u32 {
-    let middle = middle(views);
-    match view {
-        0 => middle,
-        _ if view == middle => 0,
-        _ => view,
-    }
-}
 
 /// A picture of whole views beside each other.
 ///

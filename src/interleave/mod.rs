@@ -12,7 +12,7 @@ pub mod shader;
 mod tests;
 
 pub use gpu::{Interleaver, Source, glsl_version};
-pub use layout::{Layout, middle, slot};
+pub use layout::Layout;
 
 use crate::config::Output;
 

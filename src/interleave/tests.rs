@@ -139,23 +139,6 @@ fn quilt_shapes() {
 }
 
 #[test]
-fn the_middle_view_lies_in_slot_0() {
-    for (views, expected) in [
-        (1, vec![0]),
-        (2, vec![0, 1]),
-        (3, vec![1, 0, 2]),
-        (5, vec![2, 1, 0, 3, 4]),
-        (8, vec![3, 1, 2, 0, 4, 5, 6, 7]),
-    ] {
-        assert_eq!(
-            (0..views).map(|view| slot(view, views)).collect::<Vec<_>>(),
-            expected
-        );
-        assert_eq!(slot(middle(views), views), 0);
-    }
-}
-
-#[test]
 fn messages() {
     let small = Mask::new(2, 2, vec![[4; 3]; 4]).unwrap();
     let mut odd = tiles(3, 4, 4);

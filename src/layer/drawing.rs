@@ -119,7 +119,7 @@ impl Layer {
     /// Prepares an amplified draw and counts it; `None`: it has to be replayed, and the reason is counted.
     fn amplify(&mut self, gl: &Gl, plan: &Plan, mode: u32, material: bool) -> Option<Amplified> {
         if self.state.touched.has(Touch::FIXED) || self.fixed.is_none() {
-            self.fixed = Some(FixedState::read(gl, self.mesa, self.state.window.samples));
+            self.fixed = Some(FixedState::read(gl, self.driver, self.state.window.samples));
         } else if self.state.touched.has(Touch::MATERIAL)
             && let Some(fixed) = &mut self.fixed
         {
@@ -258,7 +258,7 @@ impl Layer {
     }
 
     /// After a glEnd that went to the driver.
-    pub fn ended(&mut self, _gl: &Gl) {
+    pub fn ended(&mut self) {
         self.state.begin = Begin::Outside;
     }
 

@@ -12,7 +12,7 @@ pub use frames::Frames;
 
 use crate::atlas::{Atlas, AtlasError, Names, Tiles};
 use crate::config::{AtlasLayout, Config, Strategy};
-use crate::draw::{FixedState, Programs};
+use crate::draw::{Driver, FixedState, Programs};
 use crate::gl::{Gl, Recording, consts as c};
 use crate::interleave::Interleaver;
 use crate::plan::{Means, Rig};
@@ -50,7 +50,7 @@ pub struct Layer {
     interleaver: Interleaver,
     programs: Programs,
     fixed: Option<FixedState>,
-    mesa: bool,
+    driver: Driver,
     lists: HashMap<u32, Touch>,
     list_touch: Touch,
     recording: Recording,
@@ -101,7 +101,7 @@ impl Layer {
             interleaver,
             programs,
             fixed: None,
-            mesa: gl.get_string(c::VERSION).contains("Mesa"),
+            driver: Driver::ask(gl),
             lists: HashMap::new(),
             list_touch: Touch::NONE,
             recording: Recording::default(),

@@ -65,8 +65,6 @@ pub struct Saved {
     program: u32,
     pipeline: u32,
     vertex_array: u32,
-    uniform_buffer: u32,
-    uniform_base: u32,
     active: u32,
     textures: Vec<[u32; 4]>,
     samplers: bool,
@@ -183,16 +181,6 @@ impl Saved {
             } else {
                 0
             },
-            uniform_buffer: if modern {
-                name(c::UNIFORM_BUFFER_BINDING)
-            } else {
-                0
-            },
-            uniform_base: if modern {
-                gl.get_integers_indexed::<1>(c::UNIFORM_BUFFER_BINDING, 0)[0] as u32
-            } else {
-                0
-            },
             active,
             textures,
             samplers,
@@ -251,7 +239,5 @@ impl Saved {
             gl.bind_program_pipeline(self.pipeline);
         }
         gl.bind_vertex_array(self.vertex_array);
-        gl.bind_buffer_base(c::UNIFORM_BUFFER, 0, self.uniform_base);
-        gl.bind_buffer(c::UNIFORM_BUFFER, self.uniform_buffer);
     }
 }

@@ -166,9 +166,7 @@ fn write_target(w: &mut Writer, number: usize) -> (&'static str, u8) {
         Amplifier::GeometryLoop,
         Amplifier::GeometryInvocations,
     ][number % 3];
-    let tiles = w
-        .random
-        .pick(&[Tiles::ClipLeftRight, Tiles::ClipFourSides, Tiles::Layer]);
+    let tiles = w.random.pick(&[Tiles::ClipLeftRight, Tiles::Layer]);
     let (mode, through_geometry, primitive) = w.random.pick(&MODES);
     let views = if w.random.chance(50) {
         1
@@ -184,14 +182,7 @@ fn write_target(w: &mut Writer, number: usize) -> (&'static str, u8) {
         views,
     };
     w.say("views", views);
-    w.say(
-        "columns",
-        if tiles == Tiles::ClipFourSides {
-            2.min(views)
-        } else {
-            views
-        },
-    );
+    w.say("columns", views);
     w.say("layers", u8::from(tiles == Tiles::Layer));
     w.say("draw", mode);
     w.say(

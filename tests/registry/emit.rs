@@ -121,9 +121,20 @@ fn record(c: &Command) -> String {
                 None if c.name.ends_with("EdgeFlagv") => "1".into(),
                 None => panic!("{}: length of {} unknown", c.name, p.name),
             };
-            write!(o, "rec.slice({} as *const {}, {len}); ", p.name, element(p)).unwrap();
+            writeln!(
+                o,
+                "        // SAFETY: the program's array, of as many elements as the command reads."
+            )
+            .unwrap();
+            writeln!(
+                o,
+                "        unsafe {{ rec.slice({} as *const {}, {len}) }};",
+                p.name,
+                element(p)
+            )
+            .unwrap();
         } else {
-            write!(o, "rec.{}({}); ", p.ty, p.name).unwrap();
+            writeln!(o, "        rec.{}({});", p.ty, p.name).unwrap();
         }
     }
     o
@@ -228,8 +239,19 @@ pub fn entry(commands: &[Command]) -> String {
         .unwrap();
         match class {
             "imm" => {
-                let writes = record(c);
-                writeln!(o, "    if let Some(rec) = imm::recording(slot::{name}, Effect::{}) {{ unsafe {{ {writes}}} }} else {{ let gl = hooks::real(); {call};{} }}", effect(name), if effect(name) == "MATERIAL" { " hooks::touch(Touch::MATERIAL)" } else { "" }).unwrap();
+                let (writes, material) = (record(c), effect(name) == "MATERIAL");
+                writeln!(
+                    o,
+                    "    if let Some(rec) = imm::recording(slot::{name}, Effect::{}) {{",
+                    effect(name)
+                )
+                .unwrap();
+                o.push_str(&writes);
+                writeln!(o, "    }} else {{\n        let gl = hooks::real();\n        // SAFETY: the program's own call.\n        {call};").unwrap();
+                if material {
+                    o.push_str("        hooks::touch(Touch::MATERIAL);\n");
+                }
+                o.push_str("    }\n");
             }
             "touch" => {
                 let bits = arg
@@ -239,16 +261,16 @@ pub fn entry(commands: &[Command]) -> String {
                     .join(" | ");
                 writeln!(
                     o,
-                    "    let gl = hooks::real();\n    {call};\n    hooks::touch({bits});"
+                    "    let gl = hooks::real();\n    // SAFETY: the program's own call.\n    {call};\n    hooks::touch({bits});"
                 )
                 .unwrap();
             }
-            "draw" => writeln!(o, "    hooks::draw(Kind::{arg}, &mut |gl| {call})").unwrap(),
-            "read" => writeln!(o, "    hooks::read(&mut |gl| {call})").unwrap(),
+            "draw" => writeln!(o, "    // SAFETY: the program's own call.\n    hooks::draw(Kind::{arg}, &mut |gl| {call})").unwrap(),
+            "read" => writeln!(o, "    // SAFETY: the program's own call.\n    hooks::read(&mut |gl| {call})").unwrap(),
             "hide" => {
-                writeln!(o, "    hooks::hide({}, &mut |gl| {call})", c.params[0].name).unwrap()
+                writeln!(o, "    // SAFETY: the program's own call.\n    hooks::hide({}, &mut |gl| {call})", c.params[0].name).unwrap()
             }
-            "special" => writeln!(o, "    unsafe {{ special::{}({n}) }}", c.base).unwrap(),
+            "special" => writeln!(o, "    // SAFETY: the program's own arguments.\n    unsafe {{ special::{}({n}) }}", c.base).unwrap(),
             other => panic!("unknown class {other}"),
         }
         o.push_str("} }\n");

@@ -21,7 +21,7 @@ pub(crate) unsafe fn glEnd() {
     if enter(|gl, l| l.end(gl)) != Some(true) {
         // SAFETY: the program's own call.
         unsafe { real().glEnd() };
-        enter(|gl, l| l.ended(gl));
+        enter(|_, l| l.ended());
     }
 }
 

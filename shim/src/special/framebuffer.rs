@@ -272,65 +272,20 @@ fn clear_zero(framebuffer: u32, call: &mut dyn FnMut()) -> bool {
         && enter(|gl, l| l.with_bound(gl, 0, None, |l| l.draw(gl, Kind::Clear, call))).is_some()
 }
 
-pub(crate) unsafe fn glClearNamedFramebufferfv(
-    framebuffer: u32,
-    buffer: u32,
-    drawbuffer: i32,
-    value: Ptr,
-) {
-    // SAFETY: the program's own arguments.
-    if !clear_zero(framebuffer, &mut || unsafe {
-        real().glClearBufferfv(buffer, drawbuffer, value)
-    }) {
-        // SAFETY: the program's own call.
-        unsafe { real().glClearNamedFramebufferfv(framebuffer, buffer, drawbuffer, value) };
-    }
+/// A hook of glClearNamedFramebuffer*: `zero` is the same clear of what is bound.
+macro_rules! clear_named {
+    ($name:ident, $zero:ident, $($arg:ident: $kind:ty),+) => {
+        pub(crate) unsafe fn $name(framebuffer: u32, buffer: u32, drawbuffer: i32, $($arg: $kind),+) {
+            // SAFETY: the program's own arguments.
+            if !clear_zero(framebuffer, &mut || unsafe { real().$zero(buffer, drawbuffer, $($arg),+) }) {
+                // SAFETY: the program's own call.
+                unsafe { real().$name(framebuffer, buffer, drawbuffer, $($arg),+) };
+            }
+        }
+    };
 }
 
-pub(crate) unsafe fn glClearNamedFramebufferiv(
-    framebuffer: u32,
-    buffer: u32,
-    drawbuffer: i32,
-    value: Ptr,
-) {
-    // SAFETY: the program's own arguments.
-    if !clear_zero(framebuffer, &mut || unsafe {
-        real().glClearBufferiv(buffer, drawbuffer, value)
-    }) {
-        // SAFETY: the program's own call.
-        unsafe { real().glClearNamedFramebufferiv(framebuffer, buffer, drawbuffer, value) };
-    }
-}
-
-pub(crate) unsafe fn glClearNamedFramebufferuiv(
-    framebuffer: u32,
-    buffer: u32,
-    drawbuffer: i32,
-    value: Ptr,
-) {
-    // SAFETY: the program's own arguments.
-    if !clear_zero(framebuffer, &mut || unsafe {
-        real().glClearBufferuiv(buffer, drawbuffer, value)
-    }) {
-        // SAFETY: the program's own call.
-        unsafe { real().glClearNamedFramebufferuiv(framebuffer, buffer, drawbuffer, value) };
-    }
-}
-
-pub(crate) unsafe fn glClearNamedFramebufferfi(
-    framebuffer: u32,
-    buffer: u32,
-    drawbuffer: i32,
-    depth: f32,
-    stencil: i32,
-) {
-    // SAFETY: the program's own arguments.
-    if !clear_zero(framebuffer, &mut || unsafe {
-        real().glClearBufferfi(buffer, drawbuffer, depth, stencil)
-    }) {
-        // SAFETY: the program's own call.
-        unsafe {
-            real().glClearNamedFramebufferfi(framebuffer, buffer, drawbuffer, depth, stencil)
-        };
-    }
-}
+clear_named!(glClearNamedFramebufferfv, glClearBufferfv, value: Ptr);
+clear_named!(glClearNamedFramebufferiv, glClearBufferiv, value: Ptr);
+clear_named!(glClearNamedFramebufferuiv, glClearBufferuiv, value: Ptr);
+clear_named!(glClearNamedFramebufferfi, glClearBufferfi, depth: f32, stencil: i32);

@@ -105,32 +105,20 @@ pub(crate) unsafe fn eglSwapBuffers(dpy: Ptr, surface: Ptr) -> u32 {
     })
 }
 
-pub(crate) unsafe fn eglSwapBuffersWithDamageKHR(
-    dpy: Ptr,
-    surface: Ptr,
-    rects: Ptr,
-    n: i32,
-) -> u32 {
-    let _ = (rects, n);
-    // The whole panel changes when a part of the scene does.
-    // SAFETY: the program's display and surface.
-    frame(Some(Drawable::Egl(dpy, surface)), || unsafe {
-        gl().eglSwapBuffersWithDamageKHR(dpy, surface, core::ptr::null_mut(), 0)
-    })
+/// A swap with damage: the rectangles are left out, because the whole panel changes when a part of the scene does.
+macro_rules! swap_with_damage {
+    ($name:ident) => {
+        pub(crate) unsafe fn $name(dpy: Ptr, surface: Ptr, _rects: Ptr, _n: i32) -> u32 {
+            // SAFETY: the program's display and surface; no rectangles.
+            frame(Some(Drawable::Egl(dpy, surface)), || unsafe {
+                gl().$name(dpy, surface, core::ptr::null_mut(), 0)
+            })
+        }
+    };
 }
 
-pub(crate) unsafe fn eglSwapBuffersWithDamageEXT(
-    dpy: Ptr,
-    surface: Ptr,
-    rects: Ptr,
-    n: i32,
-) -> u32 {
-    let _ = (rects, n);
-    // SAFETY: the program's display and surface.
-    frame(Some(Drawable::Egl(dpy, surface)), || unsafe {
-        gl().eglSwapBuffersWithDamageEXT(dpy, surface, core::ptr::null_mut(), 0)
-    })
-}
+swap_with_damage!(eglSwapBuffersWithDamageKHR);
+swap_with_damage!(eglSwapBuffersWithDamageEXT);
 
 pub(crate) unsafe fn eglMakeCurrent(dpy: Ptr, draw: Ptr, read: Ptr, ctx: Ptr) -> u32 {
     let same = is_current(Provider::Gl, ctx, Drawable::Egl(dpy, draw));
