@@ -69,6 +69,7 @@ fn scene(name: &str) -> Scene {
     };
     match name {
         "gears" => scene("gears", &[], 1),
+        "lists" => scene("lists", &[], 2),
         "teapot" => scene("teapot", &[], 1),
         "room" => scene("room", &[], 1),
         // One fog mode a frame.
@@ -494,9 +495,9 @@ macro_rules! oracle {
 }
 
 oracle! {
-    glx: gears teapot room fogtexgen points clip mirror mesh mesh_vbo prims arrays immediate;
-    egl: gears teapot room fogtexgen points clip mirror mesh mesh_vbo prims arrays immediate;
-    osmesa: gears teapot room fogtexgen points clip mirror mesh mesh_vbo prims arrays immediate;
+    glx: gears lists teapot room fogtexgen points clip mirror mesh mesh_vbo prims arrays immediate;
+    egl: gears lists teapot room fogtexgen points clip mirror mesh mesh_vbo prims arrays immediate;
+    osmesa: gears lists teapot room fogtexgen points clip mirror mesh mesh_vbo prims arrays immediate;
 }
 
 /// Surfaces of other kinds, by replay.

@@ -7,11 +7,12 @@ use std::path::Path;
 use std::process::Command;
 use support::{bare, demo, layered, screen, succeed};
 
-const DEMOS: [&str; 11] = [
+const DEMOS: [&str; 12] = [
     "gears",
     "teapot",
     "room",
     "fogtexgen",
+    "lists",
     "points",
     "clip",
     "mirror",

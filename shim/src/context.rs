@@ -2,6 +2,7 @@
 
 use crate::geometry;
 use crate::provider::Provider;
+use crate::shares;
 use crate::switch::{self, Mode, say, turn_off};
 use core::cell::Cell;
 use core::ffi::c_ulong;
@@ -217,7 +218,16 @@ pub(crate) fn made_current(provider: Provider, handle: Ptr, drawable: Option<Dra
 fn attach(gl: &Gl, c: &mut Context, width: u32, height: u32) -> Result<(), String> {
     match (switch::mode(), switch::config()) {
         (Mode::Active, Some(config)) => {
-            c.layer = Some(Layer::new(gl, config, width, height).map_err(|e| e.to_string())?)
+            c.layer = Some(
+                Layer::new(
+                    gl,
+                    config,
+                    width,
+                    height,
+                    shares::lists(c.provider, c.handle),
+                )
+                .map_err(|e| e.to_string())?,
+            )
         }
         (Mode::Observe, Some(config)) => c.frames = Some(Frames::new(config, width, height)),
         _ => {}

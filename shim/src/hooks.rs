@@ -4,7 +4,9 @@ use crate::context::{self, enter};
 use manyview_core::gl::Real;
 
 pub(crate) use context::real;
-pub(crate) use manyview_core::state::Touch;
+use manyview_core::gl::consts::SCISSOR_TEST;
+use manyview_core::state::Run;
+pub(crate) use manyview_core::state::{Command, Touch};
 
 /// Classes of draws, as `commands.list` names them.
 #[derive(Clone, Copy)]
@@ -15,10 +17,76 @@ pub(crate) enum Kind {
     ACCUM,
 }
 
-/// State groups have changed.
+/// State groups are about to change, now or, in a display list, when it is called.
 #[inline]
 pub(crate) fn touch(groups: Touch) {
-    context::peek(|l| l.touch(groups));
+    if context::peek(|l| l.touch(groups)) == Some(false) {
+        // What the views depend on is set once; the rest may stay with the drawing.
+        let run = if groups.without(Touch::FIXED | Touch::MATERIAL) == Touch::NONE {
+            Run::Open
+        } else {
+            Run::State
+        };
+        compile(Command::Of(run), groups);
+    }
+}
+
+/// A command is about to be compiled into a display list, if one is open; answers whether it is.
+pub(crate) fn compile(command: Command, groups: Touch) -> bool {
+    context::peek(|l| l.compiles()) == Some(true)
+        && enter(|gl, l| l.compile(gl, command, groups)).is_some()
+}
+
+/// A command that only display lists are told of is about to be called.
+#[inline]
+pub(crate) fn any() {
+    compile(Command::Of(Run::Open), Touch::NONE);
+}
+
+/// A command on the current matrix or its stack is about to be called.
+#[inline]
+pub(crate) fn matrix(command: Command) {
+    let groups = match command {
+        Command::PushMatrix => Touch::NONE,
+        _ => Touch::MATRIX,
+    };
+    if context::peek(|l| l.touch(groups)) == Some(false) {
+        compile(command, groups);
+    }
+}
+
+/// A capability is about to be switched.
+#[inline]
+pub(crate) fn cap(cap: u32) {
+    touch(if cap == SCISSOR_TEST {
+        Touch::RECTS
+    } else {
+        Touch::FIXED
+    });
+}
+
+/// What a raster position is a place of.
+#[derive(Clone, Copy)]
+pub(crate) enum Place {
+    /// glRasterPos.
+    Scene,
+    /// glWindowPos.
+    Window,
+}
+
+/// The raster position is placed.
+pub(crate) fn raster(place: Place, call: &mut dyn FnMut(&'static Real)) {
+    let groups = match place {
+        Place::Scene => Touch::RASTER,
+        Place::Window => Touch::WINDOW_POS,
+    };
+    touch(groups);
+    call(real());
+    enter(|gl, l| match place {
+        _ if l.compiles() => {}
+        Place::Scene => l.placed_raster(gl),
+        Place::Window => l.placed_in_window(),
+    });
 }
 
 /// A draw: once per view.
@@ -52,7 +120,7 @@ pub(crate) fn hide<R>(target: u32, call: &mut dyn FnMut(&'static Real) -> R) -> 
 pub(crate) mod imm {
     use crate::context;
     use manyview_core::gl::Recording;
-    use manyview_core::state::Effect;
+    use manyview_core::state::{Command, Effect, Touch};
 
     /// Where to write a call, while calls are recorded.
     #[inline]
@@ -62,6 +130,19 @@ pub(crate) mod imm {
         }
         // SAFETY: the layer of this thread's context outlives the hook that writes to it, and the reference does not outlive the hook.
         context::peek(|l| unsafe { &mut *core::ptr::from_mut(l.record(slot, effect)) })
+    }
+
+    /// A call that is not recorded is about to be made: compiled into a display list, or outside glBegin and glEnd.
+    #[inline]
+    pub(crate) fn direct(effect: Effect) {
+        let touch = if effect.has(Effect::MATERIAL) {
+            Touch::MATERIAL
+        } else {
+            Touch::NONE
+        };
+        if context::peek(|l| l.touch(touch)) == Some(false) {
+            super::compile(Command::Immediate(effect), touch);
+        }
     }
 
     /// Number of values of glMaterial*v.

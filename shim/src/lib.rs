@@ -11,6 +11,7 @@ mod entry;
 mod geometry;
 mod hooks;
 mod provider;
+mod shares;
 mod special;
 mod switch;
 

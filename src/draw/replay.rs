@@ -7,7 +7,7 @@ use crate::plan::{Rig, Shear};
 use crate::state::{Effect, State};
 
 /// What the draw does to the state that its second sending would start from.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Again {
     /// Nothing: it can be sent again as it is.
     Same,
@@ -19,14 +19,18 @@ pub enum Again {
         rects: bool,
         /// The projection or the matrix mode among it.
         projection: bool,
+        /// Current values that its first vertices used: glPopAttrib alone does not put them back (see [`Current`]).
+        current: Effect,
     },
-    /// Draws at the raster position, in window pixels, and may move it.
-    Raster,
+    /// Draws at the raster position, in window pixels, and may move it. The position stands for a point of the scene where it was
+    /// placed under a projection with this shift.
+    Raster(Option<Shear>),
     /// A clear: without a scissor one call does all tiles of a layer.
     Clear,
 }
 
-/// Sends the draw once per view, the program's own view last, so that all state is as after the program's own call.
+/// Sends the draw once per view, the program's own view last, so that all state is as after the program's own call. `call` takes
+/// the view; a clear takes one for each layer.
 ///
 /// Answers false if the draw could not be sent for the other views (the attribute stack is full).
 pub fn replay(
@@ -36,12 +40,12 @@ pub fn replay(
     rig: &Rig,
     shear: Option<Shear>,
     again: Again,
-    call: &mut dyn FnMut(),
+    call: &mut dyn FnMut(u32),
 ) -> bool {
     if again == Again::Clear && !state.scissor_test {
         for row in (0..atlas.tiles.rows).rev() {
             atlas.bind_row(gl, row);
-            call();
+            call(atlas.tiles.own());
         }
         return true;
     }
@@ -52,13 +56,13 @@ pub fn replay(
             c::CURRENT_BIT | c::LIGHTING_BIT
         }
         Again::Current(_) => 0,
-        Again::Raster => c::CURRENT_BIT,
+        Again::Raster(_) => c::CURRENT_BIT,
         Again::Anything { .. } => c::ALL_ATTRIB_BITS,
     };
     if saves != 0
         && gl.get_integer(c::ATTRIB_STACK_DEPTH) >= gl.get_integer(c::MAX_ATTRIB_STACK_DEPTH)
     {
-        call();
+        call(atlas.tiles.own());
         return false;
     }
     let tiles = atlas.tiles;
@@ -66,10 +70,14 @@ pub fn replay(
     let beside = tiles.columns > 1;
     let own = tiles.own();
     let current = match again {
-        Again::Current(e) => Current::take(gl, e),
+        Again::Current(e) | Again::Anything { current: e, .. } => Current::take(gl, e),
         _ => Current::default(),
     };
     let projection = Projection { gl, state, shear };
+    let raster = match again {
+        Again::Raster(Some(shear)) => Some(Raster::at(gl, state, shear)),
+        _ => None,
+    };
     for view in tiles.order() {
         let x = atlas.enter(gl, view);
         let free = view == own && matches!(again, Again::Anything { rects: true, .. });
@@ -89,7 +97,10 @@ pub fn replay(
         if view == own {
             projection.load(if keeps { rig.place(view) } else { 0.0 });
             current.put(gl);
-            call();
+            match &raster {
+                Some(raster) => raster.own(gl, rig.place(own), &mut || call(view)),
+                None => call(view),
+            }
             if beside && !free {
                 unplace(gl, state);
             }
@@ -103,14 +114,21 @@ pub fn replay(
         }
         projection.load(rig.place(view));
         match again {
-            Again::Raster => {
-                gl.move_raster(x as f32, 0.0);
-                call();
+            Again::Raster(_) => {
+                let shift = raster.map_or(Some(0.0), |r| r.shift(rig.place(view)));
+                if let Some(shift) = shift {
+                    gl.move_raster(x as f32 + shift, 0.0);
+                    call(view);
+                }
             }
             Again::Anything { .. } => {
                 let modelview = gl.get_floats(c::MODELVIEW_MATRIX);
                 let depth = gl.get_integer(c::MODELVIEW_STACK_DEPTH);
-                call();
+                let attribs = gl.get_integer(c::ATTRIB_STACK_DEPTH);
+                current.put(gl);
+                call(view);
+                let left = gl.get_integer(c::ATTRIB_STACK_DEPTH);
+                (attribs..left).for_each(|_| gl.pop_attrib());
                 gl.matrix_mode(c::MODELVIEW);
                 let now = gl.get_integer(c::MODELVIEW_STACK_DEPTH);
                 (depth..now).for_each(|_| gl.pop_matrix());
@@ -119,7 +137,7 @@ pub fn replay(
             }
             _ => {
                 current.put(gl);
-                call();
+                call(view);
             }
         }
         if saves != 0 {
@@ -164,6 +182,61 @@ pub fn unplace(gl: &Gl, state: &State) {
     gl.scissor(x, y, w, h);
     if !state.scissor_test {
         gl.disable(c::SCISSOR_TEST);
+    }
+}
+
+/// A raster position that stands for a point of the scene.
+#[derive(Clone, Copy)]
+struct Raster {
+    shear: Shear,
+    /// Window x, relative to the viewport, and clip-space w.
+    x: f64,
+    w: f64,
+    /// Width of the viewport in pixels.
+    width: f64,
+}
+
+/// Steps of a pixel to which what a picture moves the raster position is rounded: two sums of single precision have told it.
+const STEPS: f32 = 1024.0;
+
+impl Raster {
+    fn at(gl: &Gl, state: &State, shear: Shear) -> Raster {
+        let [x, _, _, w] = gl.get_floats::<4>(c::CURRENT_RASTER_POSITION);
+        let [left, _, width, _] = state.viewport;
+        Raster {
+            shear,
+            x: f64::from(x) - f64::from(left),
+            w: f64::from(w),
+            width: f64::from(width),
+        }
+    }
+
+    /// How far the position of the view at a place is from the program's own, in pixels; `None` where it leaves the viewport, which
+    /// makes it invalid.
+    fn shift(&self, place: f64) -> Option<f32> {
+        let clip = self.shear.separation(place) * (self.w - self.shear.conv);
+        let shift = clip / self.w * self.width / 2.0;
+        let inside = place == 0.0 || (0.0..=self.width).contains(&(self.x + shift));
+        (inside && shift.is_finite()).then_some(shift as f32)
+    }
+
+    /// The program's own view: what the draw moves the position by is kept, what the view does is not.
+    fn own(&self, gl: &Gl, place: f64, call: &mut dyn FnMut()) {
+        let shift = self.shift(place);
+        if shift == Some(0.0) {
+            return call();
+        }
+        let x = || gl.get_floats::<1>(c::CURRENT_RASTER_POSITION)[0];
+        let y = || gl.get_floats::<2>(c::CURRENT_RASTER_POSITION)[1];
+        gl.push_attrib(c::CURRENT_BIT);
+        gl.move_raster(shift.unwrap_or(2.0 * self.width as f32), 0.0);
+        let before = [x(), y()];
+        call();
+        let moved = [x() - before[0], y() - before[1]].map(|d| (d * STEPS).round() / STEPS);
+        gl.pop_attrib();
+        if moved != [0.0; 2] {
+            gl.move_raster(moved[0], moved[1]);
+        }
     }
 }
 

@@ -50,6 +50,9 @@ plain! {
     pop_matrix = glPopMatrix();
     push_attrib = glPushAttrib(mask: u32);
     pop_attrib = glPopAttrib();
+    new_list = glNewList(list: u32, mode: u32);
+    end_list = glEndList();
+    call_list = glCallList(list: u32);
     get_error = glGetError() -> u32;
     flush = glFlush();
     finish = glFinish();
@@ -86,9 +89,8 @@ plain! {
     provoking_vertex = glProvokingVertex(convention: u32);
     polygon_mode = glPolygonMode(face: u32, mode: u32);
     draw_arrays = glDrawArrays(mode: u32, first: i32, count: i32);
-    draw_arrays_instanced = glDrawArraysInstanced(mode: u32, first: i32, count: i32, instances: i32);
-    call_list = glCallList(list: u32);
     window_pos_2i = glWindowPos2i(x: i32, y: i32);
+    draw_arrays_instanced = glDrawArraysInstanced(mode: u32, first: i32, count: i32, instances: i32);
 }
 
 macro_rules! generate {
@@ -328,6 +330,18 @@ impl Gl {
                 data.as_ptr() as Ptr,
             )
         }
+    }
+
+    /// glIsList
+    pub fn is_list(&self, list: u32) -> bool {
+        // SAFETY: a context is current.
+        unsafe { self.real.glIsList(list) != 0 }
+    }
+
+    /// glDeleteLists of one list.
+    pub fn delete_list(&self, list: u32) {
+        // SAFETY: a context is current.
+        unsafe { self.real.glDeleteLists(list, 1) };
     }
 
     /// glBitmap without a picture: moves the raster position by (dx, dy) window pixels.

@@ -4,7 +4,7 @@ use super::real::{Ptr, Real};
 use core::ffi::{CStr, c_ulong};
 
 /// Number of commands in the table.
-pub const COUNT: usize = 851;
+pub const COUNT: usize = 1134;
 
 /// Index of each command in the table.
 pub mod slot {
@@ -486,379 +486,662 @@ pub mod slot {
     pub const glTranslatef: usize = 475;
     pub const glFrustum: usize = 476;
     pub const glOrtho: usize = 477;
-    pub const glPopMatrix: usize = 478;
-    pub const glMatrixLoaddEXT: usize = 479;
-    pub const glMatrixLoadfEXT: usize = 480;
-    pub const glMatrixLoadIdentityEXT: usize = 481;
-    pub const glMatrixMultdEXT: usize = 482;
-    pub const glMatrixMultfEXT: usize = 483;
-    pub const glMatrixFrustumEXT: usize = 484;
-    pub const glMatrixOrthoEXT: usize = 485;
-    pub const glMatrixPopEXT: usize = 486;
-    pub const glMatrixRotatedEXT: usize = 487;
-    pub const glMatrixRotatefEXT: usize = 488;
-    pub const glMatrixScaledEXT: usize = 489;
-    pub const glMatrixScalefEXT: usize = 490;
-    pub const glMatrixTranslatedEXT: usize = 491;
-    pub const glMatrixTranslatefEXT: usize = 492;
-    pub const glMatrixLoadTransposedEXT: usize = 493;
-    pub const glMatrixLoadTransposefEXT: usize = 494;
-    pub const glMatrixMultTransposedEXT: usize = 495;
-    pub const glMatrixMultTransposefEXT: usize = 496;
-    pub const glViewport: usize = 497;
-    pub const glScissor: usize = 498;
-    pub const glScissorArrayv: usize = 499;
-    pub const glScissorArrayvNV: usize = 500;
-    pub const glScissorArrayvOES: usize = 501;
-    pub const glScissorIndexed: usize = 502;
-    pub const glScissorIndexedNV: usize = 503;
-    pub const glScissorIndexedOES: usize = 504;
-    pub const glScissorIndexedv: usize = 505;
-    pub const glScissorIndexedvNV: usize = 506;
-    pub const glScissorIndexedvOES: usize = 507;
-    pub const glViewportArrayv: usize = 508;
-    pub const glViewportArrayvNV: usize = 509;
-    pub const glViewportArrayvOES: usize = 510;
-    pub const glViewportIndexedf: usize = 511;
-    pub const glViewportIndexedfNV: usize = 512;
-    pub const glViewportIndexedfOES: usize = 513;
-    pub const glViewportIndexedfv: usize = 514;
-    pub const glViewportIndexedfvNV: usize = 515;
-    pub const glViewportIndexedfvOES: usize = 516;
-    pub const glEnable: usize = 517;
-    pub const glDisable: usize = 518;
-    pub const glEnablei: usize = 519;
-    pub const glEnableIndexedEXT: usize = 520;
-    pub const glEnableiEXT: usize = 521;
-    pub const glEnableiNV: usize = 522;
-    pub const glEnableiOES: usize = 523;
-    pub const glDisablei: usize = 524;
-    pub const glDisableIndexedEXT: usize = 525;
-    pub const glDisableiEXT: usize = 526;
-    pub const glDisableiNV: usize = 527;
-    pub const glDisableiOES: usize = 528;
-    pub const glLightf: usize = 529;
-    pub const glLightfv: usize = 530;
-    pub const glLighti: usize = 531;
-    pub const glLightiv: usize = 532;
-    pub const glLightModelf: usize = 533;
-    pub const glLightModelfv: usize = 534;
-    pub const glLightModeli: usize = 535;
-    pub const glLightModeliv: usize = 536;
-    pub const glColorMaterial: usize = 537;
-    pub const glTexGend: usize = 538;
-    pub const glTexGendv: usize = 539;
-    pub const glTexGenf: usize = 540;
-    pub const glTexGenfv: usize = 541;
-    pub const glTexGeni: usize = 542;
-    pub const glTexGeniv: usize = 543;
-    pub const glFogf: usize = 544;
-    pub const glFogfv: usize = 545;
-    pub const glFogi: usize = 546;
-    pub const glFogiv: usize = 547;
-    pub const glPointParameterf: usize = 548;
-    pub const glPointParameterfARB: usize = 549;
-    pub const glPointParameterfEXT: usize = 550;
-    pub const glPointParameterfSGIS: usize = 551;
-    pub const glPointParameterfv: usize = 552;
-    pub const glPointParameterfvARB: usize = 553;
-    pub const glPointParameterfvEXT: usize = 554;
-    pub const glPointParameterfvSGIS: usize = 555;
-    pub const glPointParameteri: usize = 556;
-    pub const glPointParameteriNV: usize = 557;
-    pub const glPointParameteriv: usize = 558;
-    pub const glPointParameterivNV: usize = 559;
-    pub const glPointSize: usize = 560;
-    pub const glShadeModel: usize = 561;
-    pub const glPolygonMode: usize = 562;
-    pub const glPolygonModeNV: usize = 563;
-    pub const glTexEnvf: usize = 564;
-    pub const glTexEnvfv: usize = 565;
-    pub const glTexEnvi: usize = 566;
-    pub const glTexEnviv: usize = 567;
-    pub const glHint: usize = 568;
-    pub const glLineWidth: usize = 569;
-    pub const glProvokingVertex: usize = 570;
-    pub const glProvokingVertexEXT: usize = 571;
-    pub const glClipControl: usize = 572;
-    pub const glClipControlEXT: usize = 573;
-    pub const glBindProgramARB: usize = 574;
-    pub const glBindProgramNV: usize = 575;
-    pub const glUseProgramStages: usize = 576;
-    pub const glClampColor: usize = 577;
-    pub const glClampColorARB: usize = 578;
-    pub const glUseProgram: usize = 579;
-    pub const glUseProgramObjectARB: usize = 580;
-    pub const glBindProgramPipeline: usize = 581;
-    pub const glPopAttrib: usize = 582;
-    pub const glRenderMode: usize = 583;
-    pub const glBeginTransformFeedback: usize = 584;
-    pub const glBeginTransformFeedbackEXT: usize = 585;
-    pub const glBeginTransformFeedbackNV: usize = 586;
-    pub const glEndTransformFeedback: usize = 587;
-    pub const glEndTransformFeedbackEXT: usize = 588;
-    pub const glEndTransformFeedbackNV: usize = 589;
-    pub const glClear: usize = 590;
-    pub const glClearBufferfi: usize = 591;
-    pub const glClearBufferfv: usize = 592;
-    pub const glClearBufferiv: usize = 593;
-    pub const glClearBufferuiv: usize = 594;
-    pub const glDrawArrays: usize = 595;
-    pub const glDrawArraysEXT: usize = 596;
-    pub const glDrawElements: usize = 597;
-    pub const glDrawRangeElements: usize = 598;
-    pub const glDrawRangeElementsEXT: usize = 599;
-    pub const glMultiDrawArrays: usize = 600;
-    pub const glMultiDrawArraysEXT: usize = 601;
-    pub const glMultiDrawElements: usize = 602;
-    pub const glMultiDrawElementsEXT: usize = 603;
-    pub const glDrawElementsBaseVertex: usize = 604;
-    pub const glDrawElementsBaseVertexEXT: usize = 605;
-    pub const glDrawElementsBaseVertexOES: usize = 606;
-    pub const glDrawRangeElementsBaseVertex: usize = 607;
-    pub const glDrawRangeElementsBaseVertexEXT: usize = 608;
-    pub const glDrawRangeElementsBaseVertexOES: usize = 609;
-    pub const glMultiDrawElementsBaseVertex: usize = 610;
-    pub const glMultiDrawElementsBaseVertexEXT: usize = 611;
-    pub const glDrawArraysInstanced: usize = 612;
-    pub const glDrawArraysInstancedANGLE: usize = 613;
-    pub const glDrawArraysInstancedARB: usize = 614;
-    pub const glDrawArraysInstancedEXT: usize = 615;
-    pub const glDrawArraysInstancedNV: usize = 616;
-    pub const glDrawElementsInstanced: usize = 617;
-    pub const glDrawElementsInstancedANGLE: usize = 618;
-    pub const glDrawElementsInstancedARB: usize = 619;
-    pub const glDrawElementsInstancedEXT: usize = 620;
-    pub const glDrawElementsInstancedNV: usize = 621;
-    pub const glDrawElementsInstancedBaseVertex: usize = 622;
-    pub const glDrawElementsInstancedBaseVertexEXT: usize = 623;
-    pub const glDrawElementsInstancedBaseVertexOES: usize = 624;
-    pub const glDrawArraysInstancedBaseInstance: usize = 625;
-    pub const glDrawArraysInstancedBaseInstanceEXT: usize = 626;
-    pub const glDrawElementsInstancedBaseInstance: usize = 627;
-    pub const glDrawElementsInstancedBaseInstanceEXT: usize = 628;
-    pub const glDrawElementsInstancedBaseVertexBaseInstance: usize = 629;
-    pub const glDrawElementsInstancedBaseVertexBaseInstanceEXT: usize = 630;
-    pub const glDrawArraysIndirect: usize = 631;
-    pub const glDrawElementsIndirect: usize = 632;
-    pub const glMultiDrawArraysIndirect: usize = 633;
-    pub const glMultiDrawArraysIndirectAMD: usize = 634;
-    pub const glMultiDrawArraysIndirectEXT: usize = 635;
-    pub const glMultiDrawElementsIndirect: usize = 636;
-    pub const glMultiDrawElementsIndirectAMD: usize = 637;
-    pub const glMultiDrawElementsIndirectEXT: usize = 638;
-    pub const glDrawTransformFeedback: usize = 639;
-    pub const glDrawTransformFeedbackEXT: usize = 640;
-    pub const glDrawTransformFeedbackNV: usize = 641;
-    pub const glDrawTransformFeedbackInstanced: usize = 642;
-    pub const glDrawTransformFeedbackInstancedEXT: usize = 643;
-    pub const glDrawTransformFeedbackStream: usize = 644;
-    pub const glDrawTransformFeedbackStreamInstanced: usize = 645;
-    pub const glRectd: usize = 646;
-    pub const glRectdv: usize = 647;
-    pub const glRectf: usize = 648;
-    pub const glRectfv: usize = 649;
-    pub const glRecti: usize = 650;
-    pub const glRectiv: usize = 651;
-    pub const glRects: usize = 652;
-    pub const glRectsv: usize = 653;
-    pub const glEvalMesh1: usize = 654;
-    pub const glEvalMesh2: usize = 655;
-    pub const glAccum: usize = 656;
-    pub const glBitmap: usize = 657;
-    pub const glDrawPixels: usize = 658;
-    pub const glCopyPixels: usize = 659;
-    pub const glNewList: usize = 660;
-    pub const glEndList: usize = 661;
-    pub const glCallList: usize = 662;
-    pub const glCallLists: usize = 663;
-    pub const glBindTexture: usize = 664;
-    pub const glBindTextureEXT: usize = 665;
-    pub const glDeleteTextures: usize = 666;
-    pub const glBindFramebuffer: usize = 667;
-    pub const glBindFramebufferEXT: usize = 668;
-    pub const glDeleteFramebuffers: usize = 669;
-    pub const glDeleteFramebuffersEXT: usize = 670;
-    pub const glDrawBuffer: usize = 671;
-    pub const glDrawBuffers: usize = 672;
-    pub const glDrawBuffersARB: usize = 673;
-    pub const glDrawBuffersATI: usize = 674;
-    pub const glDrawBuffersEXT: usize = 675;
-    pub const glReadBuffer: usize = 676;
-    pub const glNamedFramebufferDrawBuffer: usize = 677;
-    pub const glNamedFramebufferDrawBuffers: usize = 678;
-    pub const glNamedFramebufferReadBuffer: usize = 679;
-    pub const glFramebufferDrawBufferEXT: usize = 680;
-    pub const glFramebufferDrawBuffersEXT: usize = 681;
-    pub const glFramebufferReadBufferEXT: usize = 682;
-    pub const glBlitFramebuffer: usize = 683;
-    pub const glBlitFramebufferEXT: usize = 684;
-    pub const glBlitFramebufferNV: usize = 685;
-    pub const glBlitNamedFramebuffer: usize = 686;
-    pub const glClearNamedFramebufferfv: usize = 687;
-    pub const glClearNamedFramebufferiv: usize = 688;
-    pub const glClearNamedFramebufferuiv: usize = 689;
-    pub const glClearNamedFramebufferfi: usize = 690;
-    pub const glGetIntegerv: usize = 691;
-    pub const glGetBooleanv: usize = 692;
-    pub const glGetFloatv: usize = 693;
-    pub const glGetDoublev: usize = 694;
-    pub const glGetInteger64v: usize = 695;
-    pub const glGetInteger64vAPPLE: usize = 696;
-    pub const glGetInteger64vEXT: usize = 697;
-    pub const glFramebufferTexture: usize = 698;
-    pub const glFramebufferTextureARB: usize = 699;
-    pub const glFramebufferTextureEXT: usize = 700;
-    pub const glFramebufferTextureOES: usize = 701;
-    pub const glFramebufferTexture1D: usize = 702;
-    pub const glFramebufferTexture1DEXT: usize = 703;
-    pub const glFramebufferTexture2D: usize = 704;
-    pub const glFramebufferTexture2DEXT: usize = 705;
-    pub const glFramebufferTexture3D: usize = 706;
-    pub const glFramebufferTexture3DEXT: usize = 707;
-    pub const glFramebufferTextureLayer: usize = 708;
-    pub const glFramebufferTextureLayerARB: usize = 709;
-    pub const glFramebufferTextureLayerEXT: usize = 710;
-    pub const glFramebufferRenderbuffer: usize = 711;
-    pub const glFramebufferRenderbufferEXT: usize = 712;
-    pub const glGetFramebufferAttachmentParameteriv: usize = 713;
-    pub const glGetFramebufferAttachmentParameterivEXT: usize = 714;
-    pub const glCheckFramebufferStatus: usize = 715;
-    pub const glCheckFramebufferStatusEXT: usize = 716;
-    pub const glFramebufferParameteri: usize = 717;
-    pub const glGetFramebufferParameteriv: usize = 718;
-    pub const glInvalidateFramebuffer: usize = 719;
-    pub const glInvalidateSubFramebuffer: usize = 720;
-    pub const glDiscardFramebufferEXT: usize = 721;
-    pub const glReadPixels: usize = 722;
-    pub const glReadnPixels: usize = 723;
-    pub const glReadnPixelsARB: usize = 724;
-    pub const glReadnPixelsEXT: usize = 725;
-    pub const glReadnPixelsKHR: usize = 726;
-    pub const glCopyTexImage1D: usize = 727;
-    pub const glCopyTexImage1DEXT: usize = 728;
-    pub const glCopyTexImage2D: usize = 729;
-    pub const glCopyTexImage2DEXT: usize = 730;
-    pub const glCopyTexSubImage1D: usize = 731;
-    pub const glCopyTexSubImage1DEXT: usize = 732;
-    pub const glCopyTexSubImage2D: usize = 733;
-    pub const glCopyTexSubImage2DEXT: usize = 734;
-    pub const glCopyTexSubImage3D: usize = 735;
-    pub const glCopyTexSubImage3DEXT: usize = 736;
-    pub const glCopyTextureSubImage1D: usize = 737;
-    pub const glCopyTextureSubImage2D: usize = 738;
-    pub const glCopyTextureSubImage3D: usize = 739;
-    pub const glCopyMultiTexImage1DEXT: usize = 740;
-    pub const glCopyMultiTexImage2DEXT: usize = 741;
-    pub const glCopyTextureImage1DEXT: usize = 742;
-    pub const glCopyTextureImage2DEXT: usize = 743;
-    pub const glCopyColorTable: usize = 744;
-    pub const glCopyColorTableSGI: usize = 745;
-    pub const glCopyConvolutionFilter1D: usize = 746;
-    pub const glCopyConvolutionFilter1DEXT: usize = 747;
-    pub const glCopyConvolutionFilter2D: usize = 748;
-    pub const glCopyConvolutionFilter2DEXT: usize = 749;
-    pub const glFinish: usize = 750;
-    pub const glFlush: usize = 751;
-    pub const glGetError: usize = 752;
-    pub const glXSwapBuffers: usize = 753;
-    pub const glXSwapBuffersMscOML: usize = 754;
-    pub const glXMakeCurrent: usize = 755;
-    pub const glXMakeContextCurrent: usize = 756;
-    pub const glXMakeCurrentReadSGI: usize = 757;
-    pub const glXDestroyContext: usize = 758;
-    pub const glXGetProcAddress: usize = 759;
-    pub const glXGetProcAddressARB: usize = 760;
-    pub const glXQueryDrawable: usize = 761;
-    pub const eglSwapBuffers: usize = 762;
-    pub const eglSwapBuffersWithDamageKHR: usize = 763;
-    pub const eglSwapBuffersWithDamageEXT: usize = 764;
-    pub const eglMakeCurrent: usize = 765;
-    pub const eglDestroyContext: usize = 766;
-    pub const eglReleaseThread: usize = 767;
-    pub const eglGetProcAddress: usize = 768;
-    pub const eglQuerySurface: usize = 769;
-    pub const eglQueryContext: usize = 770;
-    pub const eglGetCurrentContext: usize = 771;
-    pub const glXGetCurrentContext: usize = 772;
-    pub const OSMesaMakeCurrent: usize = 773;
-    pub const OSMesaDestroyContext: usize = 774;
-    pub const OSMesaGetProcAddress: usize = 775;
-    pub const glGetString: usize = 776;
-    pub const glGetStringi: usize = 777;
-    pub const glIsEnabled: usize = 778;
-    pub const glIsEnabledi: usize = 779;
-    pub const glGetIntegeri_v: usize = 780;
-    pub const glGetTexGeniv: usize = 781;
-    pub const glGetTexGenfv: usize = 782;
-    pub const glGetTexEnviv: usize = 783;
-    pub const glGetLightfv: usize = 784;
-    pub const glGetTexParameteriv: usize = 785;
-    pub const glPushAttrib: usize = 786;
-    pub const glPushMatrix: usize = 787;
-    pub const glGetMaterialfv: usize = 788;
-    pub const glGenTextures: usize = 789;
-    pub const glActiveTexture: usize = 790;
-    pub const glTexImage2D: usize = 791;
-    pub const glTexImage3D: usize = 792;
-    pub const glTexParameteri: usize = 793;
-    pub const glIsTexture: usize = 794;
-    pub const glTexImage2DMultisample: usize = 795;
-    pub const glTexImage3DMultisample: usize = 796;
-    pub const glGenFramebuffers: usize = 797;
-    pub const glGenRenderbuffers: usize = 798;
-    pub const glBindRenderbuffer: usize = 799;
-    pub const glRenderbufferStorage: usize = 800;
-    pub const glRenderbufferStorageMultisample: usize = 801;
-    pub const glDeleteRenderbuffers: usize = 802;
-    pub const glIsFramebuffer: usize = 803;
-    pub const glCreateShader: usize = 804;
-    pub const glShaderSource: usize = 805;
-    pub const glCompileShader: usize = 806;
-    pub const glGetShaderiv: usize = 807;
-    pub const glGetShaderInfoLog: usize = 808;
-    pub const glCreateProgram: usize = 809;
-    pub const glAttachShader: usize = 810;
-    pub const glLinkProgram: usize = 811;
-    pub const glGetProgramiv: usize = 812;
-    pub const glGetProgramInfoLog: usize = 813;
-    pub const glDeleteShader: usize = 814;
-    pub const glDeleteProgram: usize = 815;
-    pub const glGetUniformLocation: usize = 816;
-    pub const glUniform1i: usize = 817;
-    pub const glUniform4f: usize = 818;
-    pub const glUniform4fv: usize = 819;
-    pub const glUniform4i: usize = 820;
-    pub const glUniform1ui: usize = 821;
-    pub const glUniform2ui: usize = 822;
-    pub const glGetUniformBlockIndex: usize = 823;
-    pub const glUniformBlockBinding: usize = 824;
-    pub const glBindBufferBase: usize = 825;
-    pub const glBindBufferRange: usize = 826;
-    pub const glGenBuffers: usize = 827;
-    pub const glBindBuffer: usize = 828;
-    pub const glBufferData: usize = 829;
-    pub const glBufferSubData: usize = 830;
-    pub const glDeleteBuffers: usize = 831;
-    pub const glBindAttribLocation: usize = 832;
-    pub const glProgramParameteri: usize = 833;
-    pub const glGenVertexArrays: usize = 834;
-    pub const glBindVertexArray: usize = 835;
-    pub const glGenSamplers: usize = 836;
-    pub const glBindSampler: usize = 837;
-    pub const glPixelStorei: usize = 838;
-    pub const glColorMask: usize = 839;
-    pub const glColorMaski: usize = 840;
-    pub const glDepthRange: usize = 841;
-    pub const glDepthFunc: usize = 842;
-    pub const glDepthMask: usize = 843;
-    pub const glStencilMask: usize = 844;
-    pub const glBlendColor: usize = 845;
-    pub const glWindowPos2i: usize = 846;
-    pub const glRasterPos2f: usize = 847;
-    pub const glClearColor: usize = 848;
-    pub const glPixelZoom: usize = 849;
-    pub const glPixelTransferf: usize = 850;
+    pub const glPushMatrix: usize = 478;
+    pub const glPopMatrix: usize = 479;
+    pub const glMatrixLoaddEXT: usize = 480;
+    pub const glMatrixLoadfEXT: usize = 481;
+    pub const glMatrixLoadIdentityEXT: usize = 482;
+    pub const glMatrixMultdEXT: usize = 483;
+    pub const glMatrixMultfEXT: usize = 484;
+    pub const glMatrixFrustumEXT: usize = 485;
+    pub const glMatrixOrthoEXT: usize = 486;
+    pub const glMatrixPopEXT: usize = 487;
+    pub const glMatrixRotatedEXT: usize = 488;
+    pub const glMatrixRotatefEXT: usize = 489;
+    pub const glMatrixScaledEXT: usize = 490;
+    pub const glMatrixScalefEXT: usize = 491;
+    pub const glMatrixTranslatedEXT: usize = 492;
+    pub const glMatrixTranslatefEXT: usize = 493;
+    pub const glMatrixLoadTransposedEXT: usize = 494;
+    pub const glMatrixLoadTransposefEXT: usize = 495;
+    pub const glMatrixMultTransposedEXT: usize = 496;
+    pub const glMatrixMultTransposefEXT: usize = 497;
+    pub const glViewport: usize = 498;
+    pub const glScissor: usize = 499;
+    pub const glScissorArrayv: usize = 500;
+    pub const glScissorArrayvNV: usize = 501;
+    pub const glScissorArrayvOES: usize = 502;
+    pub const glScissorIndexed: usize = 503;
+    pub const glScissorIndexedNV: usize = 504;
+    pub const glScissorIndexedOES: usize = 505;
+    pub const glScissorIndexedv: usize = 506;
+    pub const glScissorIndexedvNV: usize = 507;
+    pub const glScissorIndexedvOES: usize = 508;
+    pub const glViewportArrayv: usize = 509;
+    pub const glViewportArrayvNV: usize = 510;
+    pub const glViewportArrayvOES: usize = 511;
+    pub const glViewportIndexedf: usize = 512;
+    pub const glViewportIndexedfNV: usize = 513;
+    pub const glViewportIndexedfOES: usize = 514;
+    pub const glViewportIndexedfv: usize = 515;
+    pub const glViewportIndexedfvNV: usize = 516;
+    pub const glViewportIndexedfvOES: usize = 517;
+    pub const glEnable: usize = 518;
+    pub const glDisable: usize = 519;
+    pub const glEnablei: usize = 520;
+    pub const glEnableIndexedEXT: usize = 521;
+    pub const glEnableiEXT: usize = 522;
+    pub const glEnableiNV: usize = 523;
+    pub const glEnableiOES: usize = 524;
+    pub const glDisablei: usize = 525;
+    pub const glDisableIndexedEXT: usize = 526;
+    pub const glDisableiEXT: usize = 527;
+    pub const glDisableiNV: usize = 528;
+    pub const glDisableiOES: usize = 529;
+    pub const glLightf: usize = 530;
+    pub const glLightfv: usize = 531;
+    pub const glLighti: usize = 532;
+    pub const glLightiv: usize = 533;
+    pub const glLightModelf: usize = 534;
+    pub const glLightModelfv: usize = 535;
+    pub const glLightModeli: usize = 536;
+    pub const glLightModeliv: usize = 537;
+    pub const glColorMaterial: usize = 538;
+    pub const glTexGend: usize = 539;
+    pub const glTexGendv: usize = 540;
+    pub const glTexGenf: usize = 541;
+    pub const glTexGenfv: usize = 542;
+    pub const glTexGeni: usize = 543;
+    pub const glTexGeniv: usize = 544;
+    pub const glFogf: usize = 545;
+    pub const glFogfv: usize = 546;
+    pub const glFogi: usize = 547;
+    pub const glFogiv: usize = 548;
+    pub const glPointParameterf: usize = 549;
+    pub const glPointParameterfARB: usize = 550;
+    pub const glPointParameterfEXT: usize = 551;
+    pub const glPointParameterfSGIS: usize = 552;
+    pub const glPointParameterfv: usize = 553;
+    pub const glPointParameterfvARB: usize = 554;
+    pub const glPointParameterfvEXT: usize = 555;
+    pub const glPointParameterfvSGIS: usize = 556;
+    pub const glPointParameteri: usize = 557;
+    pub const glPointParameteriNV: usize = 558;
+    pub const glPointParameteriv: usize = 559;
+    pub const glPointParameterivNV: usize = 560;
+    pub const glPointSize: usize = 561;
+    pub const glShadeModel: usize = 562;
+    pub const glPolygonMode: usize = 563;
+    pub const glPolygonModeNV: usize = 564;
+    pub const glTexEnvf: usize = 565;
+    pub const glTexEnvfv: usize = 566;
+    pub const glTexEnvi: usize = 567;
+    pub const glTexEnviv: usize = 568;
+    pub const glHint: usize = 569;
+    pub const glLineWidth: usize = 570;
+    pub const glProvokingVertex: usize = 571;
+    pub const glProvokingVertexEXT: usize = 572;
+    pub const glClipControl: usize = 573;
+    pub const glClipControlEXT: usize = 574;
+    pub const glBindProgramARB: usize = 575;
+    pub const glBindProgramNV: usize = 576;
+    pub const glUseProgramStages: usize = 577;
+    pub const glClampColor: usize = 578;
+    pub const glClampColorARB: usize = 579;
+    pub const glUseProgram: usize = 580;
+    pub const glUseProgramObjectARB: usize = 581;
+    pub const glBindProgramPipeline: usize = 582;
+    pub const glPushAttrib: usize = 583;
+    pub const glPopAttrib: usize = 584;
+    pub const glRasterPos2d: usize = 585;
+    pub const glRasterPos2dv: usize = 586;
+    pub const glRasterPos2f: usize = 587;
+    pub const glRasterPos2fv: usize = 588;
+    pub const glRasterPos2i: usize = 589;
+    pub const glRasterPos2iv: usize = 590;
+    pub const glRasterPos2s: usize = 591;
+    pub const glRasterPos2sv: usize = 592;
+    pub const glRasterPos3d: usize = 593;
+    pub const glRasterPos3dv: usize = 594;
+    pub const glRasterPos3f: usize = 595;
+    pub const glRasterPos3fv: usize = 596;
+    pub const glRasterPos3i: usize = 597;
+    pub const glRasterPos3iv: usize = 598;
+    pub const glRasterPos3s: usize = 599;
+    pub const glRasterPos3sv: usize = 600;
+    pub const glRasterPos4d: usize = 601;
+    pub const glRasterPos4dv: usize = 602;
+    pub const glRasterPos4f: usize = 603;
+    pub const glRasterPos4fv: usize = 604;
+    pub const glRasterPos4i: usize = 605;
+    pub const glRasterPos4iv: usize = 606;
+    pub const glRasterPos4s: usize = 607;
+    pub const glRasterPos4sv: usize = 608;
+    pub const glWindowPos2d: usize = 609;
+    pub const glWindowPos2dARB: usize = 610;
+    pub const glWindowPos2dMESA: usize = 611;
+    pub const glWindowPos2dv: usize = 612;
+    pub const glWindowPos2dvARB: usize = 613;
+    pub const glWindowPos2dvMESA: usize = 614;
+    pub const glWindowPos2f: usize = 615;
+    pub const glWindowPos2fARB: usize = 616;
+    pub const glWindowPos2fMESA: usize = 617;
+    pub const glWindowPos2fv: usize = 618;
+    pub const glWindowPos2fvARB: usize = 619;
+    pub const glWindowPos2fvMESA: usize = 620;
+    pub const glWindowPos2i: usize = 621;
+    pub const glWindowPos2iARB: usize = 622;
+    pub const glWindowPos2iMESA: usize = 623;
+    pub const glWindowPos2iv: usize = 624;
+    pub const glWindowPos2ivARB: usize = 625;
+    pub const glWindowPos2ivMESA: usize = 626;
+    pub const glWindowPos2s: usize = 627;
+    pub const glWindowPos2sARB: usize = 628;
+    pub const glWindowPos2sMESA: usize = 629;
+    pub const glWindowPos2sv: usize = 630;
+    pub const glWindowPos2svARB: usize = 631;
+    pub const glWindowPos2svMESA: usize = 632;
+    pub const glWindowPos3d: usize = 633;
+    pub const glWindowPos3dARB: usize = 634;
+    pub const glWindowPos3dMESA: usize = 635;
+    pub const glWindowPos3dv: usize = 636;
+    pub const glWindowPos3dvARB: usize = 637;
+    pub const glWindowPos3dvMESA: usize = 638;
+    pub const glWindowPos3f: usize = 639;
+    pub const glWindowPos3fARB: usize = 640;
+    pub const glWindowPos3fMESA: usize = 641;
+    pub const glWindowPos3fv: usize = 642;
+    pub const glWindowPos3fvARB: usize = 643;
+    pub const glWindowPos3fvMESA: usize = 644;
+    pub const glWindowPos3i: usize = 645;
+    pub const glWindowPos3iARB: usize = 646;
+    pub const glWindowPos3iMESA: usize = 647;
+    pub const glWindowPos3iv: usize = 648;
+    pub const glWindowPos3ivARB: usize = 649;
+    pub const glWindowPos3ivMESA: usize = 650;
+    pub const glWindowPos3s: usize = 651;
+    pub const glWindowPos3sARB: usize = 652;
+    pub const glWindowPos3sMESA: usize = 653;
+    pub const glWindowPos3sv: usize = 654;
+    pub const glWindowPos3svARB: usize = 655;
+    pub const glWindowPos3svMESA: usize = 656;
+    pub const glRenderMode: usize = 657;
+    pub const glBeginTransformFeedback: usize = 658;
+    pub const glBeginTransformFeedbackEXT: usize = 659;
+    pub const glBeginTransformFeedbackNV: usize = 660;
+    pub const glEndTransformFeedback: usize = 661;
+    pub const glEndTransformFeedbackEXT: usize = 662;
+    pub const glEndTransformFeedbackNV: usize = 663;
+    pub const glAlphaFunc: usize = 664;
+    pub const glBlendFunc: usize = 665;
+    pub const glBlendFuncSeparate: usize = 666;
+    pub const glBlendFuncSeparateEXT: usize = 667;
+    pub const glBlendFuncSeparateINGR: usize = 668;
+    pub const glBlendFuncSeparatei: usize = 669;
+    pub const glBlendFuncSeparateIndexedAMD: usize = 670;
+    pub const glBlendFuncSeparateiARB: usize = 671;
+    pub const glBlendFuncSeparateiEXT: usize = 672;
+    pub const glBlendFuncSeparateiOES: usize = 673;
+    pub const glBlendFunci: usize = 674;
+    pub const glBlendFuncIndexedAMD: usize = 675;
+    pub const glBlendFunciARB: usize = 676;
+    pub const glBlendFunciEXT: usize = 677;
+    pub const glBlendFunciOES: usize = 678;
+    pub const glBlendEquation: usize = 679;
+    pub const glBlendEquationEXT: usize = 680;
+    pub const glBlendEquationSeparate: usize = 681;
+    pub const glBlendEquationSeparateEXT: usize = 682;
+    pub const glBlendEquationSeparatei: usize = 683;
+    pub const glBlendEquationSeparateIndexedAMD: usize = 684;
+    pub const glBlendEquationSeparateiARB: usize = 685;
+    pub const glBlendEquationSeparateiEXT: usize = 686;
+    pub const glBlendEquationSeparateiOES: usize = 687;
+    pub const glBlendEquationi: usize = 688;
+    pub const glBlendEquationIndexedAMD: usize = 689;
+    pub const glBlendEquationiARB: usize = 690;
+    pub const glBlendEquationiEXT: usize = 691;
+    pub const glBlendEquationiOES: usize = 692;
+    pub const glBlendColor: usize = 693;
+    pub const glBlendColorEXT: usize = 694;
+    pub const glClearAccum: usize = 695;
+    pub const glClearColor: usize = 696;
+    pub const glClearDepth: usize = 697;
+    pub const glClearDepthf: usize = 698;
+    pub const glClearDepthfOES: usize = 699;
+    pub const glClearIndex: usize = 700;
+    pub const glClearStencil: usize = 701;
+    pub const glClipPlane: usize = 702;
+    pub const glColorMask: usize = 703;
+    pub const glColorMaski: usize = 704;
+    pub const glColorMaskIndexedEXT: usize = 705;
+    pub const glColorMaskiEXT: usize = 706;
+    pub const glColorMaskiOES: usize = 707;
+    pub const glCullFace: usize = 708;
+    pub const glDepthFunc: usize = 709;
+    pub const glDepthMask: usize = 710;
+    pub const glDepthRange: usize = 711;
+    pub const glDepthRangef: usize = 712;
+    pub const glDepthRangefOES: usize = 713;
+    pub const glDepthRangeIndexed: usize = 714;
+    pub const glDepthRangeArrayv: usize = 715;
+    pub const glDepthBoundsEXT: usize = 716;
+    pub const glFrontFace: usize = 717;
+    pub const glIndexMask: usize = 718;
+    pub const glInitNames: usize = 719;
+    pub const glLoadName: usize = 720;
+    pub const glPushName: usize = 721;
+    pub const glPopName: usize = 722;
+    pub const glPassThrough: usize = 723;
+    pub const glLineStipple: usize = 724;
+    pub const glListBase: usize = 725;
+    pub const glLogicOp: usize = 726;
+    pub const glMap1d: usize = 727;
+    pub const glMap1f: usize = 728;
+    pub const glMap2d: usize = 729;
+    pub const glMap2f: usize = 730;
+    pub const glMapGrid1d: usize = 731;
+    pub const glMapGrid1f: usize = 732;
+    pub const glMapGrid2d: usize = 733;
+    pub const glMapGrid2f: usize = 734;
+    pub const glPixelMapfv: usize = 735;
+    pub const glPixelMapuiv: usize = 736;
+    pub const glPixelMapusv: usize = 737;
+    pub const glPixelTransferf: usize = 738;
+    pub const glPixelTransferi: usize = 739;
+    pub const glPixelZoom: usize = 740;
+    pub const glPolygonOffset: usize = 741;
+    pub const glPolygonOffsetClamp: usize = 742;
+    pub const glPolygonOffsetClampEXT: usize = 743;
+    pub const glPolygonStipple: usize = 744;
+    pub const glPrioritizeTextures: usize = 745;
+    pub const glPrioritizeTexturesEXT: usize = 746;
+    pub const glSampleCoverage: usize = 747;
+    pub const glSampleCoverageARB: usize = 748;
+    pub const glMinSampleShading: usize = 749;
+    pub const glMinSampleShadingARB: usize = 750;
+    pub const glMinSampleShadingOES: usize = 751;
+    pub const glStencilFunc: usize = 752;
+    pub const glStencilFuncSeparate: usize = 753;
+    pub const glStencilMask: usize = 754;
+    pub const glStencilMaskSeparate: usize = 755;
+    pub const glStencilOp: usize = 756;
+    pub const glStencilOpSeparate: usize = 757;
+    pub const glStencilOpSeparateATI: usize = 758;
+    pub const glPrimitiveRestartIndex: usize = 759;
+    pub const glTexImage1D: usize = 760;
+    pub const glTexImage2D: usize = 761;
+    pub const glTexImage3D: usize = 762;
+    pub const glTexImage3DEXT: usize = 763;
+    pub const glTexSubImage1D: usize = 764;
+    pub const glTexSubImage1DEXT: usize = 765;
+    pub const glTexSubImage2D: usize = 766;
+    pub const glTexSubImage2DEXT: usize = 767;
+    pub const glTexSubImage3D: usize = 768;
+    pub const glTexSubImage3DEXT: usize = 769;
+    pub const glCompressedTexImage1D: usize = 770;
+    pub const glCompressedTexImage1DARB: usize = 771;
+    pub const glCompressedTexImage2D: usize = 772;
+    pub const glCompressedTexImage2DARB: usize = 773;
+    pub const glCompressedTexImage3D: usize = 774;
+    pub const glCompressedTexImage3DARB: usize = 775;
+    pub const glCompressedTexSubImage1D: usize = 776;
+    pub const glCompressedTexSubImage1DARB: usize = 777;
+    pub const glCompressedTexSubImage2D: usize = 778;
+    pub const glCompressedTexSubImage2DARB: usize = 779;
+    pub const glCompressedTexSubImage3D: usize = 780;
+    pub const glCompressedTexSubImage3DARB: usize = 781;
+    pub const glTexParameterf: usize = 782;
+    pub const glTexParameterfv: usize = 783;
+    pub const glTexParameteri: usize = 784;
+    pub const glTexParameteriv: usize = 785;
+    pub const glTexParameterIiv: usize = 786;
+    pub const glTexParameterIivEXT: usize = 787;
+    pub const glTexParameterIivOES: usize = 788;
+    pub const glTexParameterIuiv: usize = 789;
+    pub const glTexParameterIuivEXT: usize = 790;
+    pub const glTexParameterIuivOES: usize = 791;
+    pub const glActiveTexture: usize = 792;
+    pub const glActiveTextureARB: usize = 793;
+    pub const glProgramEnvParameter4dARB: usize = 794;
+    pub const glProgramEnvParameter4dvARB: usize = 795;
+    pub const glProgramEnvParameter4fARB: usize = 796;
+    pub const glProgramEnvParameter4fvARB: usize = 797;
+    pub const glProgramLocalParameter4dARB: usize = 798;
+    pub const glProgramLocalParameter4dvARB: usize = 799;
+    pub const glProgramLocalParameter4fARB: usize = 800;
+    pub const glProgramLocalParameter4fvARB: usize = 801;
+    pub const glUniform1d: usize = 802;
+    pub const glUniform1dv: usize = 803;
+    pub const glUniform1f: usize = 804;
+    pub const glUniform1fARB: usize = 805;
+    pub const glUniform1fv: usize = 806;
+    pub const glUniform1fvARB: usize = 807;
+    pub const glUniform1i: usize = 808;
+    pub const glUniform1iARB: usize = 809;
+    pub const glUniform1iv: usize = 810;
+    pub const glUniform1ivARB: usize = 811;
+    pub const glUniform1ui: usize = 812;
+    pub const glUniform1uiEXT: usize = 813;
+    pub const glUniform1uiv: usize = 814;
+    pub const glUniform1uivEXT: usize = 815;
+    pub const glUniform2d: usize = 816;
+    pub const glUniform2dv: usize = 817;
+    pub const glUniform2f: usize = 818;
+    pub const glUniform2fARB: usize = 819;
+    pub const glUniform2fv: usize = 820;
+    pub const glUniform2fvARB: usize = 821;
+    pub const glUniform2i: usize = 822;
+    pub const glUniform2iARB: usize = 823;
+    pub const glUniform2iv: usize = 824;
+    pub const glUniform2ivARB: usize = 825;
+    pub const glUniform2ui: usize = 826;
+    pub const glUniform2uiEXT: usize = 827;
+    pub const glUniform2uiv: usize = 828;
+    pub const glUniform2uivEXT: usize = 829;
+    pub const glUniform3d: usize = 830;
+    pub const glUniform3dv: usize = 831;
+    pub const glUniform3f: usize = 832;
+    pub const glUniform3fARB: usize = 833;
+    pub const glUniform3fv: usize = 834;
+    pub const glUniform3fvARB: usize = 835;
+    pub const glUniform3i: usize = 836;
+    pub const glUniform3iARB: usize = 837;
+    pub const glUniform3iv: usize = 838;
+    pub const glUniform3ivARB: usize = 839;
+    pub const glUniform3ui: usize = 840;
+    pub const glUniform3uiEXT: usize = 841;
+    pub const glUniform3uiv: usize = 842;
+    pub const glUniform3uivEXT: usize = 843;
+    pub const glUniform4d: usize = 844;
+    pub const glUniform4dv: usize = 845;
+    pub const glUniform4f: usize = 846;
+    pub const glUniform4fARB: usize = 847;
+    pub const glUniform4fv: usize = 848;
+    pub const glUniform4fvARB: usize = 849;
+    pub const glUniform4i: usize = 850;
+    pub const glUniform4iARB: usize = 851;
+    pub const glUniform4iv: usize = 852;
+    pub const glUniform4ivARB: usize = 853;
+    pub const glUniform4ui: usize = 854;
+    pub const glUniform4uiEXT: usize = 855;
+    pub const glUniform4uiv: usize = 856;
+    pub const glUniform4uivEXT: usize = 857;
+    pub const glUniformMatrix2dv: usize = 858;
+    pub const glUniformMatrix2fv: usize = 859;
+    pub const glUniformMatrix2fvARB: usize = 860;
+    pub const glUniformMatrix2x3dv: usize = 861;
+    pub const glUniformMatrix2x3fv: usize = 862;
+    pub const glUniformMatrix2x3fvNV: usize = 863;
+    pub const glUniformMatrix2x4dv: usize = 864;
+    pub const glUniformMatrix2x4fv: usize = 865;
+    pub const glUniformMatrix2x4fvNV: usize = 866;
+    pub const glUniformMatrix3dv: usize = 867;
+    pub const glUniformMatrix3fv: usize = 868;
+    pub const glUniformMatrix3fvARB: usize = 869;
+    pub const glUniformMatrix3x2dv: usize = 870;
+    pub const glUniformMatrix3x2fv: usize = 871;
+    pub const glUniformMatrix3x2fvNV: usize = 872;
+    pub const glUniformMatrix3x4dv: usize = 873;
+    pub const glUniformMatrix3x4fv: usize = 874;
+    pub const glUniformMatrix3x4fvNV: usize = 875;
+    pub const glUniformMatrix4dv: usize = 876;
+    pub const glUniformMatrix4fv: usize = 877;
+    pub const glUniformMatrix4fvARB: usize = 878;
+    pub const glUniformMatrix4x2dv: usize = 879;
+    pub const glUniformMatrix4x2fv: usize = 880;
+    pub const glUniformMatrix4x2fvNV: usize = 881;
+    pub const glUniformMatrix4x3dv: usize = 882;
+    pub const glUniformMatrix4x3fv: usize = 883;
+    pub const glUniformMatrix4x3fvNV: usize = 884;
+    pub const glGenerateMipmap: usize = 885;
+    pub const glGenerateMipmapEXT: usize = 886;
+    pub const glClear: usize = 887;
+    pub const glClearBufferfi: usize = 888;
+    pub const glClearBufferfv: usize = 889;
+    pub const glClearBufferiv: usize = 890;
+    pub const glClearBufferuiv: usize = 891;
+    pub const glDrawArrays: usize = 892;
+    pub const glDrawArraysEXT: usize = 893;
+    pub const glDrawElements: usize = 894;
+    pub const glDrawRangeElements: usize = 895;
+    pub const glDrawRangeElementsEXT: usize = 896;
+    pub const glMultiDrawArrays: usize = 897;
+    pub const glMultiDrawArraysEXT: usize = 898;
+    pub const glMultiDrawElements: usize = 899;
+    pub const glMultiDrawElementsEXT: usize = 900;
+    pub const glDrawElementsBaseVertex: usize = 901;
+    pub const glDrawElementsBaseVertexEXT: usize = 902;
+    pub const glDrawElementsBaseVertexOES: usize = 903;
+    pub const glDrawRangeElementsBaseVertex: usize = 904;
+    pub const glDrawRangeElementsBaseVertexEXT: usize = 905;
+    pub const glDrawRangeElementsBaseVertexOES: usize = 906;
+    pub const glMultiDrawElementsBaseVertex: usize = 907;
+    pub const glMultiDrawElementsBaseVertexEXT: usize = 908;
+    pub const glDrawArraysInstanced: usize = 909;
+    pub const glDrawArraysInstancedANGLE: usize = 910;
+    pub const glDrawArraysInstancedARB: usize = 911;
+    pub const glDrawArraysInstancedEXT: usize = 912;
+    pub const glDrawArraysInstancedNV: usize = 913;
+    pub const glDrawElementsInstanced: usize = 914;
+    pub const glDrawElementsInstancedANGLE: usize = 915;
+    pub const glDrawElementsInstancedARB: usize = 916;
+    pub const glDrawElementsInstancedEXT: usize = 917;
+    pub const glDrawElementsInstancedNV: usize = 918;
+    pub const glDrawElementsInstancedBaseVertex: usize = 919;
+    pub const glDrawElementsInstancedBaseVertexEXT: usize = 920;
+    pub const glDrawElementsInstancedBaseVertexOES: usize = 921;
+    pub const glDrawArraysInstancedBaseInstance: usize = 922;
+    pub const glDrawArraysInstancedBaseInstanceEXT: usize = 923;
+    pub const glDrawElementsInstancedBaseInstance: usize = 924;
+    pub const glDrawElementsInstancedBaseInstanceEXT: usize = 925;
+    pub const glDrawElementsInstancedBaseVertexBaseInstance: usize = 926;
+    pub const glDrawElementsInstancedBaseVertexBaseInstanceEXT: usize = 927;
+    pub const glDrawArraysIndirect: usize = 928;
+    pub const glDrawElementsIndirect: usize = 929;
+    pub const glMultiDrawArraysIndirect: usize = 930;
+    pub const glMultiDrawArraysIndirectAMD: usize = 931;
+    pub const glMultiDrawArraysIndirectEXT: usize = 932;
+    pub const glMultiDrawElementsIndirect: usize = 933;
+    pub const glMultiDrawElementsIndirectAMD: usize = 934;
+    pub const glMultiDrawElementsIndirectEXT: usize = 935;
+    pub const glDrawTransformFeedback: usize = 936;
+    pub const glDrawTransformFeedbackEXT: usize = 937;
+    pub const glDrawTransformFeedbackNV: usize = 938;
+    pub const glDrawTransformFeedbackInstanced: usize = 939;
+    pub const glDrawTransformFeedbackInstancedEXT: usize = 940;
+    pub const glDrawTransformFeedbackStream: usize = 941;
+    pub const glDrawTransformFeedbackStreamInstanced: usize = 942;
+    pub const glRectd: usize = 943;
+    pub const glRectdv: usize = 944;
+    pub const glRectf: usize = 945;
+    pub const glRectfv: usize = 946;
+    pub const glRecti: usize = 947;
+    pub const glRectiv: usize = 948;
+    pub const glRects: usize = 949;
+    pub const glRectsv: usize = 950;
+    pub const glEvalMesh1: usize = 951;
+    pub const glEvalMesh2: usize = 952;
+    pub const glAccum: usize = 953;
+    pub const glBitmap: usize = 954;
+    pub const glDrawPixels: usize = 955;
+    pub const glCopyPixels: usize = 956;
+    pub const glNewList: usize = 957;
+    pub const glEndList: usize = 958;
+    pub const glCallList: usize = 959;
+    pub const glCallLists: usize = 960;
+    pub const glDeleteLists: usize = 961;
+    pub const glBindTexture: usize = 962;
+    pub const glBindTextureEXT: usize = 963;
+    pub const glDeleteTextures: usize = 964;
+    pub const glBindFramebuffer: usize = 965;
+    pub const glBindFramebufferEXT: usize = 966;
+    pub const glDeleteFramebuffers: usize = 967;
+    pub const glDeleteFramebuffersEXT: usize = 968;
+    pub const glDrawBuffer: usize = 969;
+    pub const glDrawBuffers: usize = 970;
+    pub const glDrawBuffersARB: usize = 971;
+    pub const glDrawBuffersATI: usize = 972;
+    pub const glDrawBuffersEXT: usize = 973;
+    pub const glReadBuffer: usize = 974;
+    pub const glNamedFramebufferDrawBuffer: usize = 975;
+    pub const glNamedFramebufferDrawBuffers: usize = 976;
+    pub const glNamedFramebufferReadBuffer: usize = 977;
+    pub const glFramebufferDrawBufferEXT: usize = 978;
+    pub const glFramebufferDrawBuffersEXT: usize = 979;
+    pub const glFramebufferReadBufferEXT: usize = 980;
+    pub const glBlitFramebuffer: usize = 981;
+    pub const glBlitFramebufferEXT: usize = 982;
+    pub const glBlitFramebufferNV: usize = 983;
+    pub const glBlitNamedFramebuffer: usize = 984;
+    pub const glClearNamedFramebufferfv: usize = 985;
+    pub const glClearNamedFramebufferiv: usize = 986;
+    pub const glClearNamedFramebufferuiv: usize = 987;
+    pub const glClearNamedFramebufferfi: usize = 988;
+    pub const glGetIntegerv: usize = 989;
+    pub const glGetBooleanv: usize = 990;
+    pub const glGetFloatv: usize = 991;
+    pub const glGetDoublev: usize = 992;
+    pub const glGetInteger64v: usize = 993;
+    pub const glGetInteger64vAPPLE: usize = 994;
+    pub const glGetInteger64vEXT: usize = 995;
+    pub const glFramebufferTexture: usize = 996;
+    pub const glFramebufferTextureARB: usize = 997;
+    pub const glFramebufferTextureEXT: usize = 998;
+    pub const glFramebufferTextureOES: usize = 999;
+    pub const glFramebufferTexture1D: usize = 1000;
+    pub const glFramebufferTexture1DEXT: usize = 1001;
+    pub const glFramebufferTexture2D: usize = 1002;
+    pub const glFramebufferTexture2DEXT: usize = 1003;
+    pub const glFramebufferTexture3D: usize = 1004;
+    pub const glFramebufferTexture3DEXT: usize = 1005;
+    pub const glFramebufferTextureLayer: usize = 1006;
+    pub const glFramebufferTextureLayerARB: usize = 1007;
+    pub const glFramebufferTextureLayerEXT: usize = 1008;
+    pub const glFramebufferRenderbuffer: usize = 1009;
+    pub const glFramebufferRenderbufferEXT: usize = 1010;
+    pub const glGetFramebufferAttachmentParameteriv: usize = 1011;
+    pub const glGetFramebufferAttachmentParameterivEXT: usize = 1012;
+    pub const glCheckFramebufferStatus: usize = 1013;
+    pub const glCheckFramebufferStatusEXT: usize = 1014;
+    pub const glFramebufferParameteri: usize = 1015;
+    pub const glGetFramebufferParameteriv: usize = 1016;
+    pub const glInvalidateFramebuffer: usize = 1017;
+    pub const glInvalidateSubFramebuffer: usize = 1018;
+    pub const glDiscardFramebufferEXT: usize = 1019;
+    pub const glReadPixels: usize = 1020;
+    pub const glReadnPixels: usize = 1021;
+    pub const glReadnPixelsARB: usize = 1022;
+    pub const glReadnPixelsEXT: usize = 1023;
+    pub const glReadnPixelsKHR: usize = 1024;
+    pub const glCopyTexImage1D: usize = 1025;
+    pub const glCopyTexImage1DEXT: usize = 1026;
+    pub const glCopyTexImage2D: usize = 1027;
+    pub const glCopyTexImage2DEXT: usize = 1028;
+    pub const glCopyTexSubImage1D: usize = 1029;
+    pub const glCopyTexSubImage1DEXT: usize = 1030;
+    pub const glCopyTexSubImage2D: usize = 1031;
+    pub const glCopyTexSubImage2DEXT: usize = 1032;
+    pub const glCopyTexSubImage3D: usize = 1033;
+    pub const glCopyTexSubImage3DEXT: usize = 1034;
+    pub const glCopyTextureSubImage1D: usize = 1035;
+    pub const glCopyTextureSubImage2D: usize = 1036;
+    pub const glCopyTextureSubImage3D: usize = 1037;
+    pub const glCopyMultiTexImage1DEXT: usize = 1038;
+    pub const glCopyMultiTexImage2DEXT: usize = 1039;
+    pub const glCopyTextureImage1DEXT: usize = 1040;
+    pub const glCopyTextureImage2DEXT: usize = 1041;
+    pub const glCopyColorTable: usize = 1042;
+    pub const glCopyColorTableSGI: usize = 1043;
+    pub const glCopyConvolutionFilter1D: usize = 1044;
+    pub const glCopyConvolutionFilter1DEXT: usize = 1045;
+    pub const glCopyConvolutionFilter2D: usize = 1046;
+    pub const glCopyConvolutionFilter2DEXT: usize = 1047;
+    pub const glFinish: usize = 1048;
+    pub const glFlush: usize = 1049;
+    pub const glGetError: usize = 1050;
+    pub const glXSwapBuffers: usize = 1051;
+    pub const glXSwapBuffersMscOML: usize = 1052;
+    pub const glXMakeCurrent: usize = 1053;
+    pub const glXMakeContextCurrent: usize = 1054;
+    pub const glXMakeCurrentReadSGI: usize = 1055;
+    pub const glXCreateContext: usize = 1056;
+    pub const glXCreateNewContext: usize = 1057;
+    pub const glXCreateContextAttribsARB: usize = 1058;
+    pub const glXCreateContextWithConfigSGIX: usize = 1059;
+    pub const glXDestroyContext: usize = 1060;
+    pub const glXGetProcAddress: usize = 1061;
+    pub const glXGetProcAddressARB: usize = 1062;
+    pub const glXQueryDrawable: usize = 1063;
+    pub const eglSwapBuffers: usize = 1064;
+    pub const eglSwapBuffersWithDamageKHR: usize = 1065;
+    pub const eglSwapBuffersWithDamageEXT: usize = 1066;
+    pub const eglMakeCurrent: usize = 1067;
+    pub const eglCreateContext: usize = 1068;
+    pub const eglDestroyContext: usize = 1069;
+    pub const eglReleaseThread: usize = 1070;
+    pub const eglGetProcAddress: usize = 1071;
+    pub const eglQuerySurface: usize = 1072;
+    pub const eglQueryContext: usize = 1073;
+    pub const eglGetCurrentContext: usize = 1074;
+    pub const glXGetCurrentContext: usize = 1075;
+    pub const OSMesaMakeCurrent: usize = 1076;
+    pub const OSMesaCreateContext: usize = 1077;
+    pub const OSMesaCreateContextExt: usize = 1078;
+    pub const OSMesaCreateContextAttribs: usize = 1079;
+    pub const OSMesaDestroyContext: usize = 1080;
+    pub const OSMesaGetProcAddress: usize = 1081;
+    pub const glIsList: usize = 1082;
+    pub const glGetString: usize = 1083;
+    pub const glGetStringi: usize = 1084;
+    pub const glIsEnabled: usize = 1085;
+    pub const glIsEnabledi: usize = 1086;
+    pub const glGetIntegeri_v: usize = 1087;
+    pub const glGetTexGeniv: usize = 1088;
+    pub const glGetTexGenfv: usize = 1089;
+    pub const glGetTexEnviv: usize = 1090;
+    pub const glGetLightfv: usize = 1091;
+    pub const glGetTexParameteriv: usize = 1092;
+    pub const glGetMaterialfv: usize = 1093;
+    pub const glGenTextures: usize = 1094;
+    pub const glIsTexture: usize = 1095;
+    pub const glTexImage2DMultisample: usize = 1096;
+    pub const glTexImage3DMultisample: usize = 1097;
+    pub const glGenFramebuffers: usize = 1098;
+    pub const glGenRenderbuffers: usize = 1099;
+    pub const glBindRenderbuffer: usize = 1100;
+    pub const glRenderbufferStorage: usize = 1101;
+    pub const glRenderbufferStorageMultisample: usize = 1102;
+    pub const glDeleteRenderbuffers: usize = 1103;
+    pub const glIsFramebuffer: usize = 1104;
+    pub const glCreateShader: usize = 1105;
+    pub const glShaderSource: usize = 1106;
+    pub const glCompileShader: usize = 1107;
+    pub const glGetShaderiv: usize = 1108;
+    pub const glGetShaderInfoLog: usize = 1109;
+    pub const glCreateProgram: usize = 1110;
+    pub const glAttachShader: usize = 1111;
+    pub const glLinkProgram: usize = 1112;
+    pub const glGetProgramiv: usize = 1113;
+    pub const glGetProgramInfoLog: usize = 1114;
+    pub const glDeleteShader: usize = 1115;
+    pub const glDeleteProgram: usize = 1116;
+    pub const glGetUniformLocation: usize = 1117;
+    pub const glGetUniformBlockIndex: usize = 1118;
+    pub const glUniformBlockBinding: usize = 1119;
+    pub const glBindBufferBase: usize = 1120;
+    pub const glBindBufferRange: usize = 1121;
+    pub const glGenBuffers: usize = 1122;
+    pub const glBindBuffer: usize = 1123;
+    pub const glBufferData: usize = 1124;
+    pub const glBufferSubData: usize = 1125;
+    pub const glDeleteBuffers: usize = 1126;
+    pub const glBindAttribLocation: usize = 1127;
+    pub const glProgramParameteri: usize = 1128;
+    pub const glGenVertexArrays: usize = 1129;
+    pub const glBindVertexArray: usize = 1130;
+    pub const glGenSamplers: usize = 1131;
+    pub const glBindSampler: usize = 1132;
+    pub const glPixelStorei: usize = 1133;
 }
 
 /// Name of each command.
@@ -1341,6 +1624,7 @@ pub static NAMES: [&CStr; COUNT] = [
     c"glTranslatef",
     c"glFrustum",
     c"glOrtho",
+    c"glPushMatrix",
     c"glPopMatrix",
     c"glMatrixLoaddEXT",
     c"glMatrixLoadfEXT",
@@ -1445,7 +1729,80 @@ pub static NAMES: [&CStr; COUNT] = [
     c"glUseProgram",
     c"glUseProgramObjectARB",
     c"glBindProgramPipeline",
+    c"glPushAttrib",
     c"glPopAttrib",
+    c"glRasterPos2d",
+    c"glRasterPos2dv",
+    c"glRasterPos2f",
+    c"glRasterPos2fv",
+    c"glRasterPos2i",
+    c"glRasterPos2iv",
+    c"glRasterPos2s",
+    c"glRasterPos2sv",
+    c"glRasterPos3d",
+    c"glRasterPos3dv",
+    c"glRasterPos3f",
+    c"glRasterPos3fv",
+    c"glRasterPos3i",
+    c"glRasterPos3iv",
+    c"glRasterPos3s",
+    c"glRasterPos3sv",
+    c"glRasterPos4d",
+    c"glRasterPos4dv",
+    c"glRasterPos4f",
+    c"glRasterPos4fv",
+    c"glRasterPos4i",
+    c"glRasterPos4iv",
+    c"glRasterPos4s",
+    c"glRasterPos4sv",
+    c"glWindowPos2d",
+    c"glWindowPos2dARB",
+    c"glWindowPos2dMESA",
+    c"glWindowPos2dv",
+    c"glWindowPos2dvARB",
+    c"glWindowPos2dvMESA",
+    c"glWindowPos2f",
+    c"glWindowPos2fARB",
+    c"glWindowPos2fMESA",
+    c"glWindowPos2fv",
+    c"glWindowPos2fvARB",
+    c"glWindowPos2fvMESA",
+    c"glWindowPos2i",
+    c"glWindowPos2iARB",
+    c"glWindowPos2iMESA",
+    c"glWindowPos2iv",
+    c"glWindowPos2ivARB",
+    c"glWindowPos2ivMESA",
+    c"glWindowPos2s",
+    c"glWindowPos2sARB",
+    c"glWindowPos2sMESA",
+    c"glWindowPos2sv",
+    c"glWindowPos2svARB",
+    c"glWindowPos2svMESA",
+    c"glWindowPos3d",
+    c"glWindowPos3dARB",
+    c"glWindowPos3dMESA",
+    c"glWindowPos3dv",
+    c"glWindowPos3dvARB",
+    c"glWindowPos3dvMESA",
+    c"glWindowPos3f",
+    c"glWindowPos3fARB",
+    c"glWindowPos3fMESA",
+    c"glWindowPos3fv",
+    c"glWindowPos3fvARB",
+    c"glWindowPos3fvMESA",
+    c"glWindowPos3i",
+    c"glWindowPos3iARB",
+    c"glWindowPos3iMESA",
+    c"glWindowPos3iv",
+    c"glWindowPos3ivARB",
+    c"glWindowPos3ivMESA",
+    c"glWindowPos3s",
+    c"glWindowPos3sARB",
+    c"glWindowPos3sMESA",
+    c"glWindowPos3sv",
+    c"glWindowPos3svARB",
+    c"glWindowPos3svMESA",
     c"glRenderMode",
     c"glBeginTransformFeedback",
     c"glBeginTransformFeedbackEXT",
@@ -1453,6 +1810,229 @@ pub static NAMES: [&CStr; COUNT] = [
     c"glEndTransformFeedback",
     c"glEndTransformFeedbackEXT",
     c"glEndTransformFeedbackNV",
+    c"glAlphaFunc",
+    c"glBlendFunc",
+    c"glBlendFuncSeparate",
+    c"glBlendFuncSeparateEXT",
+    c"glBlendFuncSeparateINGR",
+    c"glBlendFuncSeparatei",
+    c"glBlendFuncSeparateIndexedAMD",
+    c"glBlendFuncSeparateiARB",
+    c"glBlendFuncSeparateiEXT",
+    c"glBlendFuncSeparateiOES",
+    c"glBlendFunci",
+    c"glBlendFuncIndexedAMD",
+    c"glBlendFunciARB",
+    c"glBlendFunciEXT",
+    c"glBlendFunciOES",
+    c"glBlendEquation",
+    c"glBlendEquationEXT",
+    c"glBlendEquationSeparate",
+    c"glBlendEquationSeparateEXT",
+    c"glBlendEquationSeparatei",
+    c"glBlendEquationSeparateIndexedAMD",
+    c"glBlendEquationSeparateiARB",
+    c"glBlendEquationSeparateiEXT",
+    c"glBlendEquationSeparateiOES",
+    c"glBlendEquationi",
+    c"glBlendEquationIndexedAMD",
+    c"glBlendEquationiARB",
+    c"glBlendEquationiEXT",
+    c"glBlendEquationiOES",
+    c"glBlendColor",
+    c"glBlendColorEXT",
+    c"glClearAccum",
+    c"glClearColor",
+    c"glClearDepth",
+    c"glClearDepthf",
+    c"glClearDepthfOES",
+    c"glClearIndex",
+    c"glClearStencil",
+    c"glClipPlane",
+    c"glColorMask",
+    c"glColorMaski",
+    c"glColorMaskIndexedEXT",
+    c"glColorMaskiEXT",
+    c"glColorMaskiOES",
+    c"glCullFace",
+    c"glDepthFunc",
+    c"glDepthMask",
+    c"glDepthRange",
+    c"glDepthRangef",
+    c"glDepthRangefOES",
+    c"glDepthRangeIndexed",
+    c"glDepthRangeArrayv",
+    c"glDepthBoundsEXT",
+    c"glFrontFace",
+    c"glIndexMask",
+    c"glInitNames",
+    c"glLoadName",
+    c"glPushName",
+    c"glPopName",
+    c"glPassThrough",
+    c"glLineStipple",
+    c"glListBase",
+    c"glLogicOp",
+    c"glMap1d",
+    c"glMap1f",
+    c"glMap2d",
+    c"glMap2f",
+    c"glMapGrid1d",
+    c"glMapGrid1f",
+    c"glMapGrid2d",
+    c"glMapGrid2f",
+    c"glPixelMapfv",
+    c"glPixelMapuiv",
+    c"glPixelMapusv",
+    c"glPixelTransferf",
+    c"glPixelTransferi",
+    c"glPixelZoom",
+    c"glPolygonOffset",
+    c"glPolygonOffsetClamp",
+    c"glPolygonOffsetClampEXT",
+    c"glPolygonStipple",
+    c"glPrioritizeTextures",
+    c"glPrioritizeTexturesEXT",
+    c"glSampleCoverage",
+    c"glSampleCoverageARB",
+    c"glMinSampleShading",
+    c"glMinSampleShadingARB",
+    c"glMinSampleShadingOES",
+    c"glStencilFunc",
+    c"glStencilFuncSeparate",
+    c"glStencilMask",
+    c"glStencilMaskSeparate",
+    c"glStencilOp",
+    c"glStencilOpSeparate",
+    c"glStencilOpSeparateATI",
+    c"glPrimitiveRestartIndex",
+    c"glTexImage1D",
+    c"glTexImage2D",
+    c"glTexImage3D",
+    c"glTexImage3DEXT",
+    c"glTexSubImage1D",
+    c"glTexSubImage1DEXT",
+    c"glTexSubImage2D",
+    c"glTexSubImage2DEXT",
+    c"glTexSubImage3D",
+    c"glTexSubImage3DEXT",
+    c"glCompressedTexImage1D",
+    c"glCompressedTexImage1DARB",
+    c"glCompressedTexImage2D",
+    c"glCompressedTexImage2DARB",
+    c"glCompressedTexImage3D",
+    c"glCompressedTexImage3DARB",
+    c"glCompressedTexSubImage1D",
+    c"glCompressedTexSubImage1DARB",
+    c"glCompressedTexSubImage2D",
+    c"glCompressedTexSubImage2DARB",
+    c"glCompressedTexSubImage3D",
+    c"glCompressedTexSubImage3DARB",
+    c"glTexParameterf",
+    c"glTexParameterfv",
+    c"glTexParameteri",
+    c"glTexParameteriv",
+    c"glTexParameterIiv",
+    c"glTexParameterIivEXT",
+    c"glTexParameterIivOES",
+    c"glTexParameterIuiv",
+    c"glTexParameterIuivEXT",
+    c"glTexParameterIuivOES",
+    c"glActiveTexture",
+    c"glActiveTextureARB",
+    c"glProgramEnvParameter4dARB",
+    c"glProgramEnvParameter4dvARB",
+    c"glProgramEnvParameter4fARB",
+    c"glProgramEnvParameter4fvARB",
+    c"glProgramLocalParameter4dARB",
+    c"glProgramLocalParameter4dvARB",
+    c"glProgramLocalParameter4fARB",
+    c"glProgramLocalParameter4fvARB",
+    c"glUniform1d",
+    c"glUniform1dv",
+    c"glUniform1f",
+    c"glUniform1fARB",
+    c"glUniform1fv",
+    c"glUniform1fvARB",
+    c"glUniform1i",
+    c"glUniform1iARB",
+    c"glUniform1iv",
+    c"glUniform1ivARB",
+    c"glUniform1ui",
+    c"glUniform1uiEXT",
+    c"glUniform1uiv",
+    c"glUniform1uivEXT",
+    c"glUniform2d",
+    c"glUniform2dv",
+    c"glUniform2f",
+    c"glUniform2fARB",
+    c"glUniform2fv",
+    c"glUniform2fvARB",
+    c"glUniform2i",
+    c"glUniform2iARB",
+    c"glUniform2iv",
+    c"glUniform2ivARB",
+    c"glUniform2ui",
+    c"glUniform2uiEXT",
+    c"glUniform2uiv",
+    c"glUniform2uivEXT",
+    c"glUniform3d",
+    c"glUniform3dv",
+    c"glUniform3f",
+    c"glUniform3fARB",
+    c"glUniform3fv",
+    c"glUniform3fvARB",
+    c"glUniform3i",
+    c"glUniform3iARB",
+    c"glUniform3iv",
+    c"glUniform3ivARB",
+    c"glUniform3ui",
+    c"glUniform3uiEXT",
+    c"glUniform3uiv",
+    c"glUniform3uivEXT",
+    c"glUniform4d",
+    c"glUniform4dv",
+    c"glUniform4f",
+    c"glUniform4fARB",
+    c"glUniform4fv",
+    c"glUniform4fvARB",
+    c"glUniform4i",
+    c"glUniform4iARB",
+    c"glUniform4iv",
+    c"glUniform4ivARB",
+    c"glUniform4ui",
+    c"glUniform4uiEXT",
+    c"glUniform4uiv",
+    c"glUniform4uivEXT",
+    c"glUniformMatrix2dv",
+    c"glUniformMatrix2fv",
+    c"glUniformMatrix2fvARB",
+    c"glUniformMatrix2x3dv",
+    c"glUniformMatrix2x3fv",
+    c"glUniformMatrix2x3fvNV",
+    c"glUniformMatrix2x4dv",
+    c"glUniformMatrix2x4fv",
+    c"glUniformMatrix2x4fvNV",
+    c"glUniformMatrix3dv",
+    c"glUniformMatrix3fv",
+    c"glUniformMatrix3fvARB",
+    c"glUniformMatrix3x2dv",
+    c"glUniformMatrix3x2fv",
+    c"glUniformMatrix3x2fvNV",
+    c"glUniformMatrix3x4dv",
+    c"glUniformMatrix3x4fv",
+    c"glUniformMatrix3x4fvNV",
+    c"glUniformMatrix4dv",
+    c"glUniformMatrix4fv",
+    c"glUniformMatrix4fvARB",
+    c"glUniformMatrix4x2dv",
+    c"glUniformMatrix4x2fv",
+    c"glUniformMatrix4x2fvNV",
+    c"glUniformMatrix4x3dv",
+    c"glUniformMatrix4x3fv",
+    c"glUniformMatrix4x3fvNV",
+    c"glGenerateMipmap",
+    c"glGenerateMipmapEXT",
     c"glClear",
     c"glClearBufferfi",
     c"glClearBufferfv",
@@ -1527,6 +2107,7 @@ pub static NAMES: [&CStr; COUNT] = [
     c"glEndList",
     c"glCallList",
     c"glCallLists",
+    c"glDeleteLists",
     c"glBindTexture",
     c"glBindTextureEXT",
     c"glDeleteTextures",
@@ -1621,6 +2202,10 @@ pub static NAMES: [&CStr; COUNT] = [
     c"glXMakeCurrent",
     c"glXMakeContextCurrent",
     c"glXMakeCurrentReadSGI",
+    c"glXCreateContext",
+    c"glXCreateNewContext",
+    c"glXCreateContextAttribsARB",
+    c"glXCreateContextWithConfigSGIX",
     c"glXDestroyContext",
     c"glXGetProcAddress",
     c"glXGetProcAddressARB",
@@ -1629,6 +2214,7 @@ pub static NAMES: [&CStr; COUNT] = [
     c"eglSwapBuffersWithDamageKHR",
     c"eglSwapBuffersWithDamageEXT",
     c"eglMakeCurrent",
+    c"eglCreateContext",
     c"eglDestroyContext",
     c"eglReleaseThread",
     c"eglGetProcAddress",
@@ -1637,8 +2223,12 @@ pub static NAMES: [&CStr; COUNT] = [
     c"eglGetCurrentContext",
     c"glXGetCurrentContext",
     c"OSMesaMakeCurrent",
+    c"OSMesaCreateContext",
+    c"OSMesaCreateContextExt",
+    c"OSMesaCreateContextAttribs",
     c"OSMesaDestroyContext",
     c"OSMesaGetProcAddress",
+    c"glIsList",
     c"glGetString",
     c"glGetStringi",
     c"glIsEnabled",
@@ -1649,14 +2239,8 @@ pub static NAMES: [&CStr; COUNT] = [
     c"glGetTexEnviv",
     c"glGetLightfv",
     c"glGetTexParameteriv",
-    c"glPushAttrib",
-    c"glPushMatrix",
     c"glGetMaterialfv",
     c"glGenTextures",
-    c"glActiveTexture",
-    c"glTexImage2D",
-    c"glTexImage3D",
-    c"glTexParameteri",
     c"glIsTexture",
     c"glTexImage2DMultisample",
     c"glTexImage3DMultisample",
@@ -1680,12 +2264,6 @@ pub static NAMES: [&CStr; COUNT] = [
     c"glDeleteShader",
     c"glDeleteProgram",
     c"glGetUniformLocation",
-    c"glUniform1i",
-    c"glUniform4f",
-    c"glUniform4fv",
-    c"glUniform4i",
-    c"glUniform1ui",
-    c"glUniform2ui",
     c"glGetUniformBlockIndex",
     c"glUniformBlockBinding",
     c"glBindBufferBase",
@@ -1702,18 +2280,6 @@ pub static NAMES: [&CStr; COUNT] = [
     c"glGenSamplers",
     c"glBindSampler",
     c"glPixelStorei",
-    c"glColorMask",
-    c"glColorMaski",
-    c"glDepthRange",
-    c"glDepthFunc",
-    c"glDepthMask",
-    c"glStencilMask",
-    c"glBlendColor",
-    c"glWindowPos2i",
-    c"glRasterPos2f",
-    c"glClearColor",
-    c"glPixelZoom",
-    c"glPixelTransferf",
 ];
 
 real_functions! {
@@ -2195,6 +2761,7 @@ real_functions! {
     glTranslatef(x: f32, y: f32, z: f32);
     glFrustum(left: f64, right: f64, bottom: f64, top: f64, zNear: f64, zFar: f64);
     glOrtho(left: f64, right: f64, bottom: f64, top: f64, zNear: f64, zFar: f64);
+    glPushMatrix();
     glPopMatrix();
     glMatrixLoaddEXT(mode: u32, m: Ptr);
     glMatrixLoadfEXT(mode: u32, m: Ptr);
@@ -2299,7 +2866,80 @@ real_functions! {
     glUseProgram(program: u32);
     glUseProgramObjectARB(programObj: u32);
     glBindProgramPipeline(pipeline: u32);
+    glPushAttrib(mask: u32);
     glPopAttrib();
+    glRasterPos2d(x: f64, y: f64);
+    glRasterPos2dv(v: Ptr);
+    glRasterPos2f(x: f32, y: f32);
+    glRasterPos2fv(v: Ptr);
+    glRasterPos2i(x: i32, y: i32);
+    glRasterPos2iv(v: Ptr);
+    glRasterPos2s(x: i16, y: i16);
+    glRasterPos2sv(v: Ptr);
+    glRasterPos3d(x: f64, y: f64, z: f64);
+    glRasterPos3dv(v: Ptr);
+    glRasterPos3f(x: f32, y: f32, z: f32);
+    glRasterPos3fv(v: Ptr);
+    glRasterPos3i(x: i32, y: i32, z: i32);
+    glRasterPos3iv(v: Ptr);
+    glRasterPos3s(x: i16, y: i16, z: i16);
+    glRasterPos3sv(v: Ptr);
+    glRasterPos4d(x: f64, y: f64, z: f64, w: f64);
+    glRasterPos4dv(v: Ptr);
+    glRasterPos4f(x: f32, y: f32, z: f32, w: f32);
+    glRasterPos4fv(v: Ptr);
+    glRasterPos4i(x: i32, y: i32, z: i32, w: i32);
+    glRasterPos4iv(v: Ptr);
+    glRasterPos4s(x: i16, y: i16, z: i16, w: i16);
+    glRasterPos4sv(v: Ptr);
+    glWindowPos2d(x: f64, y: f64);
+    glWindowPos2dARB(x: f64, y: f64);
+    glWindowPos2dMESA(x: f64, y: f64);
+    glWindowPos2dv(v: Ptr);
+    glWindowPos2dvARB(v: Ptr);
+    glWindowPos2dvMESA(v: Ptr);
+    glWindowPos2f(x: f32, y: f32);
+    glWindowPos2fARB(x: f32, y: f32);
+    glWindowPos2fMESA(x: f32, y: f32);
+    glWindowPos2fv(v: Ptr);
+    glWindowPos2fvARB(v: Ptr);
+    glWindowPos2fvMESA(v: Ptr);
+    glWindowPos2i(x: i32, y: i32);
+    glWindowPos2iARB(x: i32, y: i32);
+    glWindowPos2iMESA(x: i32, y: i32);
+    glWindowPos2iv(v: Ptr);
+    glWindowPos2ivARB(v: Ptr);
+    glWindowPos2ivMESA(v: Ptr);
+    glWindowPos2s(x: i16, y: i16);
+    glWindowPos2sARB(x: i16, y: i16);
+    glWindowPos2sMESA(x: i16, y: i16);
+    glWindowPos2sv(v: Ptr);
+    glWindowPos2svARB(v: Ptr);
+    glWindowPos2svMESA(v: Ptr);
+    glWindowPos3d(x: f64, y: f64, z: f64);
+    glWindowPos3dARB(x: f64, y: f64, z: f64);
+    glWindowPos3dMESA(x: f64, y: f64, z: f64);
+    glWindowPos3dv(v: Ptr);
+    glWindowPos3dvARB(v: Ptr);
+    glWindowPos3dvMESA(v: Ptr);
+    glWindowPos3f(x: f32, y: f32, z: f32);
+    glWindowPos3fARB(x: f32, y: f32, z: f32);
+    glWindowPos3fMESA(x: f32, y: f32, z: f32);
+    glWindowPos3fv(v: Ptr);
+    glWindowPos3fvARB(v: Ptr);
+    glWindowPos3fvMESA(v: Ptr);
+    glWindowPos3i(x: i32, y: i32, z: i32);
+    glWindowPos3iARB(x: i32, y: i32, z: i32);
+    glWindowPos3iMESA(x: i32, y: i32, z: i32);
+    glWindowPos3iv(v: Ptr);
+    glWindowPos3ivARB(v: Ptr);
+    glWindowPos3ivMESA(v: Ptr);
+    glWindowPos3s(x: i16, y: i16, z: i16);
+    glWindowPos3sARB(x: i16, y: i16, z: i16);
+    glWindowPos3sMESA(x: i16, y: i16, z: i16);
+    glWindowPos3sv(v: Ptr);
+    glWindowPos3svARB(v: Ptr);
+    glWindowPos3svMESA(v: Ptr);
     glRenderMode(mode: u32) -> i32 = 0;
     glBeginTransformFeedback(primitiveMode: u32);
     glBeginTransformFeedbackEXT(primitiveMode: u32);
@@ -2307,6 +2947,229 @@ real_functions! {
     glEndTransformFeedback();
     glEndTransformFeedbackEXT();
     glEndTransformFeedbackNV();
+    glAlphaFunc(func: u32, ref_: f32);
+    glBlendFunc(sfactor: u32, dfactor: u32);
+    glBlendFuncSeparate(sfactorRGB: u32, dfactorRGB: u32, sfactorAlpha: u32, dfactorAlpha: u32);
+    glBlendFuncSeparateEXT(sfactorRGB: u32, dfactorRGB: u32, sfactorAlpha: u32, dfactorAlpha: u32);
+    glBlendFuncSeparateINGR(sfactorRGB: u32, dfactorRGB: u32, sfactorAlpha: u32, dfactorAlpha: u32);
+    glBlendFuncSeparatei(buf: u32, srcRGB: u32, dstRGB: u32, srcAlpha: u32, dstAlpha: u32);
+    glBlendFuncSeparateIndexedAMD(buf: u32, srcRGB: u32, dstRGB: u32, srcAlpha: u32, dstAlpha: u32);
+    glBlendFuncSeparateiARB(buf: u32, srcRGB: u32, dstRGB: u32, srcAlpha: u32, dstAlpha: u32);
+    glBlendFuncSeparateiEXT(buf: u32, srcRGB: u32, dstRGB: u32, srcAlpha: u32, dstAlpha: u32);
+    glBlendFuncSeparateiOES(buf: u32, srcRGB: u32, dstRGB: u32, srcAlpha: u32, dstAlpha: u32);
+    glBlendFunci(buf: u32, src: u32, dst: u32);
+    glBlendFuncIndexedAMD(buf: u32, src: u32, dst: u32);
+    glBlendFunciARB(buf: u32, src: u32, dst: u32);
+    glBlendFunciEXT(buf: u32, src: u32, dst: u32);
+    glBlendFunciOES(buf: u32, src: u32, dst: u32);
+    glBlendEquation(mode: u32);
+    glBlendEquationEXT(mode: u32);
+    glBlendEquationSeparate(modeRGB: u32, modeAlpha: u32);
+    glBlendEquationSeparateEXT(modeRGB: u32, modeAlpha: u32);
+    glBlendEquationSeparatei(buf: u32, modeRGB: u32, modeAlpha: u32);
+    glBlendEquationSeparateIndexedAMD(buf: u32, modeRGB: u32, modeAlpha: u32);
+    glBlendEquationSeparateiARB(buf: u32, modeRGB: u32, modeAlpha: u32);
+    glBlendEquationSeparateiEXT(buf: u32, modeRGB: u32, modeAlpha: u32);
+    glBlendEquationSeparateiOES(buf: u32, modeRGB: u32, modeAlpha: u32);
+    glBlendEquationi(buf: u32, mode: u32);
+    glBlendEquationIndexedAMD(buf: u32, mode: u32);
+    glBlendEquationiARB(buf: u32, mode: u32);
+    glBlendEquationiEXT(buf: u32, mode: u32);
+    glBlendEquationiOES(buf: u32, mode: u32);
+    glBlendColor(red: f32, green: f32, blue: f32, alpha: f32);
+    glBlendColorEXT(red: f32, green: f32, blue: f32, alpha: f32);
+    glClearAccum(red: f32, green: f32, blue: f32, alpha: f32);
+    glClearColor(red: f32, green: f32, blue: f32, alpha: f32);
+    glClearDepth(depth: f64);
+    glClearDepthf(d: f32);
+    glClearDepthfOES(depth: f32);
+    glClearIndex(c: f32);
+    glClearStencil(s: i32);
+    glClipPlane(plane: u32, equation: Ptr);
+    glColorMask(red: u8, green: u8, blue: u8, alpha: u8);
+    glColorMaski(index: u32, r: u8, g: u8, b: u8, a: u8);
+    glColorMaskIndexedEXT(index: u32, r: u8, g: u8, b: u8, a: u8);
+    glColorMaskiEXT(index: u32, r: u8, g: u8, b: u8, a: u8);
+    glColorMaskiOES(index: u32, r: u8, g: u8, b: u8, a: u8);
+    glCullFace(mode: u32);
+    glDepthFunc(func: u32);
+    glDepthMask(flag: u8);
+    glDepthRange(n: f64, f: f64);
+    glDepthRangef(n: f32, f: f32);
+    glDepthRangefOES(n: f32, f: f32);
+    glDepthRangeIndexed(index: u32, n: f64, f: f64);
+    glDepthRangeArrayv(first: u32, count: i32, v: Ptr);
+    glDepthBoundsEXT(zmin: f64, zmax: f64);
+    glFrontFace(mode: u32);
+    glIndexMask(mask: u32);
+    glInitNames();
+    glLoadName(name: u32);
+    glPushName(name: u32);
+    glPopName();
+    glPassThrough(token: f32);
+    glLineStipple(factor: i32, pattern: u16);
+    glListBase(base: u32);
+    glLogicOp(opcode: u32);
+    glMap1d(target: u32, u1: f64, u2: f64, stride: i32, order: i32, points: Ptr);
+    glMap1f(target: u32, u1: f32, u2: f32, stride: i32, order: i32, points: Ptr);
+    glMap2d(target: u32, u1: f64, u2: f64, ustride: i32, uorder: i32, v1: f64, v2: f64, vstride: i32, vorder: i32, points: Ptr);
+    glMap2f(target: u32, u1: f32, u2: f32, ustride: i32, uorder: i32, v1: f32, v2: f32, vstride: i32, vorder: i32, points: Ptr);
+    glMapGrid1d(un: i32, u1: f64, u2: f64);
+    glMapGrid1f(un: i32, u1: f32, u2: f32);
+    glMapGrid2d(un: i32, u1: f64, u2: f64, vn: i32, v1: f64, v2: f64);
+    glMapGrid2f(un: i32, u1: f32, u2: f32, vn: i32, v1: f32, v2: f32);
+    glPixelMapfv(map: u32, mapsize: i32, values: Ptr);
+    glPixelMapuiv(map: u32, mapsize: i32, values: Ptr);
+    glPixelMapusv(map: u32, mapsize: i32, values: Ptr);
+    glPixelTransferf(pname: u32, param: f32);
+    glPixelTransferi(pname: u32, param: i32);
+    glPixelZoom(xfactor: f32, yfactor: f32);
+    glPolygonOffset(factor: f32, units: f32);
+    glPolygonOffsetClamp(factor: f32, units: f32, clamp: f32);
+    glPolygonOffsetClampEXT(factor: f32, units: f32, clamp: f32);
+    glPolygonStipple(mask: Ptr);
+    glPrioritizeTextures(n: i32, textures: Ptr, priorities: Ptr);
+    glPrioritizeTexturesEXT(n: i32, textures: Ptr, priorities: Ptr);
+    glSampleCoverage(value: f32, invert: u8);
+    glSampleCoverageARB(value: f32, invert: u8);
+    glMinSampleShading(value: f32);
+    glMinSampleShadingARB(value: f32);
+    glMinSampleShadingOES(value: f32);
+    glStencilFunc(func: u32, ref_: i32, mask: u32);
+    glStencilFuncSeparate(face: u32, func: u32, ref_: i32, mask: u32);
+    glStencilMask(mask: u32);
+    glStencilMaskSeparate(face: u32, mask: u32);
+    glStencilOp(fail: u32, zfail: u32, zpass: u32);
+    glStencilOpSeparate(face: u32, sfail: u32, dpfail: u32, dppass: u32);
+    glStencilOpSeparateATI(face: u32, sfail: u32, dpfail: u32, dppass: u32);
+    glPrimitiveRestartIndex(index: u32);
+    glTexImage1D(target: u32, level: i32, internalformat: i32, width: i32, border: i32, format: u32, type_: u32, pixels: Ptr);
+    glTexImage2D(target: u32, level: i32, internalformat: i32, width: i32, height: i32, border: i32, format: u32, type_: u32, pixels: Ptr);
+    glTexImage3D(target: u32, level: i32, internalformat: i32, width: i32, height: i32, depth: i32, border: i32, format: u32, type_: u32, pixels: Ptr);
+    glTexImage3DEXT(target: u32, level: i32, internalformat: u32, width: i32, height: i32, depth: i32, border: i32, format: u32, type_: u32, pixels: Ptr);
+    glTexSubImage1D(target: u32, level: i32, xoffset: i32, width: i32, format: u32, type_: u32, pixels: Ptr);
+    glTexSubImage1DEXT(target: u32, level: i32, xoffset: i32, width: i32, format: u32, type_: u32, pixels: Ptr);
+    glTexSubImage2D(target: u32, level: i32, xoffset: i32, yoffset: i32, width: i32, height: i32, format: u32, type_: u32, pixels: Ptr);
+    glTexSubImage2DEXT(target: u32, level: i32, xoffset: i32, yoffset: i32, width: i32, height: i32, format: u32, type_: u32, pixels: Ptr);
+    glTexSubImage3D(target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, format: u32, type_: u32, pixels: Ptr);
+    glTexSubImage3DEXT(target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, format: u32, type_: u32, pixels: Ptr);
+    glCompressedTexImage1D(target: u32, level: i32, internalformat: u32, width: i32, border: i32, imageSize: i32, data: Ptr);
+    glCompressedTexImage1DARB(target: u32, level: i32, internalformat: u32, width: i32, border: i32, imageSize: i32, data: Ptr);
+    glCompressedTexImage2D(target: u32, level: i32, internalformat: u32, width: i32, height: i32, border: i32, imageSize: i32, data: Ptr);
+    glCompressedTexImage2DARB(target: u32, level: i32, internalformat: u32, width: i32, height: i32, border: i32, imageSize: i32, data: Ptr);
+    glCompressedTexImage3D(target: u32, level: i32, internalformat: u32, width: i32, height: i32, depth: i32, border: i32, imageSize: i32, data: Ptr);
+    glCompressedTexImage3DARB(target: u32, level: i32, internalformat: u32, width: i32, height: i32, depth: i32, border: i32, imageSize: i32, data: Ptr);
+    glCompressedTexSubImage1D(target: u32, level: i32, xoffset: i32, width: i32, format: u32, imageSize: i32, data: Ptr);
+    glCompressedTexSubImage1DARB(target: u32, level: i32, xoffset: i32, width: i32, format: u32, imageSize: i32, data: Ptr);
+    glCompressedTexSubImage2D(target: u32, level: i32, xoffset: i32, yoffset: i32, width: i32, height: i32, format: u32, imageSize: i32, data: Ptr);
+    glCompressedTexSubImage2DARB(target: u32, level: i32, xoffset: i32, yoffset: i32, width: i32, height: i32, format: u32, imageSize: i32, data: Ptr);
+    glCompressedTexSubImage3D(target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, format: u32, imageSize: i32, data: Ptr);
+    glCompressedTexSubImage3DARB(target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, format: u32, imageSize: i32, data: Ptr);
+    glTexParameterf(target: u32, pname: u32, param: f32);
+    glTexParameterfv(target: u32, pname: u32, params: Ptr);
+    glTexParameteri(target: u32, pname: u32, param: i32);
+    glTexParameteriv(target: u32, pname: u32, params: Ptr);
+    glTexParameterIiv(target: u32, pname: u32, params: Ptr);
+    glTexParameterIivEXT(target: u32, pname: u32, params: Ptr);
+    glTexParameterIivOES(target: u32, pname: u32, params: Ptr);
+    glTexParameterIuiv(target: u32, pname: u32, params: Ptr);
+    glTexParameterIuivEXT(target: u32, pname: u32, params: Ptr);
+    glTexParameterIuivOES(target: u32, pname: u32, params: Ptr);
+    glActiveTexture(texture: u32);
+    glActiveTextureARB(texture: u32);
+    glProgramEnvParameter4dARB(target: u32, index: u32, x: f64, y: f64, z: f64, w: f64);
+    glProgramEnvParameter4dvARB(target: u32, index: u32, params: Ptr);
+    glProgramEnvParameter4fARB(target: u32, index: u32, x: f32, y: f32, z: f32, w: f32);
+    glProgramEnvParameter4fvARB(target: u32, index: u32, params: Ptr);
+    glProgramLocalParameter4dARB(target: u32, index: u32, x: f64, y: f64, z: f64, w: f64);
+    glProgramLocalParameter4dvARB(target: u32, index: u32, params: Ptr);
+    glProgramLocalParameter4fARB(target: u32, index: u32, x: f32, y: f32, z: f32, w: f32);
+    glProgramLocalParameter4fvARB(target: u32, index: u32, params: Ptr);
+    glUniform1d(location: i32, x: f64);
+    glUniform1dv(location: i32, count: i32, value: Ptr);
+    glUniform1f(location: i32, v0: f32);
+    glUniform1fARB(location: i32, v0: f32);
+    glUniform1fv(location: i32, count: i32, value: Ptr);
+    glUniform1fvARB(location: i32, count: i32, value: Ptr);
+    glUniform1i(location: i32, v0: i32);
+    glUniform1iARB(location: i32, v0: i32);
+    glUniform1iv(location: i32, count: i32, value: Ptr);
+    glUniform1ivARB(location: i32, count: i32, value: Ptr);
+    glUniform1ui(location: i32, v0: u32);
+    glUniform1uiEXT(location: i32, v0: u32);
+    glUniform1uiv(location: i32, count: i32, value: Ptr);
+    glUniform1uivEXT(location: i32, count: i32, value: Ptr);
+    glUniform2d(location: i32, x: f64, y: f64);
+    glUniform2dv(location: i32, count: i32, value: Ptr);
+    glUniform2f(location: i32, v0: f32, v1: f32);
+    glUniform2fARB(location: i32, v0: f32, v1: f32);
+    glUniform2fv(location: i32, count: i32, value: Ptr);
+    glUniform2fvARB(location: i32, count: i32, value: Ptr);
+    glUniform2i(location: i32, v0: i32, v1: i32);
+    glUniform2iARB(location: i32, v0: i32, v1: i32);
+    glUniform2iv(location: i32, count: i32, value: Ptr);
+    glUniform2ivARB(location: i32, count: i32, value: Ptr);
+    glUniform2ui(location: i32, v0: u32, v1: u32);
+    glUniform2uiEXT(location: i32, v0: u32, v1: u32);
+    glUniform2uiv(location: i32, count: i32, value: Ptr);
+    glUniform2uivEXT(location: i32, count: i32, value: Ptr);
+    glUniform3d(location: i32, x: f64, y: f64, z: f64);
+    glUniform3dv(location: i32, count: i32, value: Ptr);
+    glUniform3f(location: i32, v0: f32, v1: f32, v2: f32);
+    glUniform3fARB(location: i32, v0: f32, v1: f32, v2: f32);
+    glUniform3fv(location: i32, count: i32, value: Ptr);
+    glUniform3fvARB(location: i32, count: i32, value: Ptr);
+    glUniform3i(location: i32, v0: i32, v1: i32, v2: i32);
+    glUniform3iARB(location: i32, v0: i32, v1: i32, v2: i32);
+    glUniform3iv(location: i32, count: i32, value: Ptr);
+    glUniform3ivARB(location: i32, count: i32, value: Ptr);
+    glUniform3ui(location: i32, v0: u32, v1: u32, v2: u32);
+    glUniform3uiEXT(location: i32, v0: u32, v1: u32, v2: u32);
+    glUniform3uiv(location: i32, count: i32, value: Ptr);
+    glUniform3uivEXT(location: i32, count: i32, value: Ptr);
+    glUniform4d(location: i32, x: f64, y: f64, z: f64, w: f64);
+    glUniform4dv(location: i32, count: i32, value: Ptr);
+    glUniform4f(location: i32, v0: f32, v1: f32, v2: f32, v3: f32);
+    glUniform4fARB(location: i32, v0: f32, v1: f32, v2: f32, v3: f32);
+    glUniform4fv(location: i32, count: i32, value: Ptr);
+    glUniform4fvARB(location: i32, count: i32, value: Ptr);
+    glUniform4i(location: i32, v0: i32, v1: i32, v2: i32, v3: i32);
+    glUniform4iARB(location: i32, v0: i32, v1: i32, v2: i32, v3: i32);
+    glUniform4iv(location: i32, count: i32, value: Ptr);
+    glUniform4ivARB(location: i32, count: i32, value: Ptr);
+    glUniform4ui(location: i32, v0: u32, v1: u32, v2: u32, v3: u32);
+    glUniform4uiEXT(location: i32, v0: u32, v1: u32, v2: u32, v3: u32);
+    glUniform4uiv(location: i32, count: i32, value: Ptr);
+    glUniform4uivEXT(location: i32, count: i32, value: Ptr);
+    glUniformMatrix2dv(location: i32, count: i32, transpose: u8, value: Ptr);
+    glUniformMatrix2fv(location: i32, count: i32, transpose: u8, value: Ptr);
+    glUniformMatrix2fvARB(location: i32, count: i32, transpose: u8, value: Ptr);
+    glUniformMatrix2x3dv(location: i32, count: i32, transpose: u8, value: Ptr);
+    glUniformMatrix2x3fv(location: i32, count: i32, transpose: u8, value: Ptr);
+    glUniformMatrix2x3fvNV(location: i32, count: i32, transpose: u8, value: Ptr);
+    glUniformMatrix2x4dv(location: i32, count: i32, transpose: u8, value: Ptr);
+    glUniformMatrix2x4fv(location: i32, count: i32, transpose: u8, value: Ptr);
+    glUniformMatrix2x4fvNV(location: i32, count: i32, transpose: u8, value: Ptr);
+    glUniformMatrix3dv(location: i32, count: i32, transpose: u8, value: Ptr);
+    glUniformMatrix3fv(location: i32, count: i32, transpose: u8, value: Ptr);
+    glUniformMatrix3fvARB(location: i32, count: i32, transpose: u8, value: Ptr);
+    glUniformMatrix3x2dv(location: i32, count: i32, transpose: u8, value: Ptr);
+    glUniformMatrix3x2fv(location: i32, count: i32, transpose: u8, value: Ptr);
+    glUniformMatrix3x2fvNV(location: i32, count: i32, transpose: u8, value: Ptr);
+    glUniformMatrix3x4dv(location: i32, count: i32, transpose: u8, value: Ptr);
+    glUniformMatrix3x4fv(location: i32, count: i32, transpose: u8, value: Ptr);
+    glUniformMatrix3x4fvNV(location: i32, count: i32, transpose: u8, value: Ptr);
+    glUniformMatrix4dv(location: i32, count: i32, transpose: u8, value: Ptr);
+    glUniformMatrix4fv(location: i32, count: i32, transpose: u8, value: Ptr);
+    glUniformMatrix4fvARB(location: i32, count: i32, transpose: u8, value: Ptr);
+    glUniformMatrix4x2dv(location: i32, count: i32, transpose: u8, value: Ptr);
+    glUniformMatrix4x2fv(location: i32, count: i32, transpose: u8, value: Ptr);
+    glUniformMatrix4x2fvNV(location: i32, count: i32, transpose: u8, value: Ptr);
+    glUniformMatrix4x3dv(location: i32, count: i32, transpose: u8, value: Ptr);
+    glUniformMatrix4x3fv(location: i32, count: i32, transpose: u8, value: Ptr);
+    glUniformMatrix4x3fvNV(location: i32, count: i32, transpose: u8, value: Ptr);
+    glGenerateMipmap(target: u32);
+    glGenerateMipmapEXT(target: u32);
     glClear(mask: u32);
     glClearBufferfi(buffer: u32, drawbuffer: i32, depth: f32, stencil: i32);
     glClearBufferfv(buffer: u32, drawbuffer: i32, value: Ptr);
@@ -2381,6 +3244,7 @@ real_functions! {
     glEndList();
     glCallList(list: u32);
     glCallLists(n: i32, type_: u32, lists: Ptr);
+    glDeleteLists(list: u32, range: i32);
     glBindTexture(target: u32, texture: u32);
     glBindTextureEXT(target: u32, texture: u32);
     glDeleteTextures(n: i32, textures: Ptr);
@@ -2475,6 +3339,10 @@ real_functions! {
     glXMakeCurrent(dpy: Ptr, drawable: c_ulong, ctx: Ptr) -> i32 = 0;
     glXMakeContextCurrent(dpy: Ptr, draw: c_ulong, read: c_ulong, ctx: Ptr) -> i32 = 0;
     glXMakeCurrentReadSGI(dpy: Ptr, draw: c_ulong, read: c_ulong, ctx: Ptr) -> i32 = 0;
+    glXCreateContext(dpy: Ptr, vis: Ptr, share: Ptr, direct: i32) -> Ptr = core::ptr::null_mut();
+    glXCreateNewContext(dpy: Ptr, config: Ptr, kind: i32, share: Ptr, direct: i32) -> Ptr = core::ptr::null_mut();
+    glXCreateContextAttribsARB(dpy: Ptr, config: Ptr, share: Ptr, direct: i32, attribs: Ptr) -> Ptr = core::ptr::null_mut();
+    glXCreateContextWithConfigSGIX(dpy: Ptr, config: Ptr, kind: i32, share: Ptr, direct: i32) -> Ptr = core::ptr::null_mut();
     glXDestroyContext(dpy: Ptr, ctx: Ptr);
     glXGetProcAddress(name: Ptr) -> Ptr = core::ptr::null_mut();
     glXGetProcAddressARB(name: Ptr) -> Ptr = core::ptr::null_mut();
@@ -2483,6 +3351,7 @@ real_functions! {
     eglSwapBuffersWithDamageKHR(dpy: Ptr, surface: Ptr, rects: Ptr, n: i32) -> u32 = 0;
     eglSwapBuffersWithDamageEXT(dpy: Ptr, surface: Ptr, rects: Ptr, n: i32) -> u32 = 0;
     eglMakeCurrent(dpy: Ptr, draw: Ptr, read: Ptr, ctx: Ptr) -> u32 = 0;
+    eglCreateContext(dpy: Ptr, config: Ptr, share: Ptr, attribs: Ptr) -> Ptr = core::ptr::null_mut();
     eglDestroyContext(dpy: Ptr, ctx: Ptr) -> u32 = 0;
     eglReleaseThread() -> u32 = 0;
     eglGetProcAddress(name: Ptr) -> Ptr = core::ptr::null_mut();
@@ -2491,8 +3360,12 @@ real_functions! {
     eglGetCurrentContext() -> Ptr = core::ptr::null_mut();
     glXGetCurrentContext() -> Ptr = core::ptr::null_mut();
     OSMesaMakeCurrent(ctx: Ptr, buffer: Ptr, kind: u32, width: i32, height: i32) -> u8 = 0;
+    OSMesaCreateContext(format: u32, share: Ptr) -> Ptr = core::ptr::null_mut();
+    OSMesaCreateContextExt(format: u32, depth: i32, stencil: i32, accum: i32, share: Ptr) -> Ptr = core::ptr::null_mut();
+    OSMesaCreateContextAttribs(attribs: Ptr, share: Ptr) -> Ptr = core::ptr::null_mut();
     OSMesaDestroyContext(ctx: Ptr);
     OSMesaGetProcAddress(name: Ptr) -> Ptr = core::ptr::null_mut();
+    glIsList(list: u32) -> u8 = 0;
     glGetString(name: u32) -> Ptr = core::ptr::null_mut();
     glGetStringi(name: u32, index: u32) -> Ptr = core::ptr::null_mut();
     glIsEnabled(cap: u32) -> u8 = 0;
@@ -2503,14 +3376,8 @@ real_functions! {
     glGetTexEnviv(target: u32, pname: u32, params: Ptr);
     glGetLightfv(light: u32, pname: u32, params: Ptr);
     glGetTexParameteriv(target: u32, pname: u32, params: Ptr);
-    glPushAttrib(mask: u32);
-    glPushMatrix();
     glGetMaterialfv(face: u32, pname: u32, params: Ptr);
     glGenTextures(n: i32, textures: Ptr);
-    glActiveTexture(texture: u32);
-    glTexImage2D(target: u32, level: i32, internalformat: i32, width: i32, height: i32, border: i32, format: u32, type_: u32, pixels: Ptr);
-    glTexImage3D(target: u32, level: i32, internalformat: i32, width: i32, height: i32, depth: i32, border: i32, format: u32, type_: u32, pixels: Ptr);
-    glTexParameteri(target: u32, pname: u32, param: i32);
     glIsTexture(texture: u32) -> u8 = 0;
     glTexImage2DMultisample(target: u32, samples: i32, internalformat: u32, width: i32, height: i32, fixedsamplelocations: u8);
     glTexImage3DMultisample(target: u32, samples: i32, internalformat: u32, width: i32, height: i32, depth: i32, fixedsamplelocations: u8);
@@ -2534,12 +3401,6 @@ real_functions! {
     glDeleteShader(shader: u32);
     glDeleteProgram(program: u32);
     glGetUniformLocation(program: u32, name: Ptr) -> i32 = 0;
-    glUniform1i(location: i32, v0: i32);
-    glUniform4f(location: i32, v0: f32, v1: f32, v2: f32, v3: f32);
-    glUniform4fv(location: i32, count: i32, value: Ptr);
-    glUniform4i(location: i32, v0: i32, v1: i32, v2: i32, v3: i32);
-    glUniform1ui(location: i32, v0: u32);
-    glUniform2ui(location: i32, v0: u32, v1: u32);
     glGetUniformBlockIndex(program: u32, uniformBlockName: Ptr) -> u32 = 0;
     glUniformBlockBinding(program: u32, uniformBlockIndex: u32, uniformBlockBinding: u32);
     glBindBufferBase(target: u32, index: u32, buffer: u32);
@@ -2556,18 +3417,6 @@ real_functions! {
     glGenSamplers(count: i32, samplers: Ptr);
     glBindSampler(unit: u32, sampler: u32);
     glPixelStorei(pname: u32, param: i32);
-    glColorMask(red: u8, green: u8, blue: u8, alpha: u8);
-    glColorMaski(index: u32, r: u8, g: u8, b: u8, a: u8);
-    glDepthRange(n: f64, f: f64);
-    glDepthFunc(func: u32);
-    glDepthMask(flag: u8);
-    glStencilMask(mask: u32);
-    glBlendColor(red: f32, green: f32, blue: f32, alpha: f32);
-    glWindowPos2i(x: i32, y: i32);
-    glRasterPos2f(x: f32, y: f32);
-    glClearColor(red: f32, green: f32, blue: f32, alpha: f32);
-    glPixelZoom(xfactor: f32, yfactor: f32);
-    glPixelTransferf(pname: u32, param: f32);
 }
 
 /// Makes one recorded immediate-mode call again.

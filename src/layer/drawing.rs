@@ -5,7 +5,7 @@ use crate::draw::{Again, Amplified, Current, FixedState, replay};
 use crate::gl::api::Indices;
 use crate::gl::{Gl, Recording, consts as c};
 use crate::plan::{Kind, Method, Plan, plan};
-use crate::state::{Begin, Effect, Immediate, Touch};
+use crate::state::{Begin, Command, Effect, Immediate, Run, Touch};
 
 /// A draw from arrays that may be instanced. Counts, types and modes are GL's.
 #[derive(Clone, Copy, Debug)]
@@ -51,6 +51,18 @@ fn class(plan: &Plan) -> &'static str {
     }
 }
 
+/// The run of a display list that a draw belongs to.
+fn run(kind: Kind) -> Run {
+    match kind {
+        Kind::Clear => Run::Clear,
+        Kind::Accum => Run::Accum,
+        Kind::Pixels => Run::Raster,
+        Kind::Begin(_) | Kind::Arrays(_) | Kind::Elements(_) | Kind::Other | Kind::List => {
+            Run::Draw
+        }
+    }
+}
+
 impl Primitives {
     fn mode(&self) -> u32 {
         match *self {
@@ -62,16 +74,20 @@ impl Primitives {
 impl Layer {
     /// Any draw that the driver can be asked to make again; `call` makes it.
     pub fn draw(&mut self, gl: &Gl, kind: Kind, call: &mut dyn FnMut()) {
+        if self.compiles() {
+            self.compile(gl, Command::Of(run(kind)), Touch::NONE);
+            return call();
+        }
         let plan = self.plan(gl, kind);
         if plan.method == Method::Once {
             return call();
         }
         let again = match kind {
             Kind::Clear => Again::Clear,
-            Kind::Pixels => Again::Raster,
+            Kind::Pixels => Again::Raster(self.raster),
             _ => Again::Same,
         };
-        self.replay(gl, &plan, again, call);
+        self.replay(gl, &plan, again, &mut |_| call());
     }
 
     /// A draw from arrays; `call` is the program's own.
@@ -80,13 +96,16 @@ impl Layer {
             Primitives::Arrays { mode, .. } => Kind::Arrays(mode),
             Primitives::Elements { mode, .. } => Kind::Elements(mode),
         };
+        if self.compiles() {
+            return self.draw(gl, kind, call);
+        }
         let plan = self.plan(gl, kind);
         match plan.method {
             Method::Once => call(),
-            Method::Replay => self.replay(gl, &plan, Again::Same, call),
+            Method::Replay => self.replay(gl, &plan, Again::Same, &mut |_| call()),
             Method::Instanced | Method::Geometry => {
                 let Some(how) = self.amplify(gl, &plan, primitives.mode(), false) else {
-                    return self.replay(gl, &plan, Again::Same, call);
+                    return self.replay(gl, &plan, Again::Same, &mut |_| call());
                 };
                 let instanced = plan.method == Method::Instanced;
                 let mut draw = |views: u32| match primitives {
@@ -159,7 +178,7 @@ impl Layer {
         }
     }
 
-    fn plan(&mut self, gl: &Gl, kind: Kind) -> Plan {
+    pub(super) fn plan(&mut self, gl: &Gl, kind: Kind) -> Plan {
         self.state.refresh(gl);
         if self.state.draws_to_window() {
             self.rig.latch(&self.state.projection);
@@ -178,7 +197,7 @@ impl Layer {
         plan
     }
 
-    fn replay(&mut self, gl: &Gl, plan: &Plan, again: Again, call: &mut dyn FnMut()) {
+    pub(super) fn replay(&mut self, gl: &Gl, plan: &Plan, again: Again, call: &mut dyn FnMut(u32)) {
         if !replay(
             gl,
             &mut self.atlas,
@@ -197,6 +216,13 @@ impl Layer {
 
     /// glBegin: answers whether the calls up to glEnd are to be recorded; if not, they go to the driver, glBegin first.
     pub fn begin(&mut self, gl: &Gl, mode: u32) -> bool {
+        if self.compiles() {
+            self.compile(gl, Command::Begin, Touch::NONE);
+            if let Some(list) = &mut self.state.list {
+                list.between = true;
+            }
+            return false;
+        }
         self.state.refresh(gl);
         if !self.state.draws_to_window() || mode > c::POLYGON {
             self.state.begin = Begin::Direct;
@@ -218,6 +244,9 @@ impl Layer {
 
     /// glEnd; answers false where it is the driver's own.
     pub fn end(&mut self, gl: &Gl) -> bool {
+        if self.compiles() {
+            return false;
+        }
         let Begin::Recorded(mode) = std::mem::replace(&mut self.state.begin, Begin::Outside) else {
             return false;
         };
@@ -248,77 +277,41 @@ impl Layer {
                     gl.replay(how.mode, &recording);
                 });
             }
-            None => self.replay(gl, &plan, again, &mut || gl.replay(mode, &recording)),
+            None => self.replay(gl, &plan, again, &mut |_| gl.replay(mode, &recording)),
         }
         self.recording = recording;
         if self.immediate.changes_material() {
-            self.touch(Touch::MATERIAL);
+            self.state.touch(Touch::MATERIAL);
         }
         true
     }
 
     /// After a glEnd that went to the driver.
     pub fn ended(&mut self) {
-        self.state.begin = Begin::Outside;
-    }
-
-    /// glNewList: what touches state from now on does so when the list is called. Answers the mode for the driver.
-    pub fn new_list(&mut self, list: u32, mode: u32) -> u32 {
-        self.list_touch = Touch::NONE;
-        self.state.list = Some((list, mode == c::COMPILE_AND_EXECUTE));
-        if mode == c::COMPILE_AND_EXECUTE {
-            c::COMPILE
-        } else {
-            mode
+        match &mut self.state.list {
+            Some(list) => list.between = false,
+            None => self.state.begin = Begin::Outside,
         }
     }
 
-    /// glEndList, after the driver's own; answers the list that must now be called.
-    pub fn end_list(&mut self) -> Option<u32> {
-        let (list, execute) = self.state.list.take()?;
-        self.lists.insert(list, self.list_touch);
-        execute.then_some(list)
+    /// glRasterPos, after the driver's own: the position stands for a point of the scene and moves with the view.
+    pub fn placed_raster(&mut self, gl: &Gl) {
+        self.state.refresh(gl);
+        self.raster = self.rig.shear(&self.state.projection);
     }
 
-    /// State groups that a command touches: at once, or when the list that is being compiled is called.
+    /// glWindowPos: the position is one of the window.
+    pub fn placed_in_window(&mut self) {
+        self.raster = None;
+    }
+
+    /// State groups that a command touches; false where it is compiled into a list instead.
     #[inline]
-    pub fn touch(&mut self, groups: Touch) {
+    pub fn touch(&mut self, groups: Touch) -> bool {
         if self.state.list.is_some() {
-            // The matrix mode at the time of the call is not known.
-            let groups = if groups.has(Touch::MATRIX) {
-                Touch::DSA_MATRIX
-            } else {
-                groups
-            };
-            self.list_touch = self.list_touch | groups;
-        } else {
-            self.state.touch(groups);
+            return false;
         }
-    }
-
-    /// glCallList, glCallLists: `lists` are the names where they are known.
-    pub fn call_lists(&mut self, gl: &Gl, lists: Option<&[u32]>, call: &mut dyn FnMut()) {
-        if self.state.list.is_some() {
-            self.touch(Touch::ALL);
-            return call();
-        }
-        let touches = match lists {
-            Some(l) => l.iter().fold(Touch::NONE, |t, l| {
-                t | self.lists.get(l).copied().unwrap_or(Touch::ALL)
-            }),
-            None => Touch::ALL,
-        };
-        let plan = self.plan(gl, Kind::List);
-        if plan.method == Method::Once {
-            call();
-        } else {
-            let matrix = touches.has(Touch::PROJECTION) && self.state.matrix_mode == c::PROJECTION;
-            let again = Again::Anything {
-                rects: touches.has(Touch::RECTS),
-                projection: matrix || touches.has(Touch::MODE),
-            };
-            self.replay(gl, &plan, again, call);
-        }
-        self.state.touched = Touch::ALL;
+        self.state.touch(groups);
+        true
     }
 }

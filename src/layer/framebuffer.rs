@@ -2,7 +2,10 @@
 
 use super::Layer;
 use crate::atlas::Atlas;
+use crate::draw::Again;
 use crate::gl::{Gl, consts as c};
+use crate::plan::Kind;
+use crate::state::{Command, Run, Touch};
 
 impl Layer {
     /// glBindFramebuffer. `bind` makes the call for a target and a name.
@@ -154,6 +157,11 @@ impl Layer {
         let f = &self.state.framebuffers;
         let zero = f.draw == 0;
         let buffer = |i: usize| i64::from(f.draw_buffers.get(i).copied().unwrap_or(c::NONE));
+        match (name, &self.state.list) {
+            (c::LIST_INDEX, Some(list)) => return Some(list.list.into()),
+            (c::LIST_MODE, Some(list)) => return Some(list.mode.into()),
+            _ => {}
+        }
         match name {
             c::DRAW_FRAMEBUFFER_BINDING => Some(f.draw.into()),
             c::READ_FRAMEBUFFER_BINDING => Some(f.read.into()),
@@ -169,10 +177,11 @@ impl Layer {
 
     /// A read from framebuffer 0 (glReadPixels, glCopyTex*): from the program's own view, resolved if multisampled.
     pub fn read(&mut self, gl: &Gl, call: &mut dyn FnMut()) {
-        if self.state.framebuffers.read != 0
-            || !self.atlas.multisampled()
-            || self.state.list.is_some()
-        {
+        if self.compiles() {
+            self.compile(gl, Command::Of(Run::Read), Touch::NONE);
+            return call();
+        }
+        if self.state.framebuffers.read != 0 || !self.atlas.multisampled() {
             return call();
         }
         self.state.refresh(gl);
@@ -218,6 +227,26 @@ impl Layer {
             self.scissored(gl, x, &mut || blit(if read { x } else { 0 }, x));
         }
         self.bind_draw(gl, true, true);
+    }
+
+    /// glCopyPixels: from a view's tile to the same view's, where it reads from framebuffer 0 and draws to it. `copy` takes the x
+    /// offset of the source in pixels.
+    pub fn copy_pixels(&mut self, gl: &Gl, copy: &mut dyn FnMut(i32)) {
+        self.state.refresh(gl);
+        if self.compiles() || !self.state.draws_to_window() || !self.reads_from_zero() {
+            return self.draw(gl, Kind::Pixels, &mut || copy(0));
+        }
+        let plan = self.plan(gl, Kind::Pixels);
+        let targets: Vec<(u32, i32)> = (0..self.config.views)
+            .map(|view| self.atlas.target(view))
+            .collect();
+        self.replay(gl, &plan, Again::Raster(self.raster), &mut |view| {
+            if let Some(&(from, x)) = targets.get(view as usize) {
+                gl.bind_framebuffer(c::READ_FRAMEBUFFER, from);
+                copy(x);
+            }
+        });
+        self.bind_draw(gl, false, true);
     }
 
     /// Runs a call with the scissor cut to a tile, where tiles lie beside each other.

@@ -5,6 +5,7 @@ mod drawing;
 mod frame;
 mod framebuffer;
 mod frames;
+mod lists;
 pub mod support;
 
 pub use drawing::Primitives;
@@ -15,10 +16,10 @@ use crate::config::{AtlasLayout, Config, Strategy};
 use crate::draw::{Driver, FixedState, Programs};
 use crate::gl::{Gl, Recording, consts as c};
 use crate::interleave::Interleaver;
-use crate::plan::{Means, Rig};
+use crate::plan::{Means, Rig, Shear};
 use crate::report::Report;
-use crate::state::{Immediate, State, Touch, Window};
-use std::collections::HashMap;
+use crate::state::{Immediate, Lists, State, Window};
+use std::sync::{Arc, Mutex};
 use support::Support;
 
 /// Why a context cannot be shown in several views; it then runs as if the layer were not there.
@@ -37,6 +38,9 @@ pub enum LayerError {
     Atlas(#[from] AtlasError),
 }
 
+/// The display lists of a share group.
+pub type SharedLists = Arc<Mutex<Lists>>;
+
 /// One context and its drawable.
 #[derive(Debug)]
 pub struct Layer {
@@ -51,8 +55,8 @@ pub struct Layer {
     programs: Programs,
     fixed: Option<FixedState>,
     driver: Driver,
-    lists: HashMap<u32, Touch>,
-    list_touch: Touch,
+    lists: SharedLists,
+    raster: Option<Shear>,
     recording: Recording,
     immediate: Immediate,
     support: Support,
@@ -62,12 +66,14 @@ pub struct Layer {
 }
 
 impl Layer {
-    /// Takes over a context that was just made current for the first time, with framebuffer 0 bound.
+    /// Takes over a context that was just made current for the first time, with framebuffer 0 bound. `lists` are those of its share
+    /// group.
     pub fn new(
         gl: &Gl,
         config: &'static Config,
         width: u32,
         height: u32,
+        lists: SharedLists,
     ) -> Result<Layer, LayerError> {
         let support = Support::ask(gl)?;
         let mut state = State::new(Window::ask(gl, width, height), support.compatibility);
@@ -102,8 +108,8 @@ impl Layer {
             programs,
             fixed: None,
             driver: Driver::ask(gl),
-            lists: HashMap::new(),
-            list_touch: Touch::NONE,
+            lists,
+            raster: None,
             recording: Recording::default(),
             immediate: Immediate::default(),
             support,

@@ -4,6 +4,13 @@
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Effect(u32);
 
+impl core::ops::BitOr for Effect {
+    type Output = Effect;
+    fn bitor(self, other: Effect) -> Effect {
+        Effect(self.0 | other.0)
+    }
+}
+
 impl Effect {
     /// Emits a vertex.
     pub const VERTEX: Effect = Effect(1);
@@ -72,6 +79,11 @@ impl Immediate {
     /// Whether a material changes between glBegin and glEnd, or something may that is not looked into.
     pub fn changes_material(&self) -> bool {
         (self.before_vertex | self.after_vertex) & (Effect::MATERIAL.0 | Effect::UNKNOWN.0) != 0
+    }
+
+    /// Everything that the calls set.
+    pub fn sets(&self) -> Effect {
+        Effect(self.before_vertex | self.after_vertex)
     }
 
     /// The current values that must be put back before the calls are sent again; none if they can be sent as they are.

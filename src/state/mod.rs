@@ -4,9 +4,11 @@
 
 mod effect;
 mod framebuffer;
+mod lists;
 
 pub use effect::{Effect, Immediate};
 pub use framebuffer::{Framebuffers, Window};
+pub use lists::{Body, Command, Compiling, Lists, Run, Segment};
 
 use crate::gl::{Gl, consts as c};
 
@@ -31,6 +33,10 @@ impl Touch {
     pub const OBJECTS: Touch = Touch(32);
     /// The material.
     pub const MATERIAL: Touch = Touch(64);
+    /// The raster position, by glRasterPos.
+    pub const RASTER: Touch = Touch(128);
+    /// The raster position, by glWindowPos.
+    pub const WINDOW_POS: Touch = Touch(256);
     /// Everything.
     pub const ALL: Touch = Touch(0xffff_fffe);
     /// Nothing.
@@ -85,8 +91,8 @@ pub struct State {
     pub framebuffers: Framebuffers,
     /// The drawable behind framebuffer 0.
     pub window: Window,
-    /// The list that is being compiled, and whether it is executed at its end.
-    pub list: Option<(u32, bool)>,
+    /// The list that is being compiled.
+    pub list: Option<Compiling>,
     /// Immediate mode.
     pub begin: Begin,
     /// GL_RENDER, GL_SELECT or GL_FEEDBACK.
@@ -123,21 +129,20 @@ impl State {
         }
     }
 
-    /// Notes that state groups changed. `MATRIX` becomes the group that the matrix mode names.
+    /// Notes that state groups change. `MATRIX` becomes the group that the matrix mode names.
     #[inline]
     pub fn touch(&mut self, groups: Touch) {
         let mut groups = groups;
         if groups.has(Touch::MATRIX) {
             groups = groups.without(Touch::MATRIX)
                 | match self.matrix_mode {
+                    _ if self.touched.has(Touch::MODE) => Touch::DSA_MATRIX,
                     c::PROJECTION => Touch::PROJECTION,
                     c::MODELVIEW => Touch::NONE,
                     _ => Touch::FIXED,
                 };
         }
-        if self.list.is_none() {
-            self.touched = self.touched | groups;
-        }
+        self.touched = self.touched | groups;
     }
 
     /// Reads again what a plan reads and a command has touched, except the fixed-function state (see `draw`).

@@ -175,7 +175,7 @@ pub fn entry(commands: &[Command]) -> String {
         .filter(|(_, c)| c.class != "call")
         .collect();
     let mut o = String::from(HEAD);
-    o.push_str("use crate::hooks::{self, Kind, Touch, imm};\nuse crate::{special, switch};\nuse core::ffi::c_ulong;\nuse core::sync::atomic::{AtomicPtr, Ordering::Relaxed};\nuse manyview_core::gl::{Ptr, slot};\nuse manyview_core::state::Effect;\n\n");
+    o.push_str("use crate::hooks::{self, Command, Kind, Place, Touch, imm};\nuse crate::{special, switch};\nuse core::ffi::c_ulong;\nuse core::sync::atomic::{AtomicPtr, Ordering::Relaxed};\nuse manyview_core::gl::{Ptr, slot};\nuse manyview_core::state::Effect;\n\n");
     o.push_str("/// Where each exported function jumps to, by slot: at first its resolver, then the driver's function or the hook.\n");
     writeln!(
         o,
@@ -239,7 +239,7 @@ pub fn entry(commands: &[Command]) -> String {
         .unwrap();
         match class {
             "imm" => {
-                let (writes, material) = (record(c), effect(name) == "MATERIAL");
+                let writes = record(c);
                 writeln!(
                     o,
                     "    if let Some(rec) = imm::recording(slot::{name}, Effect::{}) {{",
@@ -247,10 +247,7 @@ pub fn entry(commands: &[Command]) -> String {
                 )
                 .unwrap();
                 o.push_str(&writes);
-                writeln!(o, "    }} else {{\n        let gl = hooks::real();\n        // SAFETY: the program's own call.\n        {call};").unwrap();
-                if material {
-                    o.push_str("        hooks::touch(Touch::MATERIAL);\n");
-                }
+                writeln!(o, "    }} else {{\n        imm::direct(Effect::{});\n        let gl = hooks::real();\n        // SAFETY: the program's own call.\n        {call};", effect(name)).unwrap();
                 o.push_str("    }\n");
             }
             "touch" => {
@@ -261,9 +258,21 @@ pub fn entry(commands: &[Command]) -> String {
                     .join(" | ");
                 writeln!(
                     o,
-                    "    let gl = hooks::real();\n    // SAFETY: the program's own call.\n    {call};\n    hooks::touch({bits});"
+                    "    hooks::touch({bits});\n    let gl = hooks::real();\n    // SAFETY: the program's own call.\n    {call};"
                 )
                 .unwrap();
+            }
+            "matrix" | "cap" | "any" => {
+                let note = match class {
+                    "matrix" => format!("matrix(Command::{arg})"),
+                    "any" => "any()".into(),
+                    _ => format!("cap({})", c.params[0].name),
+                };
+                writeln!(o, "    hooks::{note};\n    let gl = hooks::real();\n    // SAFETY: the program's own call.\n    {call};").unwrap();
+            }
+            "raster" => {
+                let place = if name.starts_with("glWindowPos") { "Place::Window" } else { "Place::Scene" };
+                writeln!(o, "    // SAFETY: the program's own call.\n    hooks::raster({place}, &mut |gl| {call})").unwrap();
             }
             "draw" => writeln!(o, "    // SAFETY: the program's own call.\n    hooks::draw(Kind::{arg}, &mut |gl| {call})").unwrap(),
             "read" => writeln!(o, "    // SAFETY: the program's own call.\n    hooks::read(&mut |gl| {call})").unwrap(),

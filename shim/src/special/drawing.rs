@@ -1,12 +1,14 @@
 //! Immediate mode, arrays, pixels, display lists.
 
 use crate::context::{enter, real, recording, set_recording};
+use crate::hooks::compile;
 use core::slice::from_raw_parts;
 use manyview_core::gl::api::Indices;
+use manyview_core::gl::consts::LIST_BASE;
 use manyview_core::gl::{Ptr, slot};
 use manyview_core::layer::Primitives;
 use manyview_core::plan::Kind;
-use manyview_core::state::{Begin, Effect};
+use manyview_core::state::{Command, Effect, Run, Touch};
 
 pub(crate) unsafe fn glBegin(mode: u32) {
     match enter(|gl, l| l.begin(gl, mode)) {
@@ -100,31 +102,38 @@ pub(crate) unsafe fn glDrawPixels(width: i32, height: i32, format: u32, type_: u
 }
 
 pub(crate) unsafe fn glCopyPixels(x: i32, y: i32, width: i32, height: i32, type_: u32) {
-    // SAFETY: the program's own call.
-    pixels(&mut || unsafe { real().glCopyPixels(x, y, width, height, type_) });
+    // SAFETY: the program's own call, from a tile's place.
+    let mut copy = |tile: i32| unsafe { real().glCopyPixels(x + tile, y, width, height, type_) };
+    if enter(|gl, l| l.copy_pixels(gl, &mut copy)).is_none() {
+        copy(0);
+    }
 }
 
 pub(crate) unsafe fn glNewList(list: u32, mode: u32) {
-    let known = [0x1300, 0x1301].contains(&mode) && list != 0;
-    let mode = enter(|_, l| {
-        if known && l.state.list.is_none() && l.state.begin == Begin::Outside {
-            l.new_list(list, mode)
-        } else {
-            mode
-        }
-    })
-    .unwrap_or(mode);
-    // SAFETY: the program's own call.
-    unsafe { real().glNewList(list, mode) };
+    const COMPILE: u32 = 0x1300;
+    let (name, mode) = match enter(|gl, l| l.new_list(gl, list, mode)).flatten() {
+        Some(run) => (run, COMPILE),
+        None => (list, mode),
+    };
+    // SAFETY: the program's own call, or the first run of its list.
+    unsafe { real().glNewList(name, mode) };
 }
 
 pub(crate) unsafe fn glEndList() {
     // SAFETY: the program's own call.
     unsafe { real().glEndList() };
-    if let Some(Some(list)) = enter(|_, l| l.end_list()) {
+    if let Some(Some(list)) = enter(|gl, l| l.end_list(gl)) {
         // GL_COMPILE_AND_EXECUTE was compiled only: executed now, in every view.
         // SAFETY: the list was just compiled.
         unsafe { glCallList(list) };
+    }
+}
+
+pub(crate) unsafe fn glDeleteLists(list: u32, range: i32) {
+    // SAFETY: the program's own call.
+    unsafe { real().glDeleteLists(list, range) };
+    if let Ok(range) = u32::try_from(range) {
+        enter(|gl, l| l.deleted_lists(gl, list, range));
     }
 }
 
@@ -133,9 +142,18 @@ pub(crate) unsafe fn glCallList(list: u32) {
         record_list(list);
         return;
     }
+    compile(Command::Of(Run::List(list)), Touch::NONE);
     // SAFETY: the program's own call.
     let mut call = || unsafe { real().glCallList(list) };
-    if enter(|gl, l| l.call_lists(gl, Some(&[list]), &mut call)).is_none() {
+    if enter(|gl, l| {
+        if l.compiles() {
+            call();
+        } else {
+            l.call_lists(gl, Some(&[list]), &mut call);
+        }
+    })
+    .is_none()
+    {
         call();
     }
 }
@@ -190,26 +208,29 @@ unsafe fn list_names(n: i32, kind: u32, lists: Ptr) -> Option<Vec<u32>> {
 pub(crate) unsafe fn glCallLists(n: i32, type_: u32, lists: Ptr) {
     // SAFETY: the program's arrays.
     let names = unsafe { list_names(n, type_, lists) };
-    let base = enter(|gl, l| {
-        if l.state.list.is_none() {
-            gl.get_integer(0x0B32) as u32
-        } else {
-            0
-        }
-    })
-    .unwrap_or(0); // GL_LIST_BASE
-    let names = names.map(|l| {
-        l.into_iter()
-            .map(|x| x.wrapping_add(base))
-            .collect::<Vec<u32>>()
-    });
     if recording() {
-        names.unwrap_or_default().into_iter().for_each(record_list);
-        return;
+        let base = real_base();
+        let names = names.unwrap_or_default().into_iter();
+        return names.map(|n| n.wrapping_add(base)).for_each(record_list);
     }
+    compile(Command::Of(Run::Lists), Touch::NONE);
     // SAFETY: the program's own call.
     let mut call = || unsafe { real().glCallLists(n, type_, lists) };
-    if enter(|gl, l| l.call_lists(gl, names.as_deref(), &mut call)).is_none() {
+    let done = enter(|gl, l| {
+        if l.compiles() {
+            call();
+            return l.compiled_names(names.as_deref().unwrap_or_default());
+        }
+        let base = gl.get_integer(LIST_BASE) as u32;
+        let names: Option<Vec<u32>> =
+            names.map(|l| l.into_iter().map(|n| n.wrapping_add(base)).collect());
+        l.call_lists(gl, names.as_deref(), &mut call);
+    });
+    if done.is_none() {
         call();
     }
+}
+
+fn real_base() -> u32 {
+    enter(|gl, _| gl.get_integer(LIST_BASE) as u32).unwrap_or(0)
 }

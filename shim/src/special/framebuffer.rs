@@ -1,10 +1,12 @@
 //! Framebuffer objects and the program's framebuffer 0.
 
 use crate::context::{enter, real};
+use crate::hooks::compile;
 use core::slice::from_raw_parts;
 use manyview_core::gl::{Gl, Ptr, consts as c};
 use manyview_core::layer::Layer;
 use manyview_core::plan::Kind;
+use manyview_core::state::{Command, Run, Touch};
 
 pub(crate) unsafe fn glBindFramebuffer(target: u32, framebuffer: u32) {
     // SAFETY: a name that the program or the layer made.
@@ -57,17 +59,10 @@ fn choose(
 }
 
 pub(crate) unsafe fn glDrawBuffer(buf: u32) {
-    let list = enter(|_, l| {
-        if l.state.list.is_some() {
-            l.state.framebuffers.translate(buf)
-        } else {
-            None
-        }
-    })
-    .flatten();
-    if let Some(translated) = list {
+    if compile(Command::Of(Run::DrawBuffer(buf)), Touch::NONE) {
+        let translated = enter(|_, l| l.state.framebuffers.translate(buf)).flatten();
         // SAFETY: compiled into the program's list.
-        return unsafe { real().glDrawBuffer(translated) };
+        return unsafe { real().glDrawBuffer(translated.unwrap_or(buf)) };
     }
     // SAFETY: the program's own call.
     choose(
@@ -101,6 +96,10 @@ pub(crate) unsafe fn glDrawBuffers(n: i32, bufs: Ptr) {
 }
 
 pub(crate) unsafe fn glReadBuffer(src: u32) {
+    if compile(Command::Of(Run::ReadBuffer(src)), Touch::NONE) {
+        // SAFETY: compiled into the program's list.
+        return unsafe { real().glReadBuffer(src) };
+    }
     // SAFETY: the program's own call.
     choose(
         Layer::reads_from_zero,

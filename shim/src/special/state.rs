@@ -1,21 +1,37 @@
 //! State that the layer follows call by call, and what the program asks about.
 
 use crate::context::{check_size, draws_to_memory, enter, frame, peek, real};
+use crate::hooks::{any, compile, touch};
 use core::sync::atomic::{AtomicI64, Ordering::Relaxed};
 use manyview_core::gl::Ptr;
-use manyview_core::state::Touch;
+use manyview_core::state::{Command, Touch};
 
 pub(crate) unsafe fn glMatrixMode(mode: u32) {
+    let compiled = compile(Command::MatrixMode(mode), Touch::MODE);
     // SAFETY: the program's own call.
     unsafe { real().glMatrixMode(mode) };
     peek(|l| {
         // GL_MODELVIEW, GL_PROJECTION, GL_TEXTURE are the ones that the driver surely takes.
-        if (0x1700..=0x1702).contains(&mode) && l.state.list.is_none() {
+        if (0x1700..=0x1702).contains(&mode) && !compiled {
             l.state.matrix_mode = mode;
-        } else {
+        } else if !compiled {
             l.touch(Touch::MODE | Touch::DSA_MATRIX);
         }
     });
+}
+
+pub(crate) unsafe fn glPushAttrib(mask: u32) {
+    compile(Command::PushAttrib, Touch::NONE);
+    // SAFETY: the program's own call.
+    unsafe { real().glPushAttrib(mask) };
+}
+
+pub(crate) unsafe fn glPopAttrib() {
+    if peek(|l| l.touch(Touch::ALL)) == Some(false) {
+        compile(Command::PopAttrib, Touch::ALL);
+    }
+    // SAFETY: the program's own call.
+    unsafe { real().glPopAttrib() };
 }
 
 /// Last viewport size seen, so that the window's size is asked for only when the program may have noticed a change.
@@ -26,15 +42,16 @@ pub(crate) unsafe fn glViewport(x: i32, y: i32, width: i32, height: i32) {
     if SEEN.swap(key, Relaxed) != key {
         check_size();
     }
+    touch(Touch::RECTS);
     // SAFETY: the program's own call.
     unsafe { real().glViewport(x, y, width, height) };
-    peek(|l| l.touch(Touch::RECTS));
 }
 
 pub(crate) unsafe fn glBindTexture(target: u32, texture: u32) {
     if peek(|l| l.owns_texture(texture)) == Some(true) {
         enter(|gl, l| l.yield_names(gl));
     }
+    any();
     // SAFETY: the program's own call.
     unsafe { real().glBindTexture(target, texture) };
 }

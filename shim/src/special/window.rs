@@ -5,6 +5,7 @@ use crate::context::{
 };
 use crate::dl::proc_address;
 use crate::provider::Provider;
+use crate::shares::created;
 use core::ffi::c_ulong;
 use manyview_core::gl::{Ptr, Real};
 
@@ -35,6 +36,27 @@ pub(crate) unsafe fn glXSwapBuffersMscOML(
         gl().glXSwapBuffersMscOML(dpy, drawable, target_msc, divisor, remainder)
     })
 }
+
+/// A hook of a command that creates a context: `share` names the argument that says with which it shares.
+macro_rules! create {
+    ($name:ident($($arg:ident: $kind:ty),+), $share:ident, $provider:ident, $real:ident) => {
+        pub(crate) unsafe fn $name($($arg: $kind),+) -> Ptr {
+            // SAFETY: the program's own call.
+            let context = guarded(|| unsafe { $real().$name($($arg),+) });
+            created(Provider::$provider, context, $share);
+            context
+        }
+    };
+}
+
+create!(glXCreateContext(dpy: Ptr, vis: Ptr, share: Ptr, direct: i32), share, Gl, gl);
+create!(glXCreateNewContext(dpy: Ptr, config: Ptr, kind: i32, share: Ptr, direct: i32), share, Gl, gl);
+create!(glXCreateContextAttribsARB(dpy: Ptr, config: Ptr, share: Ptr, direct: i32, attribs: Ptr), share, Gl, gl);
+create!(glXCreateContextWithConfigSGIX(dpy: Ptr, config: Ptr, kind: i32, share: Ptr, direct: i32), share, Gl, gl);
+create!(eglCreateContext(dpy: Ptr, config: Ptr, share: Ptr, attribs: Ptr), share, Gl, gl);
+create!(OSMesaCreateContext(format: u32, share: Ptr), share, OsMesa, osmesa);
+create!(OSMesaCreateContextExt(format: u32, depth: i32, stencil: i32, accum: i32, share: Ptr), share, OsMesa, osmesa);
+create!(OSMesaCreateContextAttribs(attribs: Ptr, share: Ptr), share, OsMesa, osmesa);
 
 /// The common part of the GLX MakeCurrent family.
 fn glx_current(dpy: Ptr, drawable: c_ulong, ctx: Ptr, call: impl FnOnce() -> i32) -> i32 {

@@ -1,0 +1,225 @@
+//! Display lists: compiled in runs, executed run by run.
+
+use super::Layer;
+use crate::draw::Again;
+use crate::gl::{Gl, consts as c};
+use crate::plan::{Kind, Method};
+use crate::state::{Begin, Command, Compiling, Effect, Run, Segment, Touch};
+use std::sync::PoisonError;
+
+/// GL_MAX_LIST_NESTING is at least 64; deeper calls are ignored by the driver too.
+const NESTING: u32 = 64;
+
+impl Layer {
+    /// glNewList, on a name and mode that the driver may take: answers the name of the driver's list of the first run, to be
+    /// begun with GL_COMPILE. `None`: the call is the driver's own.
+    pub fn new_list(&mut self, gl: &Gl, list: u32, mode: u32) -> Option<u32> {
+        let known = [c::COMPILE, c::COMPILE_AND_EXECUTE].contains(&mode) && list != 0;
+        if !known || self.state.list.is_some() || self.state.begin != Begin::Outside {
+            return None;
+        }
+        let name = self.list_name(gl);
+        self.state.list = Some(Compiling::new(list, mode, name));
+        Some(name)
+    }
+
+    fn list_name(&self, gl: &Gl) -> u32 {
+        self.lists
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner)
+            .name(|name| gl.is_list(name))
+    }
+
+    /// Whether a list is being compiled.
+    pub fn compiles(&self) -> bool {
+        self.state.list.is_some()
+    }
+
+    /// A command that is about to be compiled, and what it touches when the list is called.
+    pub fn compile(&mut self, gl: &Gl, command: Command, touch: Touch) {
+        let Some(list) = &mut self.state.list else {
+            return;
+        };
+        if list.needs_split(command) {
+            let name = self
+                .lists
+                .lock()
+                .unwrap_or_else(PoisonError::into_inner)
+                .name(|name| gl.is_list(name));
+            gl.end_list();
+            gl.new_list(name, c::COMPILE);
+            list.split(name);
+        }
+        list.note(command, touch);
+    }
+
+    /// The names of a glCallLists that was compiled, without the list base.
+    pub fn compiled_names(&mut self, names: &[u32]) {
+        if let Some(list) = &mut self.state.list {
+            list.note_names(names);
+        }
+    }
+
+    /// glEndList, after the driver's own: the program's list becomes one that calls its runs. Answers what is to be executed now.
+    pub fn end_list(&mut self, gl: &Gl) -> Option<u32> {
+        // The driver refuses between glBegin and glEnd.
+        if self.state.list.is_none() || gl.get_integer(c::LIST_INDEX) != 0 {
+            return None;
+        }
+        let (list, mode, body) = self.state.list.take()?.finish();
+        gl.new_list(list, c::COMPILE);
+        for segment in body.iter() {
+            gl.call_list(segment.name);
+        }
+        gl.end_list();
+        let unused = self
+            .lists
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner)
+            .define(list, body);
+        unused.into_iter().for_each(|name| gl.delete_list(name));
+        (mode == c::COMPILE_AND_EXECUTE).then_some(list)
+    }
+
+    /// glDeleteLists, after the driver's own.
+    pub fn deleted_lists(&mut self, gl: &Gl, first: u32, count: u32) {
+        let unused = self
+            .lists
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner)
+            .delete(first, count);
+        unused.into_iter().for_each(|name| gl.delete_list(name));
+    }
+
+    /// glCallList, glCallLists outside of lists: `lists` are the names where they are known, `call` the driver's own call.
+    pub fn call_lists(&mut self, gl: &Gl, lists: Option<&[u32]>, call: &mut dyn FnMut()) {
+        self.state.refresh(gl);
+        let bodies = lists.and_then(|names| {
+            let lists = self.lists.lock().unwrap_or_else(PoisonError::into_inner);
+            names
+                .iter()
+                .map(|&l| lists.body(l))
+                .collect::<Option<Vec<_>>>()
+        });
+        let Some(bodies) = bodies else {
+            return self.unknown_list(gl, call);
+        };
+        let segments = || bodies.iter().flat_map(|b| b.iter());
+        if !self.state.draws_to_window() {
+            let touch = segments().fold(Touch::NONE, |t, s| {
+                t | match s.run {
+                    Run::List(_) | Run::Lists => Touch::ALL,
+                    _ => s.touch,
+                }
+            });
+            call();
+            self.state.touch(touch);
+            return;
+        }
+        // Letters: one run a list, all of a kind. Sent as they are.
+        let one = segments().next().map(|s| s.run);
+        if let Some(run @ (Run::Draw | Run::Raster)) = one
+            && segments().all(|s| s.run == run)
+        {
+            let touch = segments().fold(Touch::NONE, |t, s| t | s.touch);
+            let current = segments().fold(Effect::NONE, |e, s| e | s.immediate.sets());
+            return self.run(gl, run, touch, current, call);
+        }
+        for body in &bodies {
+            for segment in body.iter() {
+                self.segment(gl, segment, 1);
+            }
+        }
+    }
+
+    fn segment(&mut self, gl: &Gl, segment: &Segment, depth: u32) {
+        match segment.run {
+            Run::List(list) => self.nested(gl, &[list], depth),
+            Run::Lists => {
+                let base = gl.get_integer(c::LIST_BASE) as u32;
+                let names: Vec<u32> = segment.names.iter().map(|n| n.wrapping_add(base)).collect();
+                self.nested(gl, &names, depth);
+            }
+            Run::DrawBuffer(buffer) if self.draws_to_zero() => {
+                self.draw_buffers(gl, &[buffer]);
+            }
+            Run::ReadBuffer(buffer) if self.reads_from_zero() => {
+                self.read_buffer(gl, buffer);
+            }
+            run => self.run(
+                gl,
+                run,
+                segment.touch,
+                segment.immediate.must_restore(),
+                &mut || gl.call_list(segment.name),
+            ),
+        }
+    }
+
+    fn nested(&mut self, gl: &Gl, lists: &[u32], depth: u32) {
+        if depth >= NESTING {
+            return;
+        }
+        for &list in lists {
+            let body = self
+                .lists
+                .lock()
+                .unwrap_or_else(PoisonError::into_inner)
+                .body(list);
+            match body {
+                Some(body) => body.iter().for_each(|s| self.segment(gl, s, depth + 1)),
+                None => self.unknown_list(gl, &mut || gl.call_list(list)),
+            }
+        }
+    }
+
+    /// A list of which only the driver knows what is in it; mostly one that does not exist.
+    fn unknown_list(&mut self, gl: &Gl, call: &mut dyn FnMut()) {
+        let plan = self.plan(gl, Kind::List);
+        if plan.method == Method::Once {
+            call();
+        } else {
+            let again = Again::Anything {
+                rects: true,
+                projection: true,
+                current: Effect::NONE,
+            };
+            self.replay(gl, &plan, again, &mut |_| call());
+        }
+        self.state.touched = Touch::ALL;
+    }
+
+    /// Executes one run, or several of a kind. `current`: the values that it starts from and changes.
+    fn run(&mut self, gl: &Gl, run: Run, touch: Touch, current: Effect, call: &mut dyn FnMut()) {
+        match run {
+            Run::Open
+            | Run::State
+            | Run::List(_)
+            | Run::Lists
+            | Run::DrawBuffer(_)
+            | Run::ReadBuffer(_) => call(),
+            Run::Draw => {
+                let plan = self.plan(gl, Kind::List);
+                // The list changes the current matrix, and that is the projection.
+                let projection =
+                    touch.has(Touch::MATRIX) && self.state.matrix_mode == c::PROJECTION;
+                let again = Again::Anything {
+                    rects: touch.has(Touch::RECTS),
+                    projection,
+                    current,
+                };
+                self.replay(gl, &plan, again, &mut |_| call());
+            }
+            Run::Clear => self.draw(gl, Kind::Clear, call),
+            Run::Accum => self.draw(gl, Kind::Accum, call),
+            Run::Raster => self.draw(gl, Kind::Pixels, call),
+            Run::Read => self.read(gl, call),
+        }
+        self.state.touch(touch);
+        if touch.has(Touch::RASTER) {
+            self.placed_raster(gl);
+        } else if touch.has(Touch::WINDOW_POS) {
+            self.placed_in_window();
+        }
+    }
+}

@@ -1,0 +1,382 @@
+//! What is in the program's display lists: runs of commands, each compiled into a driver's list of its own, so that state is set
+//! once and drawing happens once per view.
+//!
+//! A list of the program stays whole in the driver as well: under its own name it calls its runs in order. Whoever calls it by
+//! itself (another list, a context without a layer, selection) gets all of it.
+
+use super::{Effect, Immediate, Touch};
+use std::collections::HashMap;
+use std::sync::Arc;
+
+/// What a run of commands does, and so how it is executed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Run {
+    /// Nothing that decides it: executed once, but may become part of a run that draws.
+    Open,
+    /// Changes state that a sending per view would change again, or that the views depend on: executed once.
+    State,
+    /// Primitives, with any state that can be put back between two views.
+    Draw,
+    /// Clears.
+    Clear,
+    /// The accumulation buffer.
+    Accum,
+    /// Pictures at the raster position.
+    Raster,
+    /// Reads from the framebuffer.
+    Read,
+    /// glCallList of another list, known when it is called.
+    List(u32),
+    /// glDrawBuffer, by the program's name of the buffer.
+    DrawBuffer(u32),
+    /// glReadBuffer.
+    ReadBuffer(u32),
+    /// glCallLists: the names are in [`Segment::names`], without the list base.
+    Lists,
+}
+
+impl Run {
+    /// Whether a command of the kind `next` belongs to the run.
+    fn takes(self, next: Run) -> bool {
+        match (self, next) {
+            (Run::Open | Run::State | Run::Draw, Run::Open) => true,
+            (Run::Open, Run::State | Run::Draw) => true,
+            (Run::List(_) | Run::Lists | Run::DrawBuffer(_) | Run::ReadBuffer(_), _) => false,
+            (a, b) => a == b,
+        }
+    }
+}
+
+/// One run of a list.
+#[derive(Clone, Debug)]
+pub struct Segment {
+    /// What it does.
+    pub run: Run,
+    /// The driver's list that holds it.
+    pub name: u32,
+    /// State groups that are stale after it.
+    pub touch: Touch,
+    /// The names of glCallLists.
+    pub names: Arc<[u32]>,
+    /// What it does to the current values.
+    pub immediate: Immediate,
+}
+
+/// The runs of one list.
+pub type Body = Arc<[Segment]>;
+
+/// The display lists of one share group.
+#[derive(Debug)]
+pub struct Lists {
+    bodies: HashMap<u32, Body>,
+    spare: Vec<u32>,
+    next: u32,
+}
+
+impl Default for Lists {
+    fn default() -> Self {
+        Lists {
+            bodies: HashMap::new(),
+            spare: Vec::new(),
+            // From the top downwards: glGenLists then still answers the lowest free names (measured on Mesa 22.3), as it does
+            // without us; above a name in the middle it would go on from there.
+            next: u32::MAX - 1,
+        }
+    }
+}
+
+impl Lists {
+    /// The runs of a list; `None` if it was not compiled under the layer.
+    pub fn body(&self, list: u32) -> Option<Body> {
+        self.bodies.get(&list).cloned()
+    }
+
+    /// A name for a run. `taken` says whether the driver knows a name already.
+    pub fn name(&mut self, mut taken: impl FnMut(u32) -> bool) -> u32 {
+        if let Some(name) = self.spare.pop() {
+            return name;
+        }
+        while taken(self.next) {
+            self.next -= 1;
+        }
+        self.next -= 1;
+        self.next + 1
+    }
+
+    /// A list has been compiled; answers the names of the runs that nothing calls any more.
+    pub fn define(&mut self, list: u32, body: Body) -> Vec<u32> {
+        let old = self.bodies.insert(list, body);
+        self.release(old)
+    }
+
+    /// Lists are deleted; answers the names of their runs.
+    pub fn delete(&mut self, first: u32, count: u32) -> Vec<u32> {
+        let range = first..first.saturating_add(count);
+        let gone: Vec<u32> = if count as usize > self.bodies.len() {
+            let known = self.bodies.keys().copied();
+            known.filter(|l| range.contains(l)).collect()
+        } else {
+            range.collect()
+        };
+        gone.into_iter()
+            .flat_map(|list| {
+                let old = self.bodies.remove(&list);
+                self.release(old)
+            })
+            .collect()
+    }
+
+    fn release(&mut self, body: Option<Body>) -> Vec<u32> {
+        let names: Vec<u32> = body.iter().flat_map(|b| b.iter().map(|s| s.name)).collect();
+        self.spare.extend(&names);
+        names
+    }
+}
+
+/// A list between glNewList and glEndList.
+#[derive(Debug)]
+pub struct Compiling {
+    /// The program's name for it.
+    pub list: u32,
+    /// The mode that the program gave.
+    pub mode: u32,
+    /// Between glBegin and glEnd in it: a run cannot end here.
+    pub between: bool,
+    closed: Vec<Segment>,
+    open: Segment,
+    used: bool,
+    matrix_mode: Option<u32>,
+    matrices: u32,
+    attribs: u32,
+}
+
+/// A command in a list, as far as it decides about runs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Command {
+    /// Of the kind of a run.
+    Of(Run),
+    /// glBegin.
+    Begin,
+    /// A vertex or a current value.
+    Immediate(Effect),
+    /// glMatrixMode.
+    MatrixMode(u32),
+    /// Changes the current matrix.
+    Matrix,
+    /// glPushMatrix.
+    PushMatrix,
+    /// glPopMatrix.
+    PopMatrix,
+    /// glPushAttrib.
+    PushAttrib,
+    /// glPopAttrib.
+    PopAttrib,
+}
+
+fn fresh(name: u32) -> Segment {
+    Segment {
+        run: Run::Open,
+        name,
+        touch: Touch::NONE,
+        names: Arc::default(),
+        immediate: Immediate::default(),
+    }
+}
+
+impl Compiling {
+    /// glNewList. `name` is the driver's list of the first run.
+    pub fn new(list: u32, mode: u32, name: u32) -> Self {
+        Compiling {
+            list,
+            mode,
+            between: false,
+            closed: Vec::new(),
+            open: fresh(name),
+            used: false,
+            matrix_mode: None,
+            matrices: 0,
+            attribs: 0,
+        }
+    }
+
+    /// Decides on a command that is about to be compiled; true: the open run must be ended first ([`Compiling::split`]).
+    pub fn needs_split(&mut self, command: Command) -> bool {
+        let run = self.kind(command);
+        let fits = self.open.run.takes(run) || (self.open.run == Run::Open && !self.used);
+        !self.between && !fits
+    }
+
+    /// The driver has ended the open run's list and begun another one.
+    pub fn split(&mut self, name: u32) {
+        self.closed
+            .push(std::mem::replace(&mut self.open, fresh(name)));
+        (self.used, self.matrices, self.attribs) = (false, 0, 0);
+    }
+
+    /// Takes note of a command that is compiled into the open run, and of what it touches.
+    pub fn note(&mut self, command: Command, touch: Touch) {
+        let run = self.kind(command);
+        if !self.between && run != Run::Open {
+            self.open.run = run;
+        }
+        self.used = true;
+        let touch = match command {
+            Command::Matrix | Command::PopMatrix => match self.matrix_mode {
+                None => Touch::MATRIX,
+                Some(crate::gl::consts::MODELVIEW) => Touch::NONE,
+                Some(_) => Touch::DSA_MATRIX,
+            },
+            _ => touch,
+        };
+        self.open.touch = self.open.touch | touch;
+        match command {
+            Command::MatrixMode(mode) => self.matrix_mode = Some(mode),
+            Command::PushMatrix => self.matrices += 1,
+            Command::PopMatrix => self.matrices = self.matrices.saturating_sub(1),
+            Command::PushAttrib => self.attribs += 1,
+            Command::PopAttrib => self.attribs = self.attribs.saturating_sub(1),
+            Command::Immediate(effect) => self.open.immediate.note(effect),
+            // Its vertices use the current values as they are before it.
+            Command::Of(Run::Draw) => self.open.immediate.note(Effect::VERTEX),
+            Command::Of(_) | Command::Matrix | Command::Begin => {}
+        }
+    }
+
+    /// The names of glCallLists, just compiled into the open run.
+    pub fn note_names(&mut self, names: &[u32]) {
+        self.open.names = names.into();
+    }
+
+    /// glEndList.
+    pub fn finish(mut self) -> (u32, u32, Body) {
+        self.closed.push(self.open);
+        (self.list, self.mode, self.closed.into())
+    }
+
+    fn kind(&self, command: Command) -> Run {
+        let free = |balanced: bool| if balanced { Run::Open } else { Run::State };
+        // Unknown: the mode is that of the time of the call, nearly always the modelview.
+        let modelview = self
+            .matrix_mode
+            .is_none_or(|m| m == crate::gl::consts::MODELVIEW);
+        match command {
+            Command::Of(run) => run,
+            Command::Begin => Run::Draw,
+            Command::MatrixMode(_) => Run::State,
+            Command::Matrix | Command::PushMatrix => free(modelview),
+            Command::PopMatrix => free(modelview && self.matrices > 0),
+            Command::PushAttrib | Command::Immediate(_) => Run::Open,
+            Command::PopAttrib => free(self.attribs > 0),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::gl::consts as c;
+
+    /// The runs of a list of commands, with how many commands each has.
+    fn runs(commands: &[Command]) -> Vec<(Run, usize)> {
+        let mut list = Compiling::new(1, c::COMPILE, 100);
+        let mut counts = vec![0];
+        for &command in commands {
+            if list.needs_split(command) {
+                list.split(100 + counts.len() as u32);
+                counts.push(0);
+            }
+            list.note(command, Touch::NONE);
+            if let Some(last) = counts.last_mut() {
+                *last += 1;
+            }
+        }
+        let (_, _, body) = list.finish();
+        body.iter().map(|s| s.run).zip(counts).collect()
+    }
+
+    const ANY: Command = Command::Of(Run::Open);
+    const DRAW: Command = Command::Of(Run::Draw);
+    const STATE: Command = Command::Of(Run::State);
+    const RASTER: Command = Command::Of(Run::Raster);
+
+    #[test]
+    fn what_can_be_put_back_stays_with_the_drawing() {
+        use Command::*;
+        let robot = [
+            PushAttrib, PushMatrix, Matrix, ANY, DRAW, PopMatrix, DRAW, PopAttrib,
+        ];
+        assert_eq!(runs(&robot), [(Run::Draw, 8)]);
+        assert_eq!(runs(&[ANY, Matrix]), [(Run::Open, 2)]);
+        assert_eq!(runs(&[]), [(Run::Open, 0)]);
+    }
+
+    #[test]
+    fn the_projection_is_set_once() {
+        use Command::*;
+        let list = [
+            MatrixMode(c::PROJECTION),
+            PushMatrix,
+            Matrix,
+            MatrixMode(c::MODELVIEW),
+            Matrix,
+            DRAW,
+            MatrixMode(c::PROJECTION),
+            PopMatrix,
+        ];
+        assert_eq!(
+            runs(&list),
+            [(Run::State, 5), (Run::Draw, 1), (Run::State, 2)]
+        );
+    }
+
+    #[test]
+    fn a_stack_is_popped_once_where_the_list_did_not_push() {
+        use Command::*;
+        assert_eq!(runs(&[DRAW, PopMatrix]), [(Run::Draw, 1), (Run::State, 1)]);
+        assert_eq!(runs(&[PopAttrib, DRAW]), [(Run::State, 1), (Run::Draw, 1)]);
+        let across = [PushAttrib, STATE, DRAW, PopAttrib];
+        assert_eq!(
+            runs(&across),
+            [(Run::State, 2), (Run::Draw, 1), (Run::State, 1)]
+        );
+    }
+
+    #[test]
+    fn clears_pictures_and_calls_stand_alone() {
+        let clear = Command::Of(Run::Clear);
+        assert_eq!(
+            runs(&[ANY, clear, clear, ANY, DRAW]),
+            [(Run::Open, 1), (Run::Clear, 2), (Run::Draw, 2)]
+        );
+        assert_eq!(runs(&[RASTER, RASTER]), [(Run::Raster, 2)]);
+        let call = |list| Command::Of(Run::List(list));
+        assert_eq!(
+            runs(&[call(7), call(7)]),
+            [(Run::List(7), 1), (Run::List(7), 1)]
+        );
+    }
+
+    #[test]
+    fn nothing_is_split_inside_a_primitive() {
+        let mut list = Compiling::new(1, c::COMPILE, 9);
+        list.note(DRAW, Touch::NONE);
+        list.between = true;
+        assert!(!list.needs_split(Command::Of(Run::List(3))));
+        list.note(Command::Of(Run::List(3)), Touch::ALL);
+        assert_eq!(list.finish().2[0].run, Run::Draw);
+    }
+
+    #[test]
+    fn names_come_from_the_top_and_are_used_again() {
+        let mut lists = Lists::default();
+        let mut taken = vec![u32::MAX - 1];
+        let a = lists.name(|n| taken.contains(&n));
+        taken.push(a);
+        assert_eq!(a, u32::MAX - 2);
+        let body: Body = [fresh(a)].into();
+        assert!(lists.define(5, body.clone()).is_empty());
+        assert_eq!(lists.delete(0, u32::MAX), [a]);
+        assert!(lists.body(5).is_none());
+        assert_eq!(lists.name(|_| false), a);
+    }
+}
