@@ -46,12 +46,24 @@ struct Thread {
     context: Cell<*mut Context>,
     provider: Cell<Option<Provider>>,
     depth: Cell<u32>,
-    recording: Cell<bool>,
+    inside: Cell<Inside>,
+}
+
+/// Where a thread is between glBegin and glEnd. The driver is there as well, so that it refuses what has no place there; hooks
+/// pass everything on.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Inside {
+    /// Not between them.
+    Outside,
+    /// The calls are recorded.
+    Recorded,
+    /// The calls go to the driver.
+    Direct,
 }
 
 thread_local! {
     static THREAD: Thread = const {
-        Thread { context: Cell::new(core::ptr::null_mut()), provider: Cell::new(None), depth: Cell::new(0), recording: Cell::new(false) }
+        Thread { context: Cell::new(core::ptr::null_mut()), provider: Cell::new(None), depth: Cell::new(0), inside: Cell::new(Inside::Outside) }
     };
 }
 
@@ -70,12 +82,18 @@ pub(crate) fn real() -> &'static Real {
 /// Whether the calls of this thread are recorded (between glBegin and glEnd).
 #[inline]
 pub(crate) fn recording() -> bool {
-    THREAD.with(|t| t.recording.get())
+    inside() == Inside::Recorded
 }
 
-/// Starts or ends recording on this thread.
-pub(crate) fn set_recording(on: bool) {
-    THREAD.with(|t| t.recording.set(on));
+/// Whether this thread is between glBegin and glEnd.
+#[inline]
+pub(crate) fn inside() -> Inside {
+    THREAD.with(|t| t.inside.get())
+}
+
+/// At glBegin and glEnd.
+pub(crate) fn set_inside(inside: Inside) {
+    THREAD.with(|t| t.inside.set(inside));
 }
 
 /// Runs with hooks passed through: around real functions that may call exported names, and around our own work.
@@ -86,9 +104,20 @@ pub(crate) fn guarded<R>(f: impl FnOnce() -> R) -> R {
     r
 }
 
-/// The layer of the current context, without a guard: for work that can neither panic nor call GL.
+/// The layer of the current context, without a guard: for work that can neither panic nor call GL. None between glBegin and
+/// glEnd, where a call has no effect but an error.
 #[inline]
 pub(crate) fn peek<R>(f: impl FnOnce(&mut Layer) -> R) -> Option<R> {
+    if inside() == Inside::Outside {
+        peek_inside(f)
+    } else {
+        None
+    }
+}
+
+/// As [`peek`], between glBegin and glEnd as well.
+#[inline]
+pub(crate) fn peek_inside<R>(f: impl FnOnce(&mut Layer) -> R) -> Option<R> {
     THREAD.with(|t| {
         let context = t.context.get();
         if context.is_null() || t.depth.get() > 0 {
@@ -101,14 +130,14 @@ pub(crate) fn peek<R>(f: impl FnOnce(&mut Layer) -> R) -> Option<R> {
 }
 
 /// The guard of every hook that does something: the current context's layer and driver, unless there is none, the call comes from
-/// inside the layer or the driver, or the layer is off. A panic turns the layer off for good.
+/// inside the layer or the driver or between glBegin and glEnd, or the layer is off. A panic turns the layer off for good.
 pub(crate) fn enter<R>(f: impl FnOnce(&Gl, &mut Layer) -> R) -> Option<R> {
     with_context(|gl, context| context.layer.as_mut().map(|l| f(gl, l))).flatten()
 }
 
 fn with_context<R>(f: impl FnOnce(&Gl, &mut Context) -> R) -> Option<R> {
     let (context, depth) = THREAD.with(|t| (t.context.get(), t.depth.get()));
-    if context.is_null() || depth > 0 || switch::off() {
+    if context.is_null() || depth > 0 || inside() != Inside::Outside || switch::off() {
         return None;
     }
     // SAFETY: as in `peek`.
@@ -119,7 +148,7 @@ fn with_context<R>(f: impl FnOnce(&Gl, &mut Context) -> R) -> Option<R> {
     match r {
         Ok(r) => Some(r),
         Err(_) => {
-            set_recording(false);
+            set_inside(Inside::Outside);
             turn_off("internal fault");
             let _ = std::panic::catch_unwind(AssertUnwindSafe(|| {
                 if let Some(l) = &mut context.layer {
@@ -176,7 +205,7 @@ fn size(drawable: Drawable) -> Option<(u32, u32)> {
 /// After a successful MakeCurrent of the program: takes the context over, or takes up again what it had. A null handle or no
 /// drawable means that the thread has nothing to draw to.
 pub(crate) fn made_current(provider: Provider, handle: Ptr, drawable: Option<Drawable>) {
-    set_recording(false);
+    set_inside(Inside::Outside);
     release();
     THREAD.with(|t| t.provider.set((!handle.is_null()).then_some(provider)));
     let (Some(drawable), false, false) = (drawable, handle.is_null(), switch::off()) else {

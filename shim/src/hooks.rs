@@ -102,9 +102,9 @@ pub(crate) fn draw(kind: Kind, call: &mut dyn FnMut(&'static Real)) {
     }
 }
 
-/// A read from the read framebuffer.
-pub(crate) fn read(call: &mut dyn FnMut(&'static Real)) {
-    if enter(|gl, l| l.read(gl, &mut || call(gl.real()))).is_none() {
+/// A read from the read framebuffer, of columns in pixels.
+pub(crate) fn read(x: i32, width: i32, call: &mut dyn FnMut(&'static Real)) {
+    if enter(|gl, l| l.read(gl, x, width, &mut || call(gl.real()))).is_none() {
         call(real());
     }
 }
@@ -129,7 +129,7 @@ pub(crate) mod imm {
             return None;
         }
         // SAFETY: the layer of this thread's context outlives the hook that writes to it, and the reference does not outlive the hook.
-        context::peek(|l| unsafe { &mut *core::ptr::from_mut(l.record(slot, effect)) })
+        context::peek_inside(|l| unsafe { &mut *core::ptr::from_mut(l.record(slot, effect)) })
     }
 
     /// A call that is not recorded is about to be made: compiled into a display list, or outside glBegin and glEnd.

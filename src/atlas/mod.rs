@@ -2,9 +2,11 @@
 #![forbid(unsafe_code)]
 
 mod names;
+mod single;
 mod tiles;
 
 pub use names::Names;
+use single::Single;
 pub use tiles::{Limits, Tiles, TilesError};
 
 use crate::gl::{Gl, consts as c};
@@ -23,6 +25,7 @@ pub struct Atlas {
     rows: Vec<u32>,
     layered: Option<u32>,
     resolve: Option<Vec<u32>>,
+    single: Option<Single>,
     bound_row: u32,
 }
 
@@ -193,6 +196,7 @@ impl Atlas {
             rows,
             layered,
             resolve,
+            single: None,
             bound_row: 0,
         };
         if status != c::FRAMEBUFFER_COMPLETE {
@@ -220,6 +224,9 @@ impl Atlas {
         }
         for t in self.textures {
             gl.delete_texture(t);
+        }
+        if let Some(single) = self.single {
+            single.delete(gl);
         }
     }
 
@@ -315,6 +322,30 @@ impl Atlas {
             .get(row as usize)
             .copied();
         (f.unwrap_or(0), x as i32)
+    }
+
+    /// Makes what [`Atlas::take_single`] copies to, if it is not there. The caller saves and restores bindings as for [`Atlas::new`].
+    pub fn make_single(&mut self, gl: &Gl, names: &mut Names, window: &Window) {
+        if self.single.is_none() {
+            let single = Single::new(gl, names, window, self.flipped, &mut self.textures);
+            self.single = Some(single);
+        }
+    }
+
+    /// Whether [`Atlas::make_single`] was called.
+    pub fn has_single(&self) -> bool {
+        self.single.is_some()
+    }
+
+    /// Binds a copy of a view's tile for reading, single-sampled and with nothing beside it. Changes the draw framebuffer too; the
+    /// scissor test must be off.
+    pub fn take_single(&mut self, gl: &Gl, view: u32) {
+        let (from, x) = self.target(view);
+        if let Some(single) = &self.single {
+            single.take(gl, from, x);
+            // No layer is bound for drawing now.
+            self.bound_row = u32::MAX;
+        }
     }
 
     /// Resolves samples: all tiles, or only the own one. Changes the framebuffer bindings; the scissor test must be off.

@@ -69,6 +69,8 @@ pub struct FixedState {
     pub program_two_side: bool,
     /// GL_PROGRAM_POINT_SIZE as the program set it.
     pub program_point_size: bool,
+    /// GL_QUADS_FOLLOW_PROVOKING_VERTEX_CONVENTION.
+    pub quads_follow: bool,
     /// GL_POLYGON_MODE, front and back.
     pub polygon_mode: [u32; 2],
     /// How the size of points comes about.
@@ -139,6 +141,8 @@ impl FixedState {
             color_sum,
             program_two_side: on(c::VERTEX_PROGRAM_TWO_SIDE),
             program_point_size: on(c::PROGRAM_POINT_SIZE),
+            quads_follow: gl.version() >= (3, 2)
+                && int(c::QUADS_FOLLOW_PROVOKING_VERTEX_CONVENTION) != 0,
             polygon_mode: gl.get_integers::<2>(c::POLYGON_MODE).map(|m| m as u32),
             point,
         }
@@ -185,6 +189,9 @@ impl FixedState {
             } else {
                 Diagonal::ZeroTwo
             };
+            if !self.quads_follow {
+                key.provoking = Provoking::Last;
+            }
         }
         around.material_per_vertex = material;
         (key, around)

@@ -132,6 +132,7 @@ pub const DEPTH_STENCIL: u32 = 0x84F9;
 pub const UNSIGNED_INT_24_8: u32 = 0x84FA;
 pub const STENCIL_INDEX8: u32 = 0x8D48;
 pub const COLOR_BUFFER_BIT: u32 = 0x4000;
+pub const PIXEL_MODE_BIT: u32 = 0x20;
 pub const DEPTH_BUFFER_BIT: u32 = 0x0100;
 pub const STENCIL_BUFFER_BIT: u32 = 0x0400;
 pub const MAX_TEXTURE_SIZE: u32 = 0x0D33;

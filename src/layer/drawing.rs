@@ -214,13 +214,18 @@ impl Layer {
         }
     }
 
-    /// glBegin: answers whether the calls up to glEnd are to be recorded; if not, they go to the driver, glBegin first.
+    /// Before a glBegin that goes to the driver: answers whether the calls up to glEnd are to be recorded; if not, they go there too.
     pub fn begin(&mut self, gl: &Gl, mode: u32) -> bool {
+        // In a list it is compiled.
         if self.compiles() {
             self.compile(gl, Command::Begin, Touch::NONE);
             if let Some(list) = &mut self.state.list {
                 list.between = true;
             }
+            return false;
+        }
+        // A mode that does not exist begins nothing.
+        if mode > c::PATCHES {
             return false;
         }
         self.state.refresh(gl);
@@ -242,13 +247,10 @@ impl Layer {
         &mut self.recording
     }
 
-    /// glEnd; answers false where it is the driver's own.
-    pub fn end(&mut self, gl: &Gl) -> bool {
-        if self.compiles() {
-            return false;
-        }
+    /// After the driver's glEnd: makes the recorded calls.
+    pub fn end(&mut self, gl: &Gl) {
         let Begin::Recorded(mode) = std::mem::replace(&mut self.state.begin, Begin::Outside) else {
-            return false;
+            return;
         };
         let plan = self.plan(gl, Kind::Begin(mode));
         let again = match self.immediate.must_restore() {
@@ -283,14 +285,12 @@ impl Layer {
         if self.immediate.changes_material() {
             self.state.touch(Touch::MATERIAL);
         }
-        true
     }
 
-    /// After a glEnd that went to the driver.
-    pub fn ended(&mut self) {
-        match &mut self.state.list {
-            Some(list) => list.between = false,
-            None => self.state.begin = Begin::Outside,
+    /// glEnd in a list.
+    pub fn compiled_end(&mut self) {
+        if let Some(list) = &mut self.state.list {
+            list.between = false;
         }
     }
 

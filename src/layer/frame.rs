@@ -10,7 +10,11 @@ use image::RgbImage;
 impl Layer {
     /// Shows the frame in the true framebuffer 0. The caller swaps after it; nothing of the program's state has changed.
     pub fn show(&mut self, gl: &Gl) {
-        if self.state.list.is_some() || self.state.begin != crate::state::Begin::Outside {
+        // Our drawing would be a hit of the program's selection, or be fed back to it.
+        if self.state.list.is_some()
+            || self.state.begin != crate::state::Begin::Outside
+            || self.state.render_mode != c::RENDER
+        {
             return;
         }
         let saved = Saved::take(gl, self.state.compatibility);

@@ -1,13 +1,70 @@
 //! The program's framebuffer 0: bound, drawn to, read from and asked about.
 
-use super::Layer;
+use super::{Layer, keep_bindings};
 use crate::atlas::Atlas;
-use crate::draw::Again;
 use crate::gl::{Gl, consts as c};
 use crate::plan::Kind;
 use crate::state::{Command, Run, Touch};
 
+/// What glPushAttrib saved of framebuffer 0.
+#[derive(Debug)]
+pub(super) struct Pushed {
+    /// GL_ATTRIB_STACK_DEPTH with it.
+    depth: i32,
+    draw_buffers: Option<Vec<u32>>,
+    read_buffer: Option<u32>,
+}
+
 impl Layer {
+    /// glPushAttrib: the driver saves the buffers of the atlas, the layer the program's words for them.
+    pub fn push_attrib(&mut self, gl: &Gl, mask: u32, push: &mut dyn FnMut()) {
+        if self.compiles() {
+            self.compile(gl, Command::PushAttrib, Touch::NONE);
+            return push();
+        }
+        let before = gl.get_integer(c::ATTRIB_STACK_DEPTH);
+        push();
+        let depth = gl.get_integer(c::ATTRIB_STACK_DEPTH);
+        if depth <= before {
+            return; // the stack was full
+        }
+        let f = &self.state.framebuffers;
+        // Lists push and pop without our seeing it: what is above has gone.
+        self.pushed.retain(|p| p.depth < depth);
+        self.pushed.push(Pushed {
+            depth,
+            draw_buffers: (mask & c::COLOR_BUFFER_BIT != 0 && f.draw == 0)
+                .then(|| f.draw_buffers.clone()),
+            read_buffer: (mask & c::PIXEL_MODE_BIT != 0 && f.read == 0).then_some(f.read_buffer),
+        });
+    }
+
+    /// glPopAttrib.
+    pub fn pop_attrib(&mut self, gl: &Gl, pop: &mut dyn FnMut()) {
+        if self.compiles() {
+            self.compile(gl, Command::PopAttrib, Touch::ALL);
+            return pop();
+        }
+        self.state.touch(Touch::ALL);
+        let depth = gl.get_integer(c::ATTRIB_STACK_DEPTH);
+        pop();
+        let saved = self.pushed.iter().position(|p| p.depth == depth);
+        let Some(saved) = saved.map(|at| self.pushed.swap_remove(at)) else {
+            return;
+        };
+        let f = &mut self.state.framebuffers;
+        let before = (f.draw_buffers.clone(), f.read_buffer);
+        if let (Some(b), 0) = (saved.draw_buffers, f.draw) {
+            f.draw_buffers = b;
+        }
+        if let (Some(b), 0) = (saved.read_buffer, f.read) {
+            f.read_buffer = b;
+        }
+        if before != (f.draw_buffers.clone(), f.read_buffer) {
+            self.apply_buffers(gl);
+        }
+    }
+
     /// glBindFramebuffer. `bind` makes the call for a target and a name.
     pub fn bind_framebuffer(&mut self, target: u32, name: u32, bind: &mut dyn FnMut(u32, u32)) {
         let (draw, read) = match target {
@@ -80,7 +137,10 @@ impl Layer {
     /// driver, with the true framebuffer 0 bound, for its error.
     pub fn draw_buffers(&mut self, gl: &Gl, buffers: &[u32]) -> Option<()> {
         let f = &mut self.state.framebuffers;
-        if buffers.iter().any(|&b| f.translate(b).is_none()) {
+        let twice = |(i, b): (usize, &u32)| *b != c::NONE && buffers[..i].contains(b);
+        if buffers.iter().any(|&b| f.translate(b).is_none())
+            || buffers.iter().enumerate().any(twice)
+        {
             return None;
         }
         f.draw_buffers = buffers.to_vec();
@@ -175,36 +235,77 @@ impl Layer {
         }
     }
 
-    /// A read from framebuffer 0 (glReadPixels, glCopyTex*): from the program's own view, resolved if multisampled.
-    pub fn read(&mut self, gl: &Gl, call: &mut dyn FnMut()) {
+    /// A read from framebuffer 0 (glReadPixels, glCopyTex*): from the program's own view, resolved if multisampled. Columns in pixels.
+    pub fn read(&mut self, gl: &Gl, x: i32, width: i32, call: &mut dyn FnMut()) {
         if self.compiles() {
             self.compile(gl, Command::Of(Run::Read), Touch::NONE);
             return call();
         }
-        if self.state.framebuffers.read != 0 || !self.atlas.multisampled() {
+        // What lies to the right of the window must not be another view.
+        let beside = self.atlas.tiles.columns > 1 && x.saturating_add(width) > self.tile_size()[0];
+        if self.state.framebuffers.read != 0 || !(self.atlas.multisampled() || beside) {
             return call();
         }
         self.state.refresh(gl);
-        if self.state.scissor_test {
-            gl.disable(c::SCISSOR_TEST);
-        }
-        self.atlas.resolve(
-            gl,
-            true,
-            c::COLOR_BUFFER_BIT | c::DEPTH_BUFFER_BIT | c::STENCIL_BUFFER_BIT,
-        );
-        if self.state.scissor_test {
-            gl.enable(c::SCISSOR_TEST);
-        }
-        let (from, _) = self.atlas.readable(self.atlas.tiles.own());
+        self.take_single(gl, self.atlas.tiles.own());
         let draw = match self.state.framebuffers.draw {
             0 => self.atlas.framebuffer(),
             other => other,
         };
         gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, draw);
-        gl.bind_framebuffer(c::READ_FRAMEBUFFER, from);
+        self.atlas.forget_row();
         call();
         gl.bind_framebuffer(c::READ_FRAMEBUFFER, self.atlas.framebuffer());
+    }
+
+    /// Binds a copy of a view's tile for reading. Changes the draw framebuffer; the state is refreshed.
+    fn take_single(&mut self, gl: &Gl, view: u32) {
+        if !self.atlas.has_single() {
+            keep_bindings(gl, || {
+                self.atlas
+                    .make_single(gl, &mut self.names, &self.state.window);
+            });
+        }
+        if self.state.scissor_test {
+            gl.disable(c::SCISSOR_TEST);
+        }
+        self.atlas.take_single(gl, view);
+        if self.state.scissor_test {
+            gl.enable(c::SCISSOR_TEST);
+        }
+    }
+
+    /// glCopyPixels: each view from its own tile. Columns in pixels; `call` is the program's own.
+    pub fn copy_pixels(&mut self, gl: &Gl, x: i32, width: i32, call: &mut dyn FnMut()) {
+        if self.compiles() {
+            self.compile(gl, Command::Of(Run::Copy), Touch::NONE);
+            return call();
+        }
+        self.state.refresh(gl);
+        if !self.state.draws_to_window() {
+            return self.read(gl, x, width, call);
+        }
+        if !self.reads_from_zero()
+            || gl.get_integer(c::ATTRIB_STACK_DEPTH) >= gl.get_integer(c::MAX_ATTRIB_STACK_DEPTH)
+        {
+            return self.draw(gl, Kind::Pixels, call);
+        }
+        self.plan(gl, Kind::Pixels);
+        let own = self.atlas.tiles.own();
+        for view in self.atlas.tiles.order() {
+            self.take_single(gl, view);
+            let x = self.atlas.enter(gl, view);
+            self.scissored(gl, x, &mut || {
+                if view == own {
+                    return call();
+                }
+                gl.push_attrib(c::CURRENT_BIT);
+                gl.move_raster(x as f32, 0.0);
+                call();
+                gl.pop_attrib();
+            });
+        }
+        self.bind_draw(gl, true, true);
     }
 
     /// glBlitFramebuffer: into every view's tile where it draws to framebuffer 0; from the same view's tile where it also reads
@@ -213,7 +314,7 @@ impl Layer {
         let (draw, read) = (self.draws_to_zero(), self.reads_from_zero());
         if !draw {
             if read {
-                return self.read(gl, &mut || blit(0, 0));
+                return self.read(gl, 0, 0, &mut || blit(0, 0));
             }
             return blit(0, 0);
         }
@@ -227,26 +328,6 @@ impl Layer {
             self.scissored(gl, x, &mut || blit(if read { x } else { 0 }, x));
         }
         self.bind_draw(gl, true, true);
-    }
-
-    /// glCopyPixels: from a view's tile to the same view's, where it reads from framebuffer 0 and draws to it. `copy` takes the x
-    /// offset of the source in pixels.
-    pub fn copy_pixels(&mut self, gl: &Gl, copy: &mut dyn FnMut(i32)) {
-        self.state.refresh(gl);
-        if self.compiles() || !self.state.draws_to_window() || !self.reads_from_zero() {
-            return self.draw(gl, Kind::Pixels, &mut || copy(0));
-        }
-        let plan = self.plan(gl, Kind::Pixels);
-        let targets: Vec<(u32, i32)> = (0..self.config.views)
-            .map(|view| self.atlas.target(view))
-            .collect();
-        self.replay(gl, &plan, Again::Raster(self.raster), &mut |view| {
-            if let Some(&(from, x)) = targets.get(view as usize) {
-                gl.bind_framebuffer(c::READ_FRAMEBUFFER, from);
-                copy(x);
-            }
-        });
-        self.bind_draw(gl, false, true);
     }
 
     /// Runs a call with the scissor cut to a tile, where tiles lie beside each other.

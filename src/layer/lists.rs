@@ -213,7 +213,9 @@ impl Layer {
             Run::Clear => self.draw(gl, Kind::Clear, call),
             Run::Accum => self.draw(gl, Kind::Accum, call),
             Run::Raster => self.draw(gl, Kind::Pixels, call),
-            Run::Read => self.read(gl, call),
+            // Which columns is in the driver's list only.
+            Run::Read => self.read(gl, 0, i32::MAX, call),
+            Run::Copy => self.copy_pixels(gl, 0, i32::MAX, call),
         }
         self.state.touch(touch);
         if touch.has(Touch::RASTER) {

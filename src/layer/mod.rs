@@ -57,6 +57,7 @@ pub struct Layer {
     driver: Driver,
     lists: SharedLists,
     raster: Option<Shear>,
+    pushed: Vec<framebuffer::Pushed>,
     recording: Recording,
     immediate: Immediate,
     support: Support,
@@ -110,6 +111,7 @@ impl Layer {
             driver: Driver::ask(gl),
             lists,
             raster: None,
+            pushed: Vec::new(),
             recording: Recording::default(),
             immediate: Immediate::default(),
             support,
@@ -139,6 +141,11 @@ impl Layer {
     /// Whether a texture is one of ours.
     pub fn owns_texture(&self, name: u32) -> bool {
         name != 0 && (self.atlas.owns(name) || self.interleaver.texture() == name)
+    }
+
+    /// Whether a framebuffer object is one of ours.
+    pub fn owns_framebuffer(&self, name: u32) -> bool {
+        name != 0 && self.atlas.targets().any(|t| t == name)
     }
 
     /// The program uses a texture name that it never asked for and that is ours: our textures move to other names.
@@ -230,6 +237,13 @@ fn make_atlas(
         support.limits,
     )
     .map_err(AtlasError::from)?;
+    Ok(keep_bindings(gl, || {
+        Atlas::new(gl, names, w, tiles, support.flip)
+    })?)
+}
+
+/// Runs with no unpack buffer, and puts the bindings of textures and framebuffers back that making an atlas changes.
+fn keep_bindings<R>(gl: &Gl, make: impl FnOnce() -> R) -> R {
     let saved = Names::TARGETS.map(|(target, binding)| (target, gl.get_integer(binding) as u32));
     let unpack = gl.get_integer(c::PIXEL_UNPACK_BUFFER_BINDING) as u32;
     if unpack != 0 {
@@ -237,7 +251,7 @@ fn make_atlas(
     }
     let read = gl.get_integer(c::READ_FRAMEBUFFER_BINDING) as u32;
     let draw = gl.get_integer(c::DRAW_FRAMEBUFFER_BINDING) as u32;
-    let atlas = Atlas::new(gl, names, w, tiles, support.flip);
+    let made = make();
     gl.bind_framebuffer(c::READ_FRAMEBUFFER, read);
     gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, draw);
     for (target, name) in saved {
@@ -246,5 +260,5 @@ fn make_atlas(
     if unpack != 0 {
         gl.bind_buffer(c::PIXEL_UNPACK_BUFFER, unpack);
     }
-    Ok(atlas?)
+    made
 }

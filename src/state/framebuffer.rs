@@ -112,7 +112,7 @@ impl Framebuffers {
             return;
         }
         let none = gl.get_integer(c::DRAW_BUFFER0) as u32 == c::NONE;
-        let was_none = self.draw_buffers.iter().all(|&b| b == c::NONE);
+        let was_none = self.draw_buffers.first().is_none_or(|&b| b == c::NONE);
         if none != was_none {
             self.draw_buffers = vec![if none { c::NONE } else { self.default }];
         }

@@ -25,6 +25,8 @@ pub enum Run {
     Raster,
     /// Reads from the framebuffer.
     Read,
+    /// glCopyPixels.
+    Copy,
     /// glCallList of another list, known when it is called.
     List(u32),
     /// glDrawBuffer, by the program's name of the buffer.

@@ -65,7 +65,7 @@ impl core::ops::BitOr for Touch {
 pub enum Begin {
     /// Not between them.
     Outside,
-    /// Between them, and the calls are recorded.
+    /// Between them, and the calls are recorded. The driver stands between them too, with nothing sent to it.
     Recorded(u32),
     /// Between them, and the calls go to the driver.
     Direct,

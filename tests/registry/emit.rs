@@ -275,7 +275,7 @@ pub fn entry(commands: &[Command]) -> String {
                 writeln!(o, "    // SAFETY: the program's own call.\n    hooks::raster({place}, &mut |gl| {call})").unwrap();
             }
             "draw" => writeln!(o, "    // SAFETY: the program's own call.\n    hooks::draw(Kind::{arg}, &mut |gl| {call})").unwrap(),
-            "read" => writeln!(o, "    // SAFETY: the program's own call.\n    hooks::read(&mut |gl| {call})").unwrap(),
+            "read" => writeln!(o, "    // SAFETY: the program's own call.\n    hooks::read(x, width, &mut |gl| {call})").unwrap(),
             "hide" => {
                 writeln!(o, "    // SAFETY: the program's own call.\n    hooks::hide({}, &mut |gl| {call})", c.params[0].name).unwrap()
             }

@@ -1,6 +1,6 @@
 //! Immediate mode, arrays, pixels, display lists.
 
-use crate::context::{enter, real, recording, set_recording};
+use crate::context::{Inside, enter, inside, peek, peek_inside, real, recording, set_inside};
 use crate::hooks::compile;
 use core::slice::from_raw_parts;
 use manyview_core::gl::api::Indices;
@@ -8,22 +8,36 @@ use manyview_core::gl::consts::LIST_BASE;
 use manyview_core::gl::{Ptr, slot};
 use manyview_core::layer::Primitives;
 use manyview_core::plan::Kind;
-use manyview_core::state::{Command, Effect, Run, Touch};
+use manyview_core::state::{Begin, Command, Effect, Run, Touch};
 
 pub(crate) unsafe fn glBegin(mode: u32) {
-    match enter(|gl, l| l.begin(gl, mode)) {
-        Some(true) => set_recording(true),
-        // SAFETY: the program's own call.
-        _ => unsafe { real().glBegin(mode) },
+    let mut own = mode;
+    match enter(|gl, l| (l.begin(gl, mode), l.state.begin)) {
+        Some((true, _)) => {
+            set_inside(Inside::Recorded);
+            own = other_mode(mode);
+        }
+        Some((false, Begin::Direct)) => set_inside(Inside::Direct),
+        _ => {}
     }
+    // SAFETY: the program's own call. Where calls are recorded, the driver has an empty primitive: it answers for what is wrong here.
+    unsafe { real().glBegin(own) };
+}
+
+/// The mode of the driver's empty primitive while calls are recorded: not the program's, because Mesa 22.3 loses a fan after an
+/// empty fan.
+fn other_mode(mode: u32) -> u32 {
+    u32::from(mode == 0) // GL_LINES for GL_POINTS, else GL_POINTS
 }
 
 pub(crate) unsafe fn glEnd() {
-    set_recording(false);
-    if enter(|gl, l| l.end(gl)) != Some(true) {
-        // SAFETY: the program's own call.
-        unsafe { real().glEnd() };
-        enter(|_, l| l.ended());
+    // SAFETY: the program's own call.
+    unsafe { real().glEnd() };
+    if inside() != Inside::Outside {
+        set_inside(Inside::Outside);
+        enter(|gl, l| l.end(gl));
+    } else {
+        peek(|l| l.compiled_end());
     }
 }
 
@@ -102,10 +116,10 @@ pub(crate) unsafe fn glDrawPixels(width: i32, height: i32, format: u32, type_: u
 }
 
 pub(crate) unsafe fn glCopyPixels(x: i32, y: i32, width: i32, height: i32, type_: u32) {
-    // SAFETY: the program's own call, from a tile's place.
-    let mut copy = |tile: i32| unsafe { real().glCopyPixels(x + tile, y, width, height, type_) };
-    if enter(|gl, l| l.copy_pixels(gl, &mut copy)).is_none() {
-        copy(0);
+    // SAFETY: the program's own call.
+    let mut call = || unsafe { real().glCopyPixels(x, y, width, height, type_) };
+    if enter(|gl, l| l.copy_pixels(gl, x, width, &mut call)).is_none() {
+        call();
     }
 }
 
@@ -156,6 +170,21 @@ pub(crate) unsafe fn glCallList(list: u32) {
     {
         call();
     }
+}
+
+/// Asks the driver something while calls are recorded: its own primitive is empty, so it can end and begin again.
+fn outside<R>(ask: impl FnOnce() -> R) -> R {
+    let mode = peek_inside(|l| l.state.begin);
+    // SAFETY: the driver is between glBegin and glEnd.
+    unsafe { real().glEnd() };
+    set_inside(Inside::Outside);
+    let r = ask();
+    set_inside(Inside::Recorded);
+    if let Some(Begin::Recorded(mode)) = mode {
+        // SAFETY: a primitive mode; it stays empty.
+        unsafe { real().glBegin(other_mode(mode)) };
+    }
+    r
 }
 
 fn record_list(list: u32) {
@@ -209,7 +238,7 @@ pub(crate) unsafe fn glCallLists(n: i32, type_: u32, lists: Ptr) {
     // SAFETY: the program's arrays.
     let names = unsafe { list_names(n, type_, lists) };
     if recording() {
-        let base = real_base();
+        let base = outside(list_base);
         let names = names.unwrap_or_default().into_iter();
         return names.map(|n| n.wrapping_add(base)).for_each(record_list);
     }
@@ -231,6 +260,6 @@ pub(crate) unsafe fn glCallLists(n: i32, type_: u32, lists: Ptr) {
     }
 }
 
-fn real_base() -> u32 {
+fn list_base() -> u32 {
     enter(|gl, _| gl.get_integer(LIST_BASE) as u32).unwrap_or(0)
 }

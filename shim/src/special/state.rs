@@ -20,20 +20,6 @@ pub(crate) unsafe fn glMatrixMode(mode: u32) {
     });
 }
 
-pub(crate) unsafe fn glPushAttrib(mask: u32) {
-    compile(Command::PushAttrib, Touch::NONE);
-    // SAFETY: the program's own call.
-    unsafe { real().glPushAttrib(mask) };
-}
-
-pub(crate) unsafe fn glPopAttrib() {
-    if peek(|l| l.touch(Touch::ALL)) == Some(false) {
-        compile(Command::PopAttrib, Touch::ALL);
-    }
-    // SAFETY: the program's own call.
-    unsafe { real().glPopAttrib() };
-}
-
 /// Last viewport size seen, so that the window's size is asked for only when the program may have noticed a change.
 static SEEN: AtomicI64 = AtomicI64::new(-1);
 
@@ -72,6 +58,35 @@ pub(crate) unsafe fn glDeleteTextures(n: i32, textures: Ptr) {
     }
     // SAFETY: the program's own call.
     unsafe { real().glDeleteTextures(n, textures) };
+}
+
+pub(crate) unsafe fn glPushAttrib(mask: u32) {
+    // SAFETY: the program's own call.
+    let mut push = || unsafe { real().glPushAttrib(mask) };
+    if enter(|gl, l| l.push_attrib(gl, mask, &mut push)).is_none() {
+        push();
+    }
+}
+
+pub(crate) unsafe fn glPopAttrib() {
+    // SAFETY: the program's own call.
+    let mut pop = || unsafe { real().glPopAttrib() };
+    if enter(|gl, l| l.pop_attrib(gl, &mut pop)).is_none() {
+        pop();
+    }
+}
+
+pub(crate) unsafe fn glIsTexture(texture: u32) -> u8 {
+    // SAFETY: the program's own call.
+    let is = unsafe { real().glIsTexture(texture) };
+    // Ours are none that the program has been given.
+    is & u8::from(peek(|l| l.owns_texture(texture)) != Some(true))
+}
+
+pub(crate) unsafe fn glIsFramebuffer(framebuffer: u32) -> u8 {
+    // SAFETY: the program's own call.
+    let is = unsafe { real().glIsFramebuffer(framebuffer) };
+    is & u8::from(peek(|l| l.owns_framebuffer(framebuffer)) != Some(true))
 }
 
 pub(crate) unsafe fn glRenderMode(mode: u32) -> i32 {
