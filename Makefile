@@ -14,13 +14,13 @@ README_SCENE := --frame 40 --eye-spacing 0.3 --focal-depth 8
 # Debian packages: what building, the demos and the tests need, then what some tests use if it is there.
 PACKAGES := gcc libc6-dev make xvfb libgl1 libegl1 libgl1-mesa-dri libosmesa6 libosmesa6-dev libgl-dev libegl-dev \
 	libx11-dev libpng-dev mesa-utils apitrace khronos-api
-OPTIONAL_PACKAGES := faketime
-# Programs that test-long records and repeats.
+OPTIONAL_PACKAGES := faketime piglit
+# Programs that test-long and test-full record and repeat.
 LONG_PACKAGES := gltron xscreensaver-gl
 # Only for those who make the pictures of the documents again.
 PICTURE_PACKAGES := netpbm
 
-.PHONY: help build demos demo pictures test test-long lint packages install uninstall clean
+.PHONY: help build demos demo pictures test test-long test-full lint packages install uninstall clean
 
 help: ## list the targets
 	@sed -n 's/^\([a-z-]*\):.*## /\1	/p' $(MAKEFILE_LIST) | expand -t 20
@@ -62,8 +62,15 @@ test: packages build demos ## run the tests
 test-long: packages build demos ## run the tests that take long as well
 	@sh scripts/packages.sh --optional $(LONG_PACKAGES)
 	@if $(CARGO) nextest --version >/dev/null 2>&1; \
-	then $(CARGO) nextest run --release --no-tests=warn --workspace --run-ignored all; \
-	else $(CARGO) test --release --workspace --lib --bins --tests -- --include-ignored; fi
+	then $(CARGO) nextest run --release --no-tests=warn --workspace --run-ignored all -E 'not test(/^full_/)'; \
+	else $(CARGO) test --release --workspace --lib --bins --tests -- --include-ignored --skip full_; fi
+	$(CARGO) test --release -p manyview --doc
+
+test-full: packages build demos ## run all tests, also all of piglit's (half an hour)
+	@sh scripts/packages.sh --optional $(LONG_PACKAGES)
+	@if $(CARGO) nextest --version >/dev/null 2>&1; \
+	then $(CARGO) nextest run --release --no-fail-fast --no-tests=warn --workspace --run-ignored all; \
+	else $(CARGO) test --release --no-fail-fast --workspace --lib --bins --tests -- --include-ignored; fi
 	$(CARGO) test --release -p manyview --doc
 
 lint: rust ## check format, clippy and documentation
