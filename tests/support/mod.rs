@@ -223,10 +223,12 @@ pub(crate) fn scratch(name: &str) -> PathBuf {
 
 /// Builds `tests/support/c/NAME.c` with the C compiler that the demos need as well; a library to preload, or a program.
 pub(crate) fn compiled(name: &str, kind: Compiled, libraries: &[&str]) -> PathBuf {
-    let source = Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("tests/support/c")
-        .join(name)
-        .with_extension("c");
+    let source = Path::new("tests/support/c").join(name).with_extension("c");
+    built(name, &[source.as_path()], kind, libraries)
+}
+
+/// Builds a library or a program from C files of the repository; `more` are the compiler's last arguments.
+pub(crate) fn built(name: &str, sources: &[&Path], kind: Compiled, more: &[&str]) -> PathBuf {
     let folder = scratch("test-programs");
     let out = match kind {
         Compiled::Library => folder.join(format!("{name}.so")),
@@ -242,7 +244,10 @@ pub(crate) fn compiled(name: &str, kind: Compiled, libraries: &[&str]) -> PathBu
     if let Compiled::Library = kind {
         command.args(["-shared", "-fPIC"]);
     }
-    succeed(command.arg("-o").arg(&own).arg(source).args(libraries));
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    command.arg("-o").arg(&own);
+    command.args(sources.iter().map(|source| root.join(source)));
+    succeed(command.args(more));
     own.persist(&out).expect("renamed");
     out
 }

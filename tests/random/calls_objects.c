@@ -1,0 +1,96 @@
+/* Framebuffer objects, occlusion queries, swaps. */
+#include "random.h"
+
+static void framebuffer(void)
+{
+    struct context *c = R->now;
+    uint32_t i = below(FRAMES);
+    if (!c->framebuffers[0] && !R->begin) {
+        glGenFramebuffers(FRAMES, c->framebuffers);
+        glGenRenderbuffers(1, &c->renderbuffer);
+        glBindRenderbuffer(GL_RENDERBUFFER, c->renderbuffer);
+        glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH24_STENCIL8, 32, 32);
+    }
+    GLenum target = ENUM(GL_FRAMEBUFFER, GL_FRAMEBUFFER, GL_DRAW_FRAMEBUFFER, GL_READ_FRAMEBUFFER);
+    switch (below(9)) {
+    case 0: case 1: case 2: CALL(glBindFramebuffer, GL_FRAMEBUFFER, 0u); break;
+    case 3: CALL(glBindFramebuffer, target, 0u); break;
+    case 4: case 5: {
+        /* A whole one: a texture of its own, so that nothing is sampled that is drawn to. */
+        GLint before = 0;
+        if (R->begin)
+            break;
+        glGetIntegerv(GL_TEXTURE_BINDING_2D, &before);
+        CALL(glBindFramebuffer, target, c->framebuffers[i]);
+        GLuint name = 40 + i;
+        glBindTexture(GL_TEXTURE_2D, name);
+        GLint unpack = 0;
+        glGetIntegerv(GL_PIXEL_UNPACK_BUFFER_BINDING, &unpack);
+        glBindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
+        glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA, 32, 32, 0, GL_RGBA, GL_UNSIGNED_BYTE, pixel_source());
+        glBindBuffer(GL_PIXEL_UNPACK_BUFFER, (GLuint)unpack);
+        glBindTexture(GL_TEXTURE_2D, (GLuint)before);
+        CALL(glFramebufferTexture2D, target, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, name, 0);
+        if (chance(60)) {
+            CALL(glFramebufferRenderbuffer, target, GL_DEPTH_STENCIL_ATTACHMENT, GL_RENDERBUFFER, c->renderbuffer);
+            if (target != GL_READ_FRAMEBUFFER)
+                CALL(glClear, GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
+        }
+        break;
+    }
+    case 6: tell(&R->answers, "%d.%d status 0x%x", R->step, R->part, CALL(glCheckFramebufferStatus, target)); break;
+    case 7: {
+        GLint value = -1;
+        GLenum attachment = ENUM(GL_BACK, GL_DEPTH, GL_STENCIL, GL_BACK_LEFT, GL_COLOR_ATTACHMENT0, GL_DEPTH_ATTACHMENT);
+        GLenum what = ENUM(GL_FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE, GL_FRAMEBUFFER_ATTACHMENT_RED_SIZE, GL_FRAMEBUFFER_ATTACHMENT_DEPTH_SIZE);
+        CALL(glGetFramebufferAttachmentParameteriv, target, attachment, what, &value);
+        tell(&R->answers, "%d.%d attachment %d", R->step, R->part, value);
+        break;
+    }
+    default:
+        if (chance(50)) {
+            CALL(glDeleteFramebuffers, 1, (const GLuint *)&c->framebuffers[i]);
+            CALL(glGenFramebuffers, 1, &c->framebuffers[i]);
+        } else {
+            CALL(glBlitFramebuffer, 0, 0, (int)below(33), (int)below(33), (int)below(20), (int)below(20), 40, 30,
+                 PICK(GL_COLOR_BUFFER_BIT, GL_COLOR_BUFFER_BIT, GL_DEPTH_BUFFER_BIT), PICK(GL_NEAREST, GL_LINEAR));
+        }
+    }
+}
+
+static void query(void)
+{
+    struct context *c = R->now;
+    if (c->query) {
+        CALL(glEndQuery, GL_SAMPLES_PASSED);
+        GLuint passed = 12345;
+        CALL(glGetQueryObjectuiv, (GLuint)c->query, GL_QUERY_RESULT, &passed);
+        tell(&R->answers, "%d.%d samples %u", R->step, R->part, passed);
+        c->query = 0;
+    } else if (!R->begin && !R->list) {
+        c->query = 1 + (int)below(3) + 10 * (int)(c - R->contexts);
+        CALL(glBeginQuery, GL_SAMPLES_PASSED, (GLuint)c->query);
+    }
+}
+
+static void swap(void)
+{
+    if (R->begin || R->list)
+        return;
+    if (O.trace)
+        fprintf(R->out, "%d.%d (swap)\n", R->step, R->part);
+    W->swap(R->now->drawable);
+}
+
+static void flush(void)
+{
+    if (chance(50))
+        CALL0(glFlush);
+    else
+        CALL0(glFinish);
+}
+
+const struct generator object_calls[] = {
+    {"framebuffer", FRAMEBUFFERS, 30, framebuffer}, {"query", QUERIES, 15, query}, {"swap", SWAPS, 12, swap},
+    {"flush", SWAPS, 8, flush}, {0},
+};

@@ -1,0 +1,155 @@
+/* Random sequences of GL calls: what the files share. main.c says what the program does. */
+#ifndef RANDOM_H
+#define RANDOM_H
+
+#define GL_GLEXT_PROTOTYPES 1
+#include <GL/gl.h>
+#include <GL/glext.h>
+#include <stdint.h>
+#include <stdio.h>
+
+enum { WIDTH = 64, HEIGHT = 48, CONTEXTS = 3, TEXTURES = 6, FRAMES = 2, VALUES = 2048, VERTICES = 64 };
+enum { MEMORY = 1 << 20, BUFFER = 8192 };
+
+/* Kinds of calls that can be left out (--without). The order is that of class_names in main.c. */
+enum class {
+    STATE, MATRICES, IMMEDIATE, IN_BEGIN, ARRAYS, EVALUATORS, LISTS, PIXELS, ACCUM, CLEARS, TEXTURES_, ATTRIBS, MODES,
+    READS, FRAMEBUFFERS, BUFFERS, QUERIES, SWAPS, CONTEXTS_, THREADS, ERRORS, FRONT, COPIES, CLASSES
+};
+
+/* One context of a sequence, as the sequence knows it. */
+struct context {
+    void *handle;
+    int drawable;
+    struct context *share;
+    GLuint textures[TEXTURES], framebuffers[FRAMES], renderbuffer;
+    GLfloat feedback[VALUES];
+    GLuint selection[VALUES];
+    int query; /* 1 to 3: between glBeginQuery and glEndQuery */
+};
+
+/* One thread of a sequence. */
+struct run {
+    uint64_t seed, random;
+    int step, part;
+    int thread; /* 0 or 1 */
+    int begin, list; /* between glBegin and glEnd; the list that is being compiled */
+    struct context contexts[CONTEXTS], *now;
+    int context_count;
+    FILE *out;
+    uint64_t answers, state, pixels;
+    unsigned char *memory; /* what GL writes to */
+};
+extern __thread struct run *R;
+
+struct options {
+    int trace, verbose, rows, steps;
+    unsigned without; /* bits of classes */
+    const char *drop; /* ",3,5.2,": steps and parts of steps that are left out */
+};
+extern struct options O;
+
+/* ---- main.c ---- */
+int dropped(void);                        /* whether the current step or part is left out */
+void part(void);                          /* the next part of a step: random numbers of its own */
+uint32_t below(uint32_t n);               /* 0 to n - 1 */
+float within(float a, float b);
+int chance(int percent);
+_Noreturn void fail(const char *format, ...) __attribute__((format(printf, 1, 2)));
+/* A line of what the program was told; where it counts is one of &R->answers, &R->state, &R->pixels. */
+void tell(uint64_t *where, const char *format, ...) __attribute__((format(printf, 2, 3)));
+uint64_t hash(const void *data, size_t bytes);
+
+#define PICK(...) ((const GLenum[]){__VA_ARGS__}[below(sizeof((const GLenum[]){__VA_ARGS__}) / sizeof(GLenum))])
+/* As PICK, but at times something that is no value of the kind. */
+#define ENUM(...) odd(PICK(__VA_ARGS__))
+GLenum odd(GLenum value);
+
+/* ---- calls, printed when asked to: CALL(glEnable, cap) ---- */
+void print_int(int v);
+void print_unsigned(unsigned v);
+void print_double(double v);
+void print_pointer(const void *v);
+void trace_name(const char *name);
+void trace_end(void);
+#define PRINT(x) _Generic((x), char: print_int, signed char: print_int, short: print_int, int: print_int, \
+    long: print_int, unsigned char: print_unsigned, unsigned short: print_unsigned, unsigned: print_unsigned, \
+    unsigned long: print_unsigned, float: print_double, double: print_double, default: print_pointer)(x)
+#define V1(a) __auto_type a_ = (a);
+#define V2(a, b) V1(a) __auto_type b_ = (b);
+#define V3(a, b, c) V2(a, b) __auto_type c_ = (c);
+#define V4(a, b, c, d) V3(a, b, c) __auto_type d_ = (d);
+#define V5(a, b, c, d, e) V4(a, b, c, d) __auto_type e_ = (e);
+#define V6(a, b, c, d, e, f) V5(a, b, c, d, e) __auto_type f_ = (f);
+#define V7(a, b, c, d, e, f, g) V6(a, b, c, d, e, f) __auto_type g_ = (g);
+#define V8(a, b, c, d, e, f, g, h) V7(a, b, c, d, e, f, g) __auto_type h_ = (h);
+#define V9(a, b, c, d, e, f, g, h, i) V8(a, b, c, d, e, f, g, h) __auto_type i_ = (i);
+#define V10(a, b, c, d, e, f, g, h, i, j) V9(a, b, c, d, e, f, g, h, i) __auto_type j_ = (j);
+#define P1 PRINT(a_);
+#define P2 P1 PRINT(b_);
+#define P3 P2 PRINT(c_);
+#define P4 P3 PRINT(d_);
+#define P5 P4 PRINT(e_);
+#define P6 P5 PRINT(f_);
+#define P7 P6 PRINT(g_);
+#define P8 P7 PRINT(h_);
+#define P9 P8 PRINT(i_);
+#define P10 P9 PRINT(j_);
+#define A1 a_
+#define A2 A1, b_
+#define A3 A2, c_
+#define A4 A3, d_
+#define A5 A4, e_
+#define A6 A5, f_
+#define A7 A6, g_
+#define A8 A7, h_
+#define A9 A8, i_
+#define A10 A9, j_
+#define COUNT_(a, b, c, d, e, f, g, h, i, j, n, ...) n
+#define COUNT(...) COUNT_(__VA_ARGS__, 10, 9, 8, 7, 6, 5, 4, 3, 2, 1)
+#define JOIN_(a, b) a##b
+#define JOIN(a, b) JOIN_(a, b)
+/* Arguments are evaluated once, from left to right, so that a seed means the same with every compiler. */
+#define CALL(f, ...) __extension__({ \
+    JOIN(V, COUNT(__VA_ARGS__))(__VA_ARGS__) \
+    if (O.trace) { trace_name(#f); JOIN(P, COUNT(__VA_ARGS__)) trace_end(); } \
+    f(JOIN(A, COUNT(__VA_ARGS__))); })
+#define CALL0(f) __extension__({ if (O.trace) { trace_name(#f); trace_end(); } f(); })
+/* An array of random numbers that is printed. */
+const float *floats(int n, float a, float b);
+const double *doubles(int n, float a, float b);
+const int *ints(int n, int bound);
+
+/* ---- generators: calls_*.c ---- */
+struct generator {
+    const char *name;
+    enum class class;
+    int weight;
+    void (*call)(void);
+};
+extern const struct generator state_calls[], draw_calls[], pixel_calls[], object_calls[], list_calls[];
+void any_call(void);        /* of all tables (main.c) */
+void vertex_calls(int n);   /* as between glBegin and glEnd (calls_draw.c) */
+void array_pointers(void);  /* every pointer at memory that may be read (calls_draw.c) */
+void prepare_data(void);    /* once per process (calls_draw.c) */
+void prepare_pixels(void);  /* as well (calls_pixels.c) */
+const void *pixel_source(void);
+void *pixel_target(void);
+
+/* ---- dump.c ---- */
+void dump_context(void);
+
+/* ---- window_*.c ---- */
+struct window_api {
+    const char *name;
+    void (*open)(int drawables);
+    void *(*create)(void *share);
+    void (*current)(void *handle, int drawable); /* null: none */
+    void (*destroy)(void *handle);
+    void (*swap)(int drawable);
+    int windows; /* not pbuffers */
+};
+extern const struct window_api window_egl, window_glx, window_osmesa;
+extern const struct window_api *W;
+
+#endif
