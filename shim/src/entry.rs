@@ -9127,73 +9127,73 @@ export! { 517, glViewportIndexedfvOES, first_glViewportIndexedfvOES, hook_glView
     unsafe { gl.glViewportIndexedfvOES(index, v) };
 } }
 export! { 518, glEnable, first_glEnable, hook_glEnable, (cap: u32) -> (), {
-    hooks::cap(cap);
+    hooks::cap(cap, true);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glEnable(cap) };
 } }
 export! { 519, glDisable, first_glDisable, hook_glDisable, (cap: u32) -> (), {
-    hooks::cap(cap);
+    hooks::cap(cap, false);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glDisable(cap) };
 } }
 export! { 520, glEnablei, first_glEnablei, hook_glEnablei, (target: u32, index: u32) -> (), {
-    hooks::cap(target);
+    hooks::cap(target, true);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glEnablei(target, index) };
 } }
 export! { 521, glEnableIndexedEXT, first_glEnableIndexedEXT, hook_glEnableIndexedEXT, (target: u32, index: u32) -> (), {
-    hooks::cap(target);
+    hooks::cap(target, true);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glEnableIndexedEXT(target, index) };
 } }
 export! { 522, glEnableiEXT, first_glEnableiEXT, hook_glEnableiEXT, (target: u32, index: u32) -> (), {
-    hooks::cap(target);
+    hooks::cap(target, true);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glEnableiEXT(target, index) };
 } }
 export! { 523, glEnableiNV, first_glEnableiNV, hook_glEnableiNV, (target: u32, index: u32) -> (), {
-    hooks::cap(target);
+    hooks::cap(target, true);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glEnableiNV(target, index) };
 } }
 export! { 524, glEnableiOES, first_glEnableiOES, hook_glEnableiOES, (target: u32, index: u32) -> (), {
-    hooks::cap(target);
+    hooks::cap(target, true);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glEnableiOES(target, index) };
 } }
 export! { 525, glDisablei, first_glDisablei, hook_glDisablei, (target: u32, index: u32) -> (), {
-    hooks::cap(target);
+    hooks::cap(target, false);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glDisablei(target, index) };
 } }
 export! { 526, glDisableIndexedEXT, first_glDisableIndexedEXT, hook_glDisableIndexedEXT, (target: u32, index: u32) -> (), {
-    hooks::cap(target);
+    hooks::cap(target, false);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glDisableIndexedEXT(target, index) };
 } }
 export! { 527, glDisableiEXT, first_glDisableiEXT, hook_glDisableiEXT, (target: u32, index: u32) -> (), {
-    hooks::cap(target);
+    hooks::cap(target, false);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glDisableiEXT(target, index) };
 } }
 export! { 528, glDisableiNV, first_glDisableiNV, hook_glDisableiNV, (target: u32, index: u32) -> (), {
-    hooks::cap(target);
+    hooks::cap(target, false);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glDisableiNV(target, index) };
 } }
 export! { 529, glDisableiOES, first_glDisableiOES, hook_glDisableiOES, (target: u32, index: u32) -> (), {
-    hooks::cap(target);
+    hooks::cap(target, false);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glDisableiOES(target, index) };

@@ -4,7 +4,7 @@ use crate::context::{self, enter};
 use manyview_core::gl::Real;
 
 pub(crate) use context::real;
-use manyview_core::gl::consts::SCISSOR_TEST;
+use manyview_core::gl::consts::{FRAMEBUFFER_SRGB, SCISSOR_TEST};
 use manyview_core::state::Run;
 pub(crate) use manyview_core::state::{Command, Touch};
 
@@ -55,9 +55,12 @@ pub(crate) fn matrix(command: Command) {
     }
 }
 
-/// A capability is about to be switched.
+/// A capability is about to be switched on or off.
 #[inline]
-pub(crate) fn cap(cap: u32) {
+pub(crate) fn cap(cap: u32, on: bool) {
+    if cap == FRAMEBUFFER_SRGB && on {
+        enter(|gl, l| l.enable_srgb(gl));
+    }
     touch(if cap == SCISSOR_TEST {
         Touch::RECTS
     } else {

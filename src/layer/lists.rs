@@ -66,7 +66,11 @@ impl Layer {
         if self.state.list.is_none() || gl.get_integer(c::LIST_INDEX) != 0 {
             return None;
         }
-        let (list, mode, body) = self.state.list.take()?.finish();
+        let compiling = self.state.list.take()?;
+        if compiling.enables_srgb {
+            self.enable_srgb(gl);
+        }
+        let (list, mode, body) = compiling.finish();
         gl.new_list(list, c::COMPILE);
         for segment in body.iter() {
             gl.call_list(segment.name);

@@ -154,30 +154,58 @@ impl Layer {
             return;
         }
         self.names.hide();
+        let note = if self.remake(gl) {
+            "the program numbers its textures itself; ours moved out of its way"
+        } else {
+            "the program's texture names clash with ours"
+        };
+        self.report.note(note.into());
+        self.interleaver.rename(gl, &mut self.names);
+    }
+
+    /// The program enables GL_FRAMEBUFFER_SRGB. Until then the atlas is not sRGB: drivers decode what is copied out of an sRGB
+    /// texture, and what is copied out of such a window they do not.
+    pub fn enable_srgb(&mut self, gl: &Gl) {
+        if let Some(list) = &mut self.state.list {
+            list.enables_srgb = true;
+            return;
+        }
+        let window = &mut self.state.window;
+        if window.srgb_capable && !window.srgb {
+            window.srgb = true;
+            if !self.remake(gl) {
+                self.state.window.srgb = false;
+                self.report
+                    .note("the driver makes no sRGB framebuffer: colours are not converted".into());
+            }
+        }
+    }
+
+    /// Puts a new atlas with the same contents in the place of the old one.
+    fn remake(&mut self, gl: &Gl) -> bool {
         self.state.refresh(gl);
         let Ok(atlas) = make_atlas(gl, &mut self.names, self.config, &self.state, &self.support)
         else {
-            return self
-                .report
-                .note("the program's texture names clash with ours".into());
+            return false;
         };
-        if self.state.scissor_test {
-            gl.disable(c::SCISSOR_TEST);
-        }
+        // The bits are copied as they are.
+        let switches = [c::SCISSOR_TEST, c::FRAMEBUFFER_SRGB];
+        let on = switches.map(|s| gl.is_enabled(s));
+        switches.into_iter().for_each(|s| gl.disable(s));
         atlas.copy(gl, &self.atlas);
-        if self.state.scissor_test {
-            gl.enable(c::SCISSOR_TEST);
+        for (switch, on) in switches.into_iter().zip(on) {
+            if on {
+                gl.enable(switch);
+            }
         }
         std::mem::replace(&mut self.atlas, atlas).delete(gl);
-        self.interleaver.rename(gl, &mut self.names);
         self.apply_buffers(gl);
         let f = &self.state.framebuffers;
         for (target, name) in [(c::DRAW_FRAMEBUFFER, f.draw), (c::READ_FRAMEBUFFER, f.read)] {
             gl.bind_framebuffer(target, name);
         }
         self.bind_draw(gl, true, true);
-        self.report
-            .note("the program numbers its textures itself; ours moved out of its way".into());
+        true
     }
 
     /// Size of the window in pixels.

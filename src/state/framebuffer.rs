@@ -16,6 +16,8 @@ pub struct Window {
     /// Samples per pixel, 0 for none.
     pub samples: u32,
     /// Can convert to sRGB when GL_FRAMEBUFFER_SRGB is enabled.
+    pub srgb_capable: bool,
+    /// The program has asked for that conversion.
     pub srgb: bool,
     /// Colours are floating point.
     pub float: bool,
@@ -44,6 +46,9 @@ impl Window {
             c::FRONT_LEFT
         };
         let modern = gl.version() >= (3, 0);
+        let srgb_capable = modern
+            && gl.attachment_parameter(color, c::FRAMEBUFFER_ATTACHMENT_COLOR_ENCODING) as u32
+                == c::SRGB;
         Window {
             width,
             height,
@@ -52,9 +57,8 @@ impl Window {
             default_read: gl.get_integer(c::READ_BUFFER) as u32,
             bits: names.map(bit),
             samples: bit(c::SAMPLES),
-            srgb: modern
-                && gl.attachment_parameter(color, c::FRAMEBUFFER_ATTACHMENT_COLOR_ENCODING) as u32
-                    == c::SRGB,
+            srgb_capable,
+            srgb: srgb_capable && gl.is_enabled(c::FRAMEBUFFER_SRGB),
             float: modern
                 && gl.attachment_parameter(color, c::FRAMEBUFFER_ATTACHMENT_COMPONENT_TYPE) as u32
                     == c::FLOAT,

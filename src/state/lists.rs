@@ -144,6 +144,8 @@ pub struct Compiling {
     pub mode: u32,
     /// Between glBegin and glEnd in it: a run cannot end here.
     pub between: bool,
+    /// It enables GL_FRAMEBUFFER_SRGB.
+    pub enables_srgb: bool,
     closed: Vec<Segment>,
     open: Segment,
     used: bool,
@@ -192,6 +194,7 @@ impl Compiling {
             list,
             mode,
             between: false,
+            enables_srgb: false,
             closed: Vec::new(),
             open: fresh(name),
             used: false,

@@ -266,7 +266,7 @@ pub fn entry(commands: &[Command]) -> String {
                 let note = match class {
                     "matrix" => format!("matrix(Command::{arg})"),
                     "any" => "any()".into(),
-                    _ => format!("cap({})", c.params[0].name),
+                    _ => format!("cap({}, {})", c.params[0].name, name.starts_with("glEnable")),
                 };
                 writeln!(o, "    hooks::{note};\n    let gl = hooks::real();\n    // SAFETY: the program's own call.\n    {call};").unwrap();
             }
