@@ -7,7 +7,7 @@ use manyview_core::gl::{Ptr, slot};
 use manyview_core::state::Effect;
 
 /// Where each exported function jumps to, by slot: at first its resolver, then the driver's function or the hook.
-pub(crate) static ENTRY: [AtomicPtr<()>; 1135] = [
+pub(crate) static ENTRY: [AtomicPtr<()>; 1153] = [
     AtomicPtr::new(first_glVertex2d as *mut ()),
     AtomicPtr::new(first_glVertex2dv as *mut ()),
     AtomicPtr::new(first_glVertex2f as *mut ()),
@@ -1062,6 +1062,23 @@ pub(crate) static ENTRY: [AtomicPtr<()>; 1135] = [
     AtomicPtr::new(first_glFinish as *mut ()),
     AtomicPtr::new(first_glFlush as *mut ()),
     AtomicPtr::new(first_glGetError as *mut ()),
+    AtomicPtr::new(first_glBeginQuery as *mut ()),
+    AtomicPtr::new(first_glBeginQueryARB as *mut ()),
+    AtomicPtr::new(first_glEndQuery as *mut ()),
+    AtomicPtr::new(first_glEndQueryARB as *mut ()),
+    AtomicPtr::new(first_glDeleteQueries as *mut ()),
+    AtomicPtr::new(first_glDeleteQueriesARB as *mut ()),
+    AtomicPtr::new(first_glGetQueryiv as *mut ()),
+    AtomicPtr::new(first_glGetQueryivARB as *mut ()),
+    AtomicPtr::new(first_glGetQueryObjectiv as *mut ()),
+    AtomicPtr::new(first_glGetQueryObjectivARB as *mut ()),
+    AtomicPtr::new(first_glGetQueryObjectivEXT as *mut ()),
+    AtomicPtr::new(first_glGetQueryObjectuiv as *mut ()),
+    AtomicPtr::new(first_glGetQueryObjectuivARB as *mut ()),
+    AtomicPtr::new(first_glGetQueryObjecti64v as *mut ()),
+    AtomicPtr::new(first_glGetQueryObjecti64vEXT as *mut ()),
+    AtomicPtr::new(first_glGetQueryObjectui64v as *mut ()),
+    AtomicPtr::new(first_glGetQueryObjectui64vEXT as *mut ()),
     AtomicPtr::new(first_glXSwapBuffers as *mut ()),
     AtomicPtr::new(first_glXSwapBuffersMscOML as *mut ()),
     AtomicPtr::new(first_glXMakeCurrent as *mut ()),
@@ -1143,10 +1160,11 @@ pub(crate) static ENTRY: [AtomicPtr<()>; 1135] = [
     AtomicPtr::new(core::ptr::null_mut()),
     AtomicPtr::new(core::ptr::null_mut()),
     AtomicPtr::new(core::ptr::null_mut()),
+    AtomicPtr::new(core::ptr::null_mut()),
 ];
 
 /// The hook of each exported function, by slot.
-pub(crate) static HOOK: [Option<crate::Address>; 1135] = [
+pub(crate) static HOOK: [Option<crate::Address>; 1153] = [
     Some(crate::Address(hook_glVertex2d as *const ())),
     Some(crate::Address(hook_glVertex2dv as *const ())),
     Some(crate::Address(hook_glVertex2f as *const ())),
@@ -2201,6 +2219,23 @@ pub(crate) static HOOK: [Option<crate::Address>; 1135] = [
     Some(crate::Address(hook_glFinish as *const ())),
     Some(crate::Address(hook_glFlush as *const ())),
     Some(crate::Address(hook_glGetError as *const ())),
+    Some(crate::Address(hook_glBeginQuery as *const ())),
+    Some(crate::Address(hook_glBeginQueryARB as *const ())),
+    Some(crate::Address(hook_glEndQuery as *const ())),
+    Some(crate::Address(hook_glEndQueryARB as *const ())),
+    Some(crate::Address(hook_glDeleteQueries as *const ())),
+    Some(crate::Address(hook_glDeleteQueriesARB as *const ())),
+    Some(crate::Address(hook_glGetQueryiv as *const ())),
+    Some(crate::Address(hook_glGetQueryivARB as *const ())),
+    Some(crate::Address(hook_glGetQueryObjectiv as *const ())),
+    Some(crate::Address(hook_glGetQueryObjectivARB as *const ())),
+    Some(crate::Address(hook_glGetQueryObjectivEXT as *const ())),
+    Some(crate::Address(hook_glGetQueryObjectuiv as *const ())),
+    Some(crate::Address(hook_glGetQueryObjectuivARB as *const ())),
+    Some(crate::Address(hook_glGetQueryObjecti64v as *const ())),
+    Some(crate::Address(hook_glGetQueryObjecti64vEXT as *const ())),
+    Some(crate::Address(hook_glGetQueryObjectui64v as *const ())),
+    Some(crate::Address(hook_glGetQueryObjectui64vEXT as *const ())),
     Some(crate::Address(hook_glXSwapBuffers as *const ())),
     Some(crate::Address(hook_glXSwapBuffersMscOML as *const ())),
     Some(crate::Address(hook_glXMakeCurrent as *const ())),
@@ -2282,24 +2317,25 @@ pub(crate) static HOOK: [Option<crate::Address>; 1135] = [
     None,
     None,
     None,
+    None,
 ];
 
 /// Exported names in order, their slots and addresses: what dlsym and the GetProcAddress family hand out.
-pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1080] = [
-    (b"OSMesaCreateContext", 1080, crate::Address(OSMesaCreateContext as *const ())),
-    (b"OSMesaCreateContextAttribs", 1082, crate::Address(OSMesaCreateContextAttribs as *const ())),
-    (b"OSMesaCreateContextExt", 1081, crate::Address(OSMesaCreateContextExt as *const ())),
-    (b"OSMesaDestroyContext", 1083, crate::Address(OSMesaDestroyContext as *const ())),
-    (b"OSMesaGetProcAddress", 1084, crate::Address(OSMesaGetProcAddress as *const ())),
-    (b"OSMesaMakeCurrent", 1079, crate::Address(OSMesaMakeCurrent as *const ())),
-    (b"eglCreateContext", 1071, crate::Address(eglCreateContext as *const ())),
-    (b"eglDestroyContext", 1072, crate::Address(eglDestroyContext as *const ())),
-    (b"eglGetProcAddress", 1074, crate::Address(eglGetProcAddress as *const ())),
-    (b"eglMakeCurrent", 1070, crate::Address(eglMakeCurrent as *const ())),
-    (b"eglReleaseThread", 1073, crate::Address(eglReleaseThread as *const ())),
-    (b"eglSwapBuffers", 1067, crate::Address(eglSwapBuffers as *const ())),
-    (b"eglSwapBuffersWithDamageEXT", 1069, crate::Address(eglSwapBuffersWithDamageEXT as *const ())),
-    (b"eglSwapBuffersWithDamageKHR", 1068, crate::Address(eglSwapBuffersWithDamageKHR as *const ())),
+pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1097] = [
+    (b"OSMesaCreateContext", 1097, crate::Address(OSMesaCreateContext as *const ())),
+    (b"OSMesaCreateContextAttribs", 1099, crate::Address(OSMesaCreateContextAttribs as *const ())),
+    (b"OSMesaCreateContextExt", 1098, crate::Address(OSMesaCreateContextExt as *const ())),
+    (b"OSMesaDestroyContext", 1100, crate::Address(OSMesaDestroyContext as *const ())),
+    (b"OSMesaGetProcAddress", 1101, crate::Address(OSMesaGetProcAddress as *const ())),
+    (b"OSMesaMakeCurrent", 1096, crate::Address(OSMesaMakeCurrent as *const ())),
+    (b"eglCreateContext", 1088, crate::Address(eglCreateContext as *const ())),
+    (b"eglDestroyContext", 1089, crate::Address(eglDestroyContext as *const ())),
+    (b"eglGetProcAddress", 1091, crate::Address(eglGetProcAddress as *const ())),
+    (b"eglMakeCurrent", 1087, crate::Address(eglMakeCurrent as *const ())),
+    (b"eglReleaseThread", 1090, crate::Address(eglReleaseThread as *const ())),
+    (b"eglSwapBuffers", 1084, crate::Address(eglSwapBuffers as *const ())),
+    (b"eglSwapBuffersWithDamageEXT", 1086, crate::Address(eglSwapBuffersWithDamageEXT as *const ())),
+    (b"eglSwapBuffersWithDamageKHR", 1085, crate::Address(eglSwapBuffersWithDamageKHR as *const ())),
     (b"glAccum", 953, crate::Address(glAccum as *const ())),
     (b"glActiveTexture", 792, crate::Address(glActiveTexture as *const ())),
     (b"glActiveTextureARB", 793, crate::Address(glActiveTextureARB as *const ())),
@@ -2307,6 +2343,8 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1080] = [
     (b"glArrayElement", 260, crate::Address(glArrayElement as *const ())),
     (b"glArrayElementEXT", 261, crate::Address(glArrayElementEXT as *const ())),
     (b"glBegin", 454, crate::Address(glBegin as *const ())),
+    (b"glBeginQuery", 1054, crate::Address(glBeginQuery as *const ())),
+    (b"glBeginQueryARB", 1055, crate::Address(glBeginQueryARB as *const ())),
     (b"glBeginTransformFeedback", 658, crate::Address(glBeginTransformFeedback as *const ())),
     (b"glBeginTransformFeedbackEXT", 659, crate::Address(glBeginTransformFeedbackEXT as *const ())),
     (b"glBeginTransformFeedbackNV", 660, crate::Address(glBeginTransformFeedbackNV as *const ())),
@@ -2463,6 +2501,8 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1080] = [
     (b"glDeleteFramebuffers", 970, crate::Address(glDeleteFramebuffers as *const ())),
     (b"glDeleteFramebuffersEXT", 971, crate::Address(glDeleteFramebuffersEXT as *const ())),
     (b"glDeleteLists", 961, crate::Address(glDeleteLists as *const ())),
+    (b"glDeleteQueries", 1058, crate::Address(glDeleteQueries as *const ())),
+    (b"glDeleteQueriesARB", 1059, crate::Address(glDeleteQueriesARB as *const ())),
     (b"glDeleteTextures", 964, crate::Address(glDeleteTextures as *const ())),
     (b"glDepthBoundsEXT", 716, crate::Address(glDepthBoundsEXT as *const ())),
     (b"glDepthFunc", 709, crate::Address(glDepthFunc as *const ())),
@@ -2534,6 +2574,8 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1080] = [
     (b"glEnableiOES", 524, crate::Address(glEnableiOES as *const ())),
     (b"glEnd", 455, crate::Address(glEnd as *const ())),
     (b"glEndList", 958, crate::Address(glEndList as *const ())),
+    (b"glEndQuery", 1056, crate::Address(glEndQuery as *const ())),
+    (b"glEndQueryARB", 1057, crate::Address(glEndQueryARB as *const ())),
     (b"glEndTransformFeedback", 661, crate::Address(glEndTransformFeedback as *const ())),
     (b"glEndTransformFeedbackEXT", 662, crate::Address(glEndTransformFeedbackEXT as *const ())),
     (b"glEndTransformFeedbackNV", 663, crate::Address(glEndTransformFeedbackNV as *const ())),
@@ -2599,6 +2641,17 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1080] = [
     (b"glGetInteger64vAPPLE", 997, crate::Address(glGetInteger64vAPPLE as *const ())),
     (b"glGetInteger64vEXT", 998, crate::Address(glGetInteger64vEXT as *const ())),
     (b"glGetIntegerv", 992, crate::Address(glGetIntegerv as *const ())),
+    (b"glGetQueryObjecti64v", 1067, crate::Address(glGetQueryObjecti64v as *const ())),
+    (b"glGetQueryObjecti64vEXT", 1068, crate::Address(glGetQueryObjecti64vEXT as *const ())),
+    (b"glGetQueryObjectiv", 1062, crate::Address(glGetQueryObjectiv as *const ())),
+    (b"glGetQueryObjectivARB", 1063, crate::Address(glGetQueryObjectivARB as *const ())),
+    (b"glGetQueryObjectivEXT", 1064, crate::Address(glGetQueryObjectivEXT as *const ())),
+    (b"glGetQueryObjectui64v", 1069, crate::Address(glGetQueryObjectui64v as *const ())),
+    (b"glGetQueryObjectui64vEXT", 1070, crate::Address(glGetQueryObjectui64vEXT as *const ())),
+    (b"glGetQueryObjectuiv", 1065, crate::Address(glGetQueryObjectuiv as *const ())),
+    (b"glGetQueryObjectuivARB", 1066, crate::Address(glGetQueryObjectuivARB as *const ())),
+    (b"glGetQueryiv", 1060, crate::Address(glGetQueryiv as *const ())),
+    (b"glGetQueryivARB", 1061, crate::Address(glGetQueryivARB as *const ())),
     (b"glHint", 569, crate::Address(glHint as *const ())),
     (b"glIndexMask", 718, crate::Address(glIndexMask as *const ())),
     (b"glIndexd", 236, crate::Address(glIndexd as *const ())),
@@ -3354,18 +3407,18 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1080] = [
     (b"glWindowPos3sv", 654, crate::Address(glWindowPos3sv as *const ())),
     (b"glWindowPos3svARB", 655, crate::Address(glWindowPos3svARB as *const ())),
     (b"glWindowPos3svMESA", 656, crate::Address(glWindowPos3svMESA as *const ())),
-    (b"glXCreateContext", 1059, crate::Address(glXCreateContext as *const ())),
-    (b"glXCreateContextAttribsARB", 1061, crate::Address(glXCreateContextAttribsARB as *const ())),
-    (b"glXCreateContextWithConfigSGIX", 1062, crate::Address(glXCreateContextWithConfigSGIX as *const ())),
-    (b"glXCreateNewContext", 1060, crate::Address(glXCreateNewContext as *const ())),
-    (b"glXDestroyContext", 1063, crate::Address(glXDestroyContext as *const ())),
-    (b"glXGetProcAddress", 1064, crate::Address(glXGetProcAddress as *const ())),
-    (b"glXGetProcAddressARB", 1065, crate::Address(glXGetProcAddressARB as *const ())),
-    (b"glXMakeContextCurrent", 1057, crate::Address(glXMakeContextCurrent as *const ())),
-    (b"glXMakeCurrent", 1056, crate::Address(glXMakeCurrent as *const ())),
-    (b"glXMakeCurrentReadSGI", 1058, crate::Address(glXMakeCurrentReadSGI as *const ())),
-    (b"glXSwapBuffers", 1054, crate::Address(glXSwapBuffers as *const ())),
-    (b"glXSwapBuffersMscOML", 1055, crate::Address(glXSwapBuffersMscOML as *const ())),
+    (b"glXCreateContext", 1076, crate::Address(glXCreateContext as *const ())),
+    (b"glXCreateContextAttribsARB", 1078, crate::Address(glXCreateContextAttribsARB as *const ())),
+    (b"glXCreateContextWithConfigSGIX", 1079, crate::Address(glXCreateContextWithConfigSGIX as *const ())),
+    (b"glXCreateNewContext", 1077, crate::Address(glXCreateNewContext as *const ())),
+    (b"glXDestroyContext", 1080, crate::Address(glXDestroyContext as *const ())),
+    (b"glXGetProcAddress", 1081, crate::Address(glXGetProcAddress as *const ())),
+    (b"glXGetProcAddressARB", 1082, crate::Address(glXGetProcAddressARB as *const ())),
+    (b"glXMakeContextCurrent", 1074, crate::Address(glXMakeContextCurrent as *const ())),
+    (b"glXMakeCurrent", 1073, crate::Address(glXMakeCurrent as *const ())),
+    (b"glXMakeCurrentReadSGI", 1075, crate::Address(glXMakeCurrentReadSGI as *const ())),
+    (b"glXSwapBuffers", 1071, crate::Address(glXSwapBuffers as *const ())),
+    (b"glXSwapBuffersMscOML", 1072, crate::Address(glXSwapBuffersMscOML as *const ())),
 ];
 
 export! { 0, glVertex2d, first_glVertex2d, hook_glVertex2d, (x: f64, y: f64) -> (), {
@@ -11846,107 +11899,175 @@ export! { 1053, glGetError, first_glGetError, hook_glGetError, () -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetError() }
 } }
-export! { 1054, glXSwapBuffers, first_glXSwapBuffers, hook_glXSwapBuffers, (dpy: Ptr, drawable: c_ulong) -> (), {
+export! { 1054, glBeginQuery, first_glBeginQuery, hook_glBeginQuery, (target: u32, id: u32) -> (), {
+    // SAFETY: the program's own arguments.
+    unsafe { special::glBeginQuery(target, id) }
+} }
+export! { 1055, glBeginQueryARB, first_glBeginQueryARB, hook_glBeginQueryARB, (target: u32, id: u32) -> (), {
+    // SAFETY: the program's own arguments.
+    unsafe { special::glBeginQuery(target, id) }
+} }
+export! { 1056, glEndQuery, first_glEndQuery, hook_glEndQuery, (target: u32) -> (), {
+    // SAFETY: the program's own arguments.
+    unsafe { special::glEndQuery(target) }
+} }
+export! { 1057, glEndQueryARB, first_glEndQueryARB, hook_glEndQueryARB, (target: u32) -> (), {
+    // SAFETY: the program's own arguments.
+    unsafe { special::glEndQuery(target) }
+} }
+export! { 1058, glDeleteQueries, first_glDeleteQueries, hook_glDeleteQueries, (n: i32, ids: Ptr) -> (), {
+    // SAFETY: the program's own arguments.
+    unsafe { special::glDeleteQueries(n, ids) }
+} }
+export! { 1059, glDeleteQueriesARB, first_glDeleteQueriesARB, hook_glDeleteQueriesARB, (n: i32, ids: Ptr) -> (), {
+    // SAFETY: the program's own arguments.
+    unsafe { special::glDeleteQueries(n, ids) }
+} }
+export! { 1060, glGetQueryiv, first_glGetQueryiv, hook_glGetQueryiv, (target: u32, pname: u32, params: Ptr) -> (), {
+    // SAFETY: the program's own arguments.
+    unsafe { special::glGetQueryiv(target, pname, params) }
+} }
+export! { 1061, glGetQueryivARB, first_glGetQueryivARB, hook_glGetQueryivARB, (target: u32, pname: u32, params: Ptr) -> (), {
+    // SAFETY: the program's own arguments.
+    unsafe { special::glGetQueryiv(target, pname, params) }
+} }
+export! { 1062, glGetQueryObjectiv, first_glGetQueryObjectiv, hook_glGetQueryObjectiv, (id: u32, pname: u32, params: Ptr) -> (), {
+    // SAFETY: the program's own arguments.
+    unsafe { special::glGetQueryObjectiv(id, pname, params) }
+} }
+export! { 1063, glGetQueryObjectivARB, first_glGetQueryObjectivARB, hook_glGetQueryObjectivARB, (id: u32, pname: u32, params: Ptr) -> (), {
+    // SAFETY: the program's own arguments.
+    unsafe { special::glGetQueryObjectiv(id, pname, params) }
+} }
+export! { 1064, glGetQueryObjectivEXT, first_glGetQueryObjectivEXT, hook_glGetQueryObjectivEXT, (id: u32, pname: u32, params: Ptr) -> (), {
+    // SAFETY: the program's own arguments.
+    unsafe { special::glGetQueryObjectiv(id, pname, params) }
+} }
+export! { 1065, glGetQueryObjectuiv, first_glGetQueryObjectuiv, hook_glGetQueryObjectuiv, (id: u32, pname: u32, params: Ptr) -> (), {
+    // SAFETY: the program's own arguments.
+    unsafe { special::glGetQueryObjectuiv(id, pname, params) }
+} }
+export! { 1066, glGetQueryObjectuivARB, first_glGetQueryObjectuivARB, hook_glGetQueryObjectuivARB, (id: u32, pname: u32, params: Ptr) -> (), {
+    // SAFETY: the program's own arguments.
+    unsafe { special::glGetQueryObjectuiv(id, pname, params) }
+} }
+export! { 1067, glGetQueryObjecti64v, first_glGetQueryObjecti64v, hook_glGetQueryObjecti64v, (id: u32, pname: u32, params: Ptr) -> (), {
+    // SAFETY: the program's own arguments.
+    unsafe { special::glGetQueryObjecti64v(id, pname, params) }
+} }
+export! { 1068, glGetQueryObjecti64vEXT, first_glGetQueryObjecti64vEXT, hook_glGetQueryObjecti64vEXT, (id: u32, pname: u32, params: Ptr) -> (), {
+    // SAFETY: the program's own arguments.
+    unsafe { special::glGetQueryObjecti64v(id, pname, params) }
+} }
+export! { 1069, glGetQueryObjectui64v, first_glGetQueryObjectui64v, hook_glGetQueryObjectui64v, (id: u32, pname: u32, params: Ptr) -> (), {
+    // SAFETY: the program's own arguments.
+    unsafe { special::glGetQueryObjectui64v(id, pname, params) }
+} }
+export! { 1070, glGetQueryObjectui64vEXT, first_glGetQueryObjectui64vEXT, hook_glGetQueryObjectui64vEXT, (id: u32, pname: u32, params: Ptr) -> (), {
+    // SAFETY: the program's own arguments.
+    unsafe { special::glGetQueryObjectui64v(id, pname, params) }
+} }
+export! { 1071, glXSwapBuffers, first_glXSwapBuffers, hook_glXSwapBuffers, (dpy: Ptr, drawable: c_ulong) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glXSwapBuffers(dpy, drawable) }
 } }
-export! { 1055, glXSwapBuffersMscOML, first_glXSwapBuffersMscOML, hook_glXSwapBuffersMscOML, (dpy: Ptr, drawable: c_ulong, target_msc: i64, divisor: i64, remainder: i64) -> i64, {
+export! { 1072, glXSwapBuffersMscOML, first_glXSwapBuffersMscOML, hook_glXSwapBuffersMscOML, (dpy: Ptr, drawable: c_ulong, target_msc: i64, divisor: i64, remainder: i64) -> i64, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXSwapBuffersMscOML(dpy, drawable, target_msc, divisor, remainder) }
 } }
-export! { 1056, glXMakeCurrent, first_glXMakeCurrent, hook_glXMakeCurrent, (dpy: Ptr, drawable: c_ulong, ctx: Ptr) -> i32, {
+export! { 1073, glXMakeCurrent, first_glXMakeCurrent, hook_glXMakeCurrent, (dpy: Ptr, drawable: c_ulong, ctx: Ptr) -> i32, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXMakeCurrent(dpy, drawable, ctx) }
 } }
-export! { 1057, glXMakeContextCurrent, first_glXMakeContextCurrent, hook_glXMakeContextCurrent, (dpy: Ptr, draw: c_ulong, read: c_ulong, ctx: Ptr) -> i32, {
+export! { 1074, glXMakeContextCurrent, first_glXMakeContextCurrent, hook_glXMakeContextCurrent, (dpy: Ptr, draw: c_ulong, read: c_ulong, ctx: Ptr) -> i32, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXMakeContextCurrent(dpy, draw, read, ctx) }
 } }
-export! { 1058, glXMakeCurrentReadSGI, first_glXMakeCurrentReadSGI, hook_glXMakeCurrentReadSGI, (dpy: Ptr, draw: c_ulong, read: c_ulong, ctx: Ptr) -> i32, {
+export! { 1075, glXMakeCurrentReadSGI, first_glXMakeCurrentReadSGI, hook_glXMakeCurrentReadSGI, (dpy: Ptr, draw: c_ulong, read: c_ulong, ctx: Ptr) -> i32, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXMakeCurrentReadSGI(dpy, draw, read, ctx) }
 } }
-export! { 1059, glXCreateContext, first_glXCreateContext, hook_glXCreateContext, (dpy: Ptr, vis: Ptr, share: Ptr, direct: i32) -> Ptr, {
+export! { 1076, glXCreateContext, first_glXCreateContext, hook_glXCreateContext, (dpy: Ptr, vis: Ptr, share: Ptr, direct: i32) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXCreateContext(dpy, vis, share, direct) }
 } }
-export! { 1060, glXCreateNewContext, first_glXCreateNewContext, hook_glXCreateNewContext, (dpy: Ptr, config: Ptr, kind: i32, share: Ptr, direct: i32) -> Ptr, {
+export! { 1077, glXCreateNewContext, first_glXCreateNewContext, hook_glXCreateNewContext, (dpy: Ptr, config: Ptr, kind: i32, share: Ptr, direct: i32) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXCreateNewContext(dpy, config, kind, share, direct) }
 } }
-export! { 1061, glXCreateContextAttribsARB, first_glXCreateContextAttribsARB, hook_glXCreateContextAttribsARB, (dpy: Ptr, config: Ptr, share: Ptr, direct: i32, attribs: Ptr) -> Ptr, {
+export! { 1078, glXCreateContextAttribsARB, first_glXCreateContextAttribsARB, hook_glXCreateContextAttribsARB, (dpy: Ptr, config: Ptr, share: Ptr, direct: i32, attribs: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXCreateContextAttribsARB(dpy, config, share, direct, attribs) }
 } }
-export! { 1062, glXCreateContextWithConfigSGIX, first_glXCreateContextWithConfigSGIX, hook_glXCreateContextWithConfigSGIX, (dpy: Ptr, config: Ptr, kind: i32, share: Ptr, direct: i32) -> Ptr, {
+export! { 1079, glXCreateContextWithConfigSGIX, first_glXCreateContextWithConfigSGIX, hook_glXCreateContextWithConfigSGIX, (dpy: Ptr, config: Ptr, kind: i32, share: Ptr, direct: i32) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXCreateContextWithConfigSGIX(dpy, config, kind, share, direct) }
 } }
-export! { 1063, glXDestroyContext, first_glXDestroyContext, hook_glXDestroyContext, (dpy: Ptr, ctx: Ptr) -> (), {
+export! { 1080, glXDestroyContext, first_glXDestroyContext, hook_glXDestroyContext, (dpy: Ptr, ctx: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glXDestroyContext(dpy, ctx) }
 } }
-export! { 1064, glXGetProcAddress, first_glXGetProcAddress, hook_glXGetProcAddress, (name: Ptr) -> Ptr, {
+export! { 1081, glXGetProcAddress, first_glXGetProcAddress, hook_glXGetProcAddress, (name: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXGetProcAddress(name) }
 } }
-export! { 1065, glXGetProcAddressARB, first_glXGetProcAddressARB, hook_glXGetProcAddressARB, (name: Ptr) -> Ptr, {
+export! { 1082, glXGetProcAddressARB, first_glXGetProcAddressARB, hook_glXGetProcAddressARB, (name: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXGetProcAddressARB(name) }
 } }
-export! { 1067, eglSwapBuffers, first_eglSwapBuffers, hook_eglSwapBuffers, (dpy: Ptr, surface: Ptr) -> u32, {
+export! { 1084, eglSwapBuffers, first_eglSwapBuffers, hook_eglSwapBuffers, (dpy: Ptr, surface: Ptr) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglSwapBuffers(dpy, surface) }
 } }
-export! { 1068, eglSwapBuffersWithDamageKHR, first_eglSwapBuffersWithDamageKHR, hook_eglSwapBuffersWithDamageKHR, (dpy: Ptr, surface: Ptr, rects: Ptr, n: i32) -> u32, {
+export! { 1085, eglSwapBuffersWithDamageKHR, first_eglSwapBuffersWithDamageKHR, hook_eglSwapBuffersWithDamageKHR, (dpy: Ptr, surface: Ptr, rects: Ptr, n: i32) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglSwapBuffersWithDamageKHR(dpy, surface, rects, n) }
 } }
-export! { 1069, eglSwapBuffersWithDamageEXT, first_eglSwapBuffersWithDamageEXT, hook_eglSwapBuffersWithDamageEXT, (dpy: Ptr, surface: Ptr, rects: Ptr, n: i32) -> u32, {
+export! { 1086, eglSwapBuffersWithDamageEXT, first_eglSwapBuffersWithDamageEXT, hook_eglSwapBuffersWithDamageEXT, (dpy: Ptr, surface: Ptr, rects: Ptr, n: i32) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglSwapBuffersWithDamageEXT(dpy, surface, rects, n) }
 } }
-export! { 1070, eglMakeCurrent, first_eglMakeCurrent, hook_eglMakeCurrent, (dpy: Ptr, draw: Ptr, read: Ptr, ctx: Ptr) -> u32, {
+export! { 1087, eglMakeCurrent, first_eglMakeCurrent, hook_eglMakeCurrent, (dpy: Ptr, draw: Ptr, read: Ptr, ctx: Ptr) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglMakeCurrent(dpy, draw, read, ctx) }
 } }
-export! { 1071, eglCreateContext, first_eglCreateContext, hook_eglCreateContext, (dpy: Ptr, config: Ptr, share: Ptr, attribs: Ptr) -> Ptr, {
+export! { 1088, eglCreateContext, first_eglCreateContext, hook_eglCreateContext, (dpy: Ptr, config: Ptr, share: Ptr, attribs: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglCreateContext(dpy, config, share, attribs) }
 } }
-export! { 1072, eglDestroyContext, first_eglDestroyContext, hook_eglDestroyContext, (dpy: Ptr, ctx: Ptr) -> u32, {
+export! { 1089, eglDestroyContext, first_eglDestroyContext, hook_eglDestroyContext, (dpy: Ptr, ctx: Ptr) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglDestroyContext(dpy, ctx) }
 } }
-export! { 1073, eglReleaseThread, first_eglReleaseThread, hook_eglReleaseThread, () -> u32, {
+export! { 1090, eglReleaseThread, first_eglReleaseThread, hook_eglReleaseThread, () -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglReleaseThread() }
 } }
-export! { 1074, eglGetProcAddress, first_eglGetProcAddress, hook_eglGetProcAddress, (name: Ptr) -> Ptr, {
+export! { 1091, eglGetProcAddress, first_eglGetProcAddress, hook_eglGetProcAddress, (name: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglGetProcAddress(name) }
 } }
-export! { 1079, OSMesaMakeCurrent, first_OSMesaMakeCurrent, hook_OSMesaMakeCurrent, (ctx: Ptr, buffer: Ptr, kind: u32, width: i32, height: i32) -> u8, {
+export! { 1096, OSMesaMakeCurrent, first_OSMesaMakeCurrent, hook_OSMesaMakeCurrent, (ctx: Ptr, buffer: Ptr, kind: u32, width: i32, height: i32) -> u8, {
     // SAFETY: the program's own arguments.
     unsafe { special::OSMesaMakeCurrent(ctx, buffer, kind, width, height) }
 } }
-export! { 1080, OSMesaCreateContext, first_OSMesaCreateContext, hook_OSMesaCreateContext, (format: u32, share: Ptr) -> Ptr, {
+export! { 1097, OSMesaCreateContext, first_OSMesaCreateContext, hook_OSMesaCreateContext, (format: u32, share: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::OSMesaCreateContext(format, share) }
 } }
-export! { 1081, OSMesaCreateContextExt, first_OSMesaCreateContextExt, hook_OSMesaCreateContextExt, (format: u32, depth: i32, stencil: i32, accum: i32, share: Ptr) -> Ptr, {
+export! { 1098, OSMesaCreateContextExt, first_OSMesaCreateContextExt, hook_OSMesaCreateContextExt, (format: u32, depth: i32, stencil: i32, accum: i32, share: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::OSMesaCreateContextExt(format, depth, stencil, accum, share) }
 } }
-export! { 1082, OSMesaCreateContextAttribs, first_OSMesaCreateContextAttribs, hook_OSMesaCreateContextAttribs, (attribs: Ptr, share: Ptr) -> Ptr, {
+export! { 1099, OSMesaCreateContextAttribs, first_OSMesaCreateContextAttribs, hook_OSMesaCreateContextAttribs, (attribs: Ptr, share: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::OSMesaCreateContextAttribs(attribs, share) }
 } }
-export! { 1083, OSMesaDestroyContext, first_OSMesaDestroyContext, hook_OSMesaDestroyContext, (ctx: Ptr) -> (), {
+export! { 1100, OSMesaDestroyContext, first_OSMesaDestroyContext, hook_OSMesaDestroyContext, (ctx: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::OSMesaDestroyContext(ctx) }
 } }
-export! { 1084, OSMesaGetProcAddress, first_OSMesaGetProcAddress, hook_OSMesaGetProcAddress, (name: Ptr) -> Ptr, {
+export! { 1101, OSMesaGetProcAddress, first_OSMesaGetProcAddress, hook_OSMesaGetProcAddress, (name: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::OSMesaGetProcAddress(name) }
 } }

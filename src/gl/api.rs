@@ -52,6 +52,8 @@ plain! {
     pop_attrib = glPopAttrib();
     new_list = glNewList(list: u32, mode: u32);
     end_list = glEndList();
+    begin_query = glBeginQuery(target: u32, query: u32);
+    end_query = glEndQuery(target: u32);
     call_list = glCallList(list: u32);
     get_error = glGetError() -> u32;
     flush = glFlush();
@@ -124,6 +126,7 @@ impl Gl {
     generate! {
         gen_texture = glGenTextures;
         gen_framebuffer = glGenFramebuffers;
+        gen_query = glGenQueries;
         gen_vertex_array = glGenVertexArrays;
     }
 
@@ -330,6 +333,28 @@ impl Gl {
                 data.as_ptr() as Ptr,
             )
         }
+    }
+
+    /// glGetQueryiv of GL_CURRENT_QUERY.
+    pub fn current_query(&self, target: u32) -> u32 {
+        let mut v = 0i32;
+        // SAFETY: room for one value.
+        unsafe {
+            self.real
+                .glGetQueryiv(target, super::consts::CURRENT_QUERY, (&raw mut v).cast())
+        };
+        v as u32
+    }
+
+    /// glGetQueryObjectuiv
+    pub fn query_object(&self, query: u32, name: u32) -> u32 {
+        let mut v = 0u32;
+        // SAFETY: room for one value.
+        unsafe {
+            self.real
+                .glGetQueryObjectuiv(query, name, (&raw mut v).cast())
+        };
+        v
     }
 
     /// glIsList

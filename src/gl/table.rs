@@ -4,7 +4,7 @@ use super::real::{Ptr, Real};
 use core::ffi::{CStr, c_ulong};
 
 /// Number of commands in the table.
-pub const COUNT: usize = 1135;
+pub const COUNT: usize = 1153;
 
 /// Index of each command in the table.
 pub mod slot {
@@ -1062,87 +1062,105 @@ pub mod slot {
     pub const glFinish: usize = 1051;
     pub const glFlush: usize = 1052;
     pub const glGetError: usize = 1053;
-    pub const glXSwapBuffers: usize = 1054;
-    pub const glXSwapBuffersMscOML: usize = 1055;
-    pub const glXMakeCurrent: usize = 1056;
-    pub const glXMakeContextCurrent: usize = 1057;
-    pub const glXMakeCurrentReadSGI: usize = 1058;
-    pub const glXCreateContext: usize = 1059;
-    pub const glXCreateNewContext: usize = 1060;
-    pub const glXCreateContextAttribsARB: usize = 1061;
-    pub const glXCreateContextWithConfigSGIX: usize = 1062;
-    pub const glXDestroyContext: usize = 1063;
-    pub const glXGetProcAddress: usize = 1064;
-    pub const glXGetProcAddressARB: usize = 1065;
-    pub const glXQueryDrawable: usize = 1066;
-    pub const eglSwapBuffers: usize = 1067;
-    pub const eglSwapBuffersWithDamageKHR: usize = 1068;
-    pub const eglSwapBuffersWithDamageEXT: usize = 1069;
-    pub const eglMakeCurrent: usize = 1070;
-    pub const eglCreateContext: usize = 1071;
-    pub const eglDestroyContext: usize = 1072;
-    pub const eglReleaseThread: usize = 1073;
-    pub const eglGetProcAddress: usize = 1074;
-    pub const eglQuerySurface: usize = 1075;
-    pub const eglQueryContext: usize = 1076;
-    pub const eglGetCurrentContext: usize = 1077;
-    pub const glXGetCurrentContext: usize = 1078;
-    pub const OSMesaMakeCurrent: usize = 1079;
-    pub const OSMesaCreateContext: usize = 1080;
-    pub const OSMesaCreateContextExt: usize = 1081;
-    pub const OSMesaCreateContextAttribs: usize = 1082;
-    pub const OSMesaDestroyContext: usize = 1083;
-    pub const OSMesaGetProcAddress: usize = 1084;
-    pub const glIsList: usize = 1085;
-    pub const glGetString: usize = 1086;
-    pub const glGetStringi: usize = 1087;
-    pub const glIsEnabled: usize = 1088;
-    pub const glIsEnabledi: usize = 1089;
-    pub const glGetIntegeri_v: usize = 1090;
-    pub const glGetTexGeniv: usize = 1091;
-    pub const glGetTexGenfv: usize = 1092;
-    pub const glGetTexEnviv: usize = 1093;
-    pub const glGetLightfv: usize = 1094;
-    pub const glGetTexParameteriv: usize = 1095;
-    pub const glGetMaterialfv: usize = 1096;
-    pub const glGenTextures: usize = 1097;
-    pub const glTexImage2DMultisample: usize = 1098;
-    pub const glTexImage3DMultisample: usize = 1099;
-    pub const glGenFramebuffers: usize = 1100;
-    pub const glGenRenderbuffers: usize = 1101;
-    pub const glBindRenderbuffer: usize = 1102;
-    pub const glRenderbufferStorage: usize = 1103;
-    pub const glRenderbufferStorageMultisample: usize = 1104;
-    pub const glDeleteRenderbuffers: usize = 1105;
-    pub const glCreateShader: usize = 1106;
-    pub const glShaderSource: usize = 1107;
-    pub const glCompileShader: usize = 1108;
-    pub const glGetShaderiv: usize = 1109;
-    pub const glGetShaderInfoLog: usize = 1110;
-    pub const glCreateProgram: usize = 1111;
-    pub const glAttachShader: usize = 1112;
-    pub const glLinkProgram: usize = 1113;
-    pub const glGetProgramiv: usize = 1114;
-    pub const glGetProgramInfoLog: usize = 1115;
-    pub const glDeleteShader: usize = 1116;
-    pub const glDeleteProgram: usize = 1117;
-    pub const glGetUniformLocation: usize = 1118;
-    pub const glGetUniformBlockIndex: usize = 1119;
-    pub const glUniformBlockBinding: usize = 1120;
-    pub const glBindBufferBase: usize = 1121;
-    pub const glBindBufferRange: usize = 1122;
-    pub const glGenBuffers: usize = 1123;
-    pub const glBindBuffer: usize = 1124;
-    pub const glBufferData: usize = 1125;
-    pub const glBufferSubData: usize = 1126;
-    pub const glDeleteBuffers: usize = 1127;
-    pub const glBindAttribLocation: usize = 1128;
-    pub const glProgramParameteri: usize = 1129;
-    pub const glGenVertexArrays: usize = 1130;
-    pub const glBindVertexArray: usize = 1131;
-    pub const glGenSamplers: usize = 1132;
-    pub const glBindSampler: usize = 1133;
-    pub const glPixelStorei: usize = 1134;
+    pub const glBeginQuery: usize = 1054;
+    pub const glBeginQueryARB: usize = 1055;
+    pub const glEndQuery: usize = 1056;
+    pub const glEndQueryARB: usize = 1057;
+    pub const glDeleteQueries: usize = 1058;
+    pub const glDeleteQueriesARB: usize = 1059;
+    pub const glGetQueryiv: usize = 1060;
+    pub const glGetQueryivARB: usize = 1061;
+    pub const glGetQueryObjectiv: usize = 1062;
+    pub const glGetQueryObjectivARB: usize = 1063;
+    pub const glGetQueryObjectivEXT: usize = 1064;
+    pub const glGetQueryObjectuiv: usize = 1065;
+    pub const glGetQueryObjectuivARB: usize = 1066;
+    pub const glGetQueryObjecti64v: usize = 1067;
+    pub const glGetQueryObjecti64vEXT: usize = 1068;
+    pub const glGetQueryObjectui64v: usize = 1069;
+    pub const glGetQueryObjectui64vEXT: usize = 1070;
+    pub const glXSwapBuffers: usize = 1071;
+    pub const glXSwapBuffersMscOML: usize = 1072;
+    pub const glXMakeCurrent: usize = 1073;
+    pub const glXMakeContextCurrent: usize = 1074;
+    pub const glXMakeCurrentReadSGI: usize = 1075;
+    pub const glXCreateContext: usize = 1076;
+    pub const glXCreateNewContext: usize = 1077;
+    pub const glXCreateContextAttribsARB: usize = 1078;
+    pub const glXCreateContextWithConfigSGIX: usize = 1079;
+    pub const glXDestroyContext: usize = 1080;
+    pub const glXGetProcAddress: usize = 1081;
+    pub const glXGetProcAddressARB: usize = 1082;
+    pub const glXQueryDrawable: usize = 1083;
+    pub const eglSwapBuffers: usize = 1084;
+    pub const eglSwapBuffersWithDamageKHR: usize = 1085;
+    pub const eglSwapBuffersWithDamageEXT: usize = 1086;
+    pub const eglMakeCurrent: usize = 1087;
+    pub const eglCreateContext: usize = 1088;
+    pub const eglDestroyContext: usize = 1089;
+    pub const eglReleaseThread: usize = 1090;
+    pub const eglGetProcAddress: usize = 1091;
+    pub const eglQuerySurface: usize = 1092;
+    pub const eglQueryContext: usize = 1093;
+    pub const eglGetCurrentContext: usize = 1094;
+    pub const glXGetCurrentContext: usize = 1095;
+    pub const OSMesaMakeCurrent: usize = 1096;
+    pub const OSMesaCreateContext: usize = 1097;
+    pub const OSMesaCreateContextExt: usize = 1098;
+    pub const OSMesaCreateContextAttribs: usize = 1099;
+    pub const OSMesaDestroyContext: usize = 1100;
+    pub const OSMesaGetProcAddress: usize = 1101;
+    pub const glIsList: usize = 1102;
+    pub const glGetString: usize = 1103;
+    pub const glGetStringi: usize = 1104;
+    pub const glIsEnabled: usize = 1105;
+    pub const glIsEnabledi: usize = 1106;
+    pub const glGetIntegeri_v: usize = 1107;
+    pub const glGetTexGeniv: usize = 1108;
+    pub const glGetTexGenfv: usize = 1109;
+    pub const glGetTexEnviv: usize = 1110;
+    pub const glGetLightfv: usize = 1111;
+    pub const glGetTexParameteriv: usize = 1112;
+    pub const glGetMaterialfv: usize = 1113;
+    pub const glGenQueries: usize = 1114;
+    pub const glGenTextures: usize = 1115;
+    pub const glTexImage2DMultisample: usize = 1116;
+    pub const glTexImage3DMultisample: usize = 1117;
+    pub const glGenFramebuffers: usize = 1118;
+    pub const glGenRenderbuffers: usize = 1119;
+    pub const glBindRenderbuffer: usize = 1120;
+    pub const glRenderbufferStorage: usize = 1121;
+    pub const glRenderbufferStorageMultisample: usize = 1122;
+    pub const glDeleteRenderbuffers: usize = 1123;
+    pub const glCreateShader: usize = 1124;
+    pub const glShaderSource: usize = 1125;
+    pub const glCompileShader: usize = 1126;
+    pub const glGetShaderiv: usize = 1127;
+    pub const glGetShaderInfoLog: usize = 1128;
+    pub const glCreateProgram: usize = 1129;
+    pub const glAttachShader: usize = 1130;
+    pub const glLinkProgram: usize = 1131;
+    pub const glGetProgramiv: usize = 1132;
+    pub const glGetProgramInfoLog: usize = 1133;
+    pub const glDeleteShader: usize = 1134;
+    pub const glDeleteProgram: usize = 1135;
+    pub const glGetUniformLocation: usize = 1136;
+    pub const glGetUniformBlockIndex: usize = 1137;
+    pub const glUniformBlockBinding: usize = 1138;
+    pub const glBindBufferBase: usize = 1139;
+    pub const glBindBufferRange: usize = 1140;
+    pub const glGenBuffers: usize = 1141;
+    pub const glBindBuffer: usize = 1142;
+    pub const glBufferData: usize = 1143;
+    pub const glBufferSubData: usize = 1144;
+    pub const glDeleteBuffers: usize = 1145;
+    pub const glBindAttribLocation: usize = 1146;
+    pub const glProgramParameteri: usize = 1147;
+    pub const glGenVertexArrays: usize = 1148;
+    pub const glBindVertexArray: usize = 1149;
+    pub const glGenSamplers: usize = 1150;
+    pub const glBindSampler: usize = 1151;
+    pub const glPixelStorei: usize = 1152;
 }
 
 /// Name of each command.
@@ -2201,6 +2219,23 @@ pub static NAMES: [&CStr; COUNT] = [
     c"glFinish",
     c"glFlush",
     c"glGetError",
+    c"glBeginQuery",
+    c"glBeginQueryARB",
+    c"glEndQuery",
+    c"glEndQueryARB",
+    c"glDeleteQueries",
+    c"glDeleteQueriesARB",
+    c"glGetQueryiv",
+    c"glGetQueryivARB",
+    c"glGetQueryObjectiv",
+    c"glGetQueryObjectivARB",
+    c"glGetQueryObjectivEXT",
+    c"glGetQueryObjectuiv",
+    c"glGetQueryObjectuivARB",
+    c"glGetQueryObjecti64v",
+    c"glGetQueryObjecti64vEXT",
+    c"glGetQueryObjectui64v",
+    c"glGetQueryObjectui64vEXT",
     c"glXSwapBuffers",
     c"glXSwapBuffersMscOML",
     c"glXMakeCurrent",
@@ -2244,6 +2279,7 @@ pub static NAMES: [&CStr; COUNT] = [
     c"glGetLightfv",
     c"glGetTexParameteriv",
     c"glGetMaterialfv",
+    c"glGenQueries",
     c"glGenTextures",
     c"glTexImage2DMultisample",
     c"glTexImage3DMultisample",
@@ -3339,6 +3375,23 @@ real_functions! {
     glFinish();
     glFlush();
     glGetError() -> u32 = 0;
+    glBeginQuery(target: u32, id: u32);
+    glBeginQueryARB(target: u32, id: u32);
+    glEndQuery(target: u32);
+    glEndQueryARB(target: u32);
+    glDeleteQueries(n: i32, ids: Ptr);
+    glDeleteQueriesARB(n: i32, ids: Ptr);
+    glGetQueryiv(target: u32, pname: u32, params: Ptr);
+    glGetQueryivARB(target: u32, pname: u32, params: Ptr);
+    glGetQueryObjectiv(id: u32, pname: u32, params: Ptr);
+    glGetQueryObjectivARB(id: u32, pname: u32, params: Ptr);
+    glGetQueryObjectivEXT(id: u32, pname: u32, params: Ptr);
+    glGetQueryObjectuiv(id: u32, pname: u32, params: Ptr);
+    glGetQueryObjectuivARB(id: u32, pname: u32, params: Ptr);
+    glGetQueryObjecti64v(id: u32, pname: u32, params: Ptr);
+    glGetQueryObjecti64vEXT(id: u32, pname: u32, params: Ptr);
+    glGetQueryObjectui64v(id: u32, pname: u32, params: Ptr);
+    glGetQueryObjectui64vEXT(id: u32, pname: u32, params: Ptr);
     glXSwapBuffers(dpy: Ptr, drawable: c_ulong);
     glXSwapBuffersMscOML(dpy: Ptr, drawable: c_ulong, target_msc: i64, divisor: i64, remainder: i64) -> i64 = 0;
     glXMakeCurrent(dpy: Ptr, drawable: c_ulong, ctx: Ptr) -> i32 = 0;
@@ -3382,6 +3435,7 @@ real_functions! {
     glGetLightfv(light: u32, pname: u32, params: Ptr);
     glGetTexParameteriv(target: u32, pname: u32, params: Ptr);
     glGetMaterialfv(face: u32, pname: u32, params: Ptr);
+    glGenQueries(n: i32, ids: Ptr);
     glGenTextures(n: i32, textures: Ptr);
     glTexImage2DMultisample(target: u32, samples: i32, internalformat: u32, width: i32, height: i32, fixedsamplelocations: u8);
     glTexImage3DMultisample(target: u32, samples: i32, internalformat: u32, width: i32, height: i32, depth: i32, fixedsamplelocations: u8);

@@ -183,8 +183,10 @@ impl Layer {
         if self.state.draws_to_window() {
             self.rig.latch(&self.state.projection);
         }
-        let plan = plan(kind, &self.state, &self.rig, &self.means);
-        if plan.method != Method::Once {
+        let plan = self.uncounted(plan(kind, &self.state, &self.rig, &self.means));
+        if plan.method == Method::Once {
+            self.queries.drawn();
+        } else {
             self.drawn = true;
         }
         // An amplified draw is counted when it is known that it can be made.
@@ -198,15 +200,26 @@ impl Layer {
     }
 
     pub(super) fn replay(&mut self, gl: &Gl, plan: &Plan, again: Again, call: &mut dyn FnMut(u32)) {
-        if !replay(
+        // Of what queries count, only the own view is counted.
+        let mut queries = std::mem::take(&mut self.queries);
+        let (own, mut paused) = (self.atlas.tiles.own(), true);
+        queries.pause(gl);
+        let sent = replay(
             gl,
             &mut self.atlas,
             &self.state,
             &self.rig,
             plan.shear,
             again,
-            call,
-        ) {
+            &mut |view| {
+                if view == own && std::mem::take(&mut paused) {
+                    queries.resume(gl);
+                }
+                call(view);
+            },
+        );
+        self.queries = queries;
+        if !sent {
             self.report.note(
                 "the program's attribute stack was full: some draws are in its own view only"
                     .into(),
@@ -230,6 +243,7 @@ impl Layer {
         }
         self.state.refresh(gl);
         if !self.state.draws_to_window() || mode > c::POLYGON {
+            self.queries.drawn();
             self.state.begin = Begin::Direct;
             return false;
         }

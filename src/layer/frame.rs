@@ -17,6 +17,7 @@ impl Layer {
         {
             return;
         }
+        self.queries.pause(gl);
         let saved = Saved::take(gl, self.state.compatibility);
         self.atlas.resolve(gl, false, c::COLOR_BUFFER_BIT);
         gl.bind_framebuffer(c::FRAMEBUFFER, 0);
@@ -47,6 +48,7 @@ impl Layer {
             gl.bind_framebuffer(c::READ_FRAMEBUFFER, read);
         }
         self.bind_draw(gl, true, true);
+        self.queries.resume(gl);
         self.drawn = false;
     }
 

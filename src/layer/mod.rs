@@ -6,10 +6,12 @@ mod frame;
 mod framebuffer;
 mod frames;
 mod lists;
+mod queries;
 pub mod support;
 
 pub use drawing::Primitives;
 pub use frames::Frames;
+pub use queries::Answer;
 
 use crate::atlas::{Atlas, AtlasError, Names, Tiles};
 use crate::config::{AtlasLayout, Config, Strategy};
@@ -58,6 +60,7 @@ pub struct Layer {
     lists: SharedLists,
     raster: Option<Shear>,
     pushed: Vec<framebuffer::Pushed>,
+    queries: queries::Queries,
     recording: Recording,
     immediate: Immediate,
     support: Support,
@@ -112,6 +115,7 @@ impl Layer {
             lists,
             raster: None,
             pushed: Vec::new(),
+            queries: queries::Queries::default(),
             recording: Recording::default(),
             immediate: Immediate::default(),
             support,

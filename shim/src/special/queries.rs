@@ -1,0 +1,73 @@
+//! Queries that count what is drawn, in one view instead of in all.
+
+use crate::context::{enter, peek, real};
+use core::slice::from_raw_parts;
+use manyview_core::gl::Ptr;
+use manyview_core::gl::consts::CURRENT_QUERY;
+use manyview_core::layer::Answer;
+
+pub(crate) unsafe fn glBeginQuery(target: u32, id: u32) {
+    // SAFETY: the program's own call.
+    unsafe { real().glBeginQuery(target, id) };
+    enter(|gl, l| l.begun_query(gl, target, id));
+}
+
+pub(crate) unsafe fn glEndQuery(target: u32) {
+    // SAFETY: the program's own call.
+    unsafe { real().glEndQuery(target) };
+    enter(|_, l| l.ended_query(target));
+}
+
+pub(crate) unsafe fn glDeleteQueries(n: i32, ids: Ptr) {
+    let names = match usize::try_from(n) {
+        // SAFETY: n names (the program's array), copied before the driver runs.
+        Ok(n) if !ids.is_null() => unsafe { from_raw_parts(ids as *const u32, n) }.to_vec(),
+        _ => Vec::new(),
+    };
+    // SAFETY: the program's own call.
+    unsafe { real().glDeleteQueries(n, ids) };
+    enter(|_, l| l.deleted_queries(&names));
+}
+
+pub(crate) unsafe fn glGetQueryiv(target: u32, pname: u32, params: Ptr) {
+    // SAFETY: the program's own call.
+    unsafe { real().glGetQueryiv(target, pname, params) };
+    if pname == CURRENT_QUERY
+        && !params.is_null()
+        && let Some(Some(query)) = peek(|l| l.current_query(target))
+    {
+        // SAFETY: the driver has written one value there.
+        unsafe { *params.cast::<i32>() = query as i32 };
+    }
+}
+
+/// What our queries add to the driver's answer, which is in the program's memory.
+fn more(id: u32, pname: u32, params: Ptr) -> Option<Answer> {
+    let answer = enter(|gl, l| l.query_answer(gl, id, pname)).flatten()?;
+    (!params.is_null()).then_some(answer)
+}
+
+macro_rules! query_object {
+    ($name:ident, $value:ty) => {
+        pub(crate) unsafe fn $name(id: u32, pname: u32, params: Ptr) {
+            // SAFETY: the program's own call.
+            unsafe { real().$name(id, pname, params) };
+            if let Some(answer) = more(id, pname, params) {
+                // SAFETY: the driver has written one value there.
+                let value = unsafe { &mut *params.cast::<$value>() };
+                *value = match answer {
+                    Answer::Count(n) => {
+                        value.saturating_add(<$value>::try_from(n).unwrap_or(<$value>::MAX))
+                    }
+                    Answer::Any(any) => <$value>::from(any || *value != 0),
+                    Answer::Available(all) => <$value>::from(all && *value != 0),
+                };
+            }
+        }
+    };
+}
+
+query_object!(glGetQueryObjectiv, i32);
+query_object!(glGetQueryObjectuiv, u32);
+query_object!(glGetQueryObjecti64v, i64);
+query_object!(glGetQueryObjectui64v, u64);

@@ -1,0 +1,157 @@
+//! Queries that count what is drawn: only what is drawn in the program's own view is counted.
+//!
+//! A draw in N views would count N times. So the query is ended before the other views are drawn and begun again for the own one.
+//! To begin it again would forget what it has counted; after the first draw a query object of ours counts on, and the program is
+//! answered the sum.
+
+use super::Layer;
+use crate::gl::{Gl, consts as c};
+use crate::plan::Plan;
+use std::collections::HashMap;
+
+/// Active and ended queries of a context.
+#[derive(Debug, Default)]
+pub(super) struct Queries {
+    active: Vec<Active>,
+    /// By the program's query: ours that counted on, and what they are.
+    more: HashMap<u32, (u32, Vec<u32>)>,
+    spare: Vec<u32>,
+}
+
+#[derive(Debug)]
+struct Active {
+    target: u32,
+    query: u32,
+    counted: bool,
+    more: Vec<u32>,
+}
+
+/// What our query objects add to an answer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Answer {
+    /// To be added to the count.
+    Count(u64),
+    /// Something passed, or nothing.
+    Any(bool),
+    /// Whether the rest of the result is available.
+    Available(bool),
+}
+
+const TARGETS: [u32; 4] = [
+    c::SAMPLES_PASSED,
+    c::ANY_SAMPLES_PASSED,
+    c::ANY_SAMPLES_PASSED_CONSERVATIVE,
+    c::PRIMITIVES_GENERATED,
+];
+
+impl Queries {
+    /// Whether draws are being counted.
+    pub(super) fn active(&self) -> bool {
+        !self.active.is_empty()
+    }
+
+    /// Something is drawn that is no matter of views.
+    pub(super) fn drawn(&mut self) {
+        self.active.iter_mut().for_each(|a| a.counted = true);
+    }
+
+    pub(super) fn pause(&self, gl: &Gl) {
+        self.active.iter().for_each(|a| gl.end_query(a.target));
+    }
+
+    pub(super) fn resume(&mut self, gl: &Gl) {
+        for a in &mut self.active {
+            let name = if a.counted {
+                let name = self.spare.pop().unwrap_or_else(|| gl.gen_query());
+                a.more.push(name);
+                name
+            } else {
+                a.query
+            };
+            a.counted = true;
+            gl.begin_query(a.target, name);
+        }
+    }
+
+    fn forget(&mut self, query: u32) {
+        if let Some((_, names)) = self.more.remove(&query) {
+            self.spare.extend(names);
+        }
+    }
+}
+
+impl Layer {
+    /// glBeginQuery, after the driver's own.
+    pub fn begun_query(&mut self, gl: &Gl, target: u32, query: u32) {
+        let q = &mut self.queries;
+        let known = q.active.iter().any(|a| a.target == target);
+        // The driver may have refused it.
+        if !TARGETS.contains(&target) || known || gl.current_query(target) != query || query == 0 {
+            return;
+        }
+        q.forget(query);
+        q.active.push(Active {
+            target,
+            query,
+            counted: false,
+            more: Vec::new(),
+        });
+    }
+
+    /// glEndQuery, after the driver's own.
+    pub fn ended_query(&mut self, target: u32) {
+        let q = &mut self.queries;
+        if let Some(at) = q.active.iter().position(|a| a.target == target) {
+            let ended = q.active.swap_remove(at);
+            if !ended.more.is_empty() {
+                q.more.insert(ended.query, (target, ended.more));
+            }
+        }
+    }
+
+    /// glDeleteQueries.
+    pub fn deleted_queries(&mut self, queries: &[u32]) {
+        queries.iter().for_each(|&q| self.queries.forget(q));
+    }
+
+    /// What glGetQueryiv answers for GL_CURRENT_QUERY of a target, if a query of ours may count there.
+    pub fn current_query(&self, target: u32) -> Option<u32> {
+        let active = self.queries.active.iter().find(|a| a.target == target);
+        active.map(|a| a.query)
+    }
+
+    /// What our queries add to the answer about one of the program's, if there are any.
+    pub fn query_answer(&self, gl: &Gl, query: u32, name: u32) -> Option<Answer> {
+        let (target, more) = self.queries.more.get(&query)?;
+        // Into a buffer object the driver writes by itself.
+        if self.support.version >= (4, 4) && gl.get_integer(c::QUERY_BUFFER_BINDING) != 0 {
+            return None;
+        }
+        let ask = |name| more.iter().map(move |&q| gl.query_object(q, name));
+        Some(match name {
+            c::QUERY_RESULT | c::QUERY_RESULT_NO_WAIT => match *target {
+                c::SAMPLES_PASSED | c::PRIMITIVES_GENERATED => {
+                    Answer::Count(ask(c::QUERY_RESULT).map(u64::from).sum())
+                }
+                _ => Answer::Any(ask(c::QUERY_RESULT).any(|r| r != 0)),
+            },
+            c::QUERY_RESULT_AVAILABLE => {
+                Answer::Available(ask(c::QUERY_RESULT_AVAILABLE).all(|r| r != 0))
+            }
+            _ => return None,
+        })
+    }
+
+    /// A draw that counts is replayed: a draw that makes all views at once would count them all.
+    pub(super) fn uncounted(&self, plan: Plan) -> Plan {
+        use crate::plan::{Method, Reason};
+        match plan.method {
+            Method::Instanced | Method::Geometry if self.queries.active() => Plan {
+                method: Method::Replay,
+                reason: Some(Reason::Kind("draws that a query counts")),
+                ..plan
+            },
+            _ => plan,
+        }
+    }
+}
