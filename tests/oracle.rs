@@ -70,6 +70,7 @@ fn scene(name: &str) -> Scene {
     match name {
         "gears" => scene("gears", &[], 1),
         "lists" => scene("lists", &[], 2),
+        "echo" => scene("echo", &[], 3),
         "teapot" => scene("teapot", &[], 1),
         "room" => scene("room", &[], 1),
         // One fog mode a frame.
@@ -495,9 +496,9 @@ macro_rules! oracle {
 }
 
 oracle! {
-    glx: gears lists teapot room fogtexgen points clip mirror mesh mesh_vbo prims arrays immediate;
-    egl: gears lists teapot room fogtexgen points clip mirror mesh mesh_vbo prims arrays immediate;
-    osmesa: gears lists teapot room fogtexgen points clip mirror mesh mesh_vbo prims arrays immediate;
+    glx: gears lists echo teapot room fogtexgen points clip mirror mesh mesh_vbo prims arrays immediate;
+    egl: gears lists echo teapot room fogtexgen points clip mirror mesh mesh_vbo prims arrays immediate;
+    osmesa: gears lists echo teapot room fogtexgen points clip mirror mesh mesh_vbo prims arrays immediate;
 }
 
 /// Surfaces of other kinds, by replay.

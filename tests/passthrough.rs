@@ -7,12 +7,13 @@ use std::path::Path;
 use std::process::Command;
 use support::{bare, demo, layered, screen, succeed};
 
-const DEMOS: [&str; 12] = [
+const DEMOS: [&str; 13] = [
     "gears",
     "teapot",
     "room",
     "fogtexgen",
     "lists",
+    "echo",
     "points",
     "clip",
     "mirror",

@@ -7,7 +7,7 @@ use manyview_core::gl::{Ptr, slot};
 use manyview_core::state::Effect;
 
 /// Where each exported function jumps to, by slot: at first its resolver, then the driver's function or the hook.
-pub(crate) static ENTRY: [AtomicPtr<()>; 1153] = [
+pub(crate) static ENTRY: [AtomicPtr<()>; 1155] = [
     AtomicPtr::new(first_glVertex2d as *mut ()),
     AtomicPtr::new(first_glVertex2dv as *mut ()),
     AtomicPtr::new(first_glVertex2f as *mut ()),
@@ -1031,11 +1031,6 @@ pub(crate) static ENTRY: [AtomicPtr<()>; 1153] = [
     AtomicPtr::new(first_glInvalidateFramebuffer as *mut ()),
     AtomicPtr::new(first_glInvalidateSubFramebuffer as *mut ()),
     AtomicPtr::new(first_glDiscardFramebufferEXT as *mut ()),
-    AtomicPtr::new(first_glReadPixels as *mut ()),
-    AtomicPtr::new(first_glReadnPixels as *mut ()),
-    AtomicPtr::new(first_glReadnPixelsARB as *mut ()),
-    AtomicPtr::new(first_glReadnPixelsEXT as *mut ()),
-    AtomicPtr::new(first_glReadnPixelsKHR as *mut ()),
     AtomicPtr::new(first_glCopyTexImage1D as *mut ()),
     AtomicPtr::new(first_glCopyTexImage1DEXT as *mut ()),
     AtomicPtr::new(first_glCopyTexImage2D as *mut ()),
@@ -1044,6 +1039,11 @@ pub(crate) static ENTRY: [AtomicPtr<()>; 1153] = [
     AtomicPtr::new(first_glCopyTexSubImage1DEXT as *mut ()),
     AtomicPtr::new(first_glCopyTexSubImage2D as *mut ()),
     AtomicPtr::new(first_glCopyTexSubImage2DEXT as *mut ()),
+    AtomicPtr::new(first_glReadPixels as *mut ()),
+    AtomicPtr::new(first_glReadnPixels as *mut ()),
+    AtomicPtr::new(first_glReadnPixelsARB as *mut ()),
+    AtomicPtr::new(first_glReadnPixelsEXT as *mut ()),
+    AtomicPtr::new(first_glReadnPixelsKHR as *mut ()),
     AtomicPtr::new(first_glCopyTexSubImage3D as *mut ()),
     AtomicPtr::new(first_glCopyTexSubImage3DEXT as *mut ()),
     AtomicPtr::new(first_glCopyTextureSubImage1D as *mut ()),
@@ -1161,10 +1161,12 @@ pub(crate) static ENTRY: [AtomicPtr<()>; 1153] = [
     AtomicPtr::new(core::ptr::null_mut()),
     AtomicPtr::new(core::ptr::null_mut()),
     AtomicPtr::new(core::ptr::null_mut()),
+    AtomicPtr::new(core::ptr::null_mut()),
+    AtomicPtr::new(core::ptr::null_mut()),
 ];
 
 /// The hook of each exported function, by slot.
-pub(crate) static HOOK: [Option<crate::Address>; 1153] = [
+pub(crate) static HOOK: [Option<crate::Address>; 1155] = [
     Some(crate::Address(hook_glVertex2d as *const ())),
     Some(crate::Address(hook_glVertex2dv as *const ())),
     Some(crate::Address(hook_glVertex2f as *const ())),
@@ -2188,11 +2190,6 @@ pub(crate) static HOOK: [Option<crate::Address>; 1153] = [
     Some(crate::Address(hook_glInvalidateFramebuffer as *const ())),
     Some(crate::Address(hook_glInvalidateSubFramebuffer as *const ())),
     Some(crate::Address(hook_glDiscardFramebufferEXT as *const ())),
-    Some(crate::Address(hook_glReadPixels as *const ())),
-    Some(crate::Address(hook_glReadnPixels as *const ())),
-    Some(crate::Address(hook_glReadnPixelsARB as *const ())),
-    Some(crate::Address(hook_glReadnPixelsEXT as *const ())),
-    Some(crate::Address(hook_glReadnPixelsKHR as *const ())),
     Some(crate::Address(hook_glCopyTexImage1D as *const ())),
     Some(crate::Address(hook_glCopyTexImage1DEXT as *const ())),
     Some(crate::Address(hook_glCopyTexImage2D as *const ())),
@@ -2201,6 +2198,11 @@ pub(crate) static HOOK: [Option<crate::Address>; 1153] = [
     Some(crate::Address(hook_glCopyTexSubImage1DEXT as *const ())),
     Some(crate::Address(hook_glCopyTexSubImage2D as *const ())),
     Some(crate::Address(hook_glCopyTexSubImage2DEXT as *const ())),
+    Some(crate::Address(hook_glReadPixels as *const ())),
+    Some(crate::Address(hook_glReadnPixels as *const ())),
+    Some(crate::Address(hook_glReadnPixelsARB as *const ())),
+    Some(crate::Address(hook_glReadnPixelsEXT as *const ())),
+    Some(crate::Address(hook_glReadnPixelsKHR as *const ())),
     Some(crate::Address(hook_glCopyTexSubImage3D as *const ())),
     Some(crate::Address(hook_glCopyTexSubImage3DEXT as *const ())),
     Some(crate::Address(hook_glCopyTextureSubImage1D as *const ())),
@@ -2267,6 +2269,8 @@ pub(crate) static HOOK: [Option<crate::Address>; 1153] = [
     Some(crate::Address(hook_OSMesaCreateContextAttribs as *const ())),
     Some(crate::Address(hook_OSMesaDestroyContext as *const ())),
     Some(crate::Address(hook_OSMesaGetProcAddress as *const ())),
+    None,
+    None,
     None,
     None,
     None,
@@ -2482,14 +2486,14 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1097] = [
     (b"glCopyMultiTexImage1DEXT", 1041, crate::Address(glCopyMultiTexImage1DEXT as *const ())),
     (b"glCopyMultiTexImage2DEXT", 1042, crate::Address(glCopyMultiTexImage2DEXT as *const ())),
     (b"glCopyPixels", 956, crate::Address(glCopyPixels as *const ())),
-    (b"glCopyTexImage1D", 1028, crate::Address(glCopyTexImage1D as *const ())),
-    (b"glCopyTexImage1DEXT", 1029, crate::Address(glCopyTexImage1DEXT as *const ())),
-    (b"glCopyTexImage2D", 1030, crate::Address(glCopyTexImage2D as *const ())),
-    (b"glCopyTexImage2DEXT", 1031, crate::Address(glCopyTexImage2DEXT as *const ())),
-    (b"glCopyTexSubImage1D", 1032, crate::Address(glCopyTexSubImage1D as *const ())),
-    (b"glCopyTexSubImage1DEXT", 1033, crate::Address(glCopyTexSubImage1DEXT as *const ())),
-    (b"glCopyTexSubImage2D", 1034, crate::Address(glCopyTexSubImage2D as *const ())),
-    (b"glCopyTexSubImage2DEXT", 1035, crate::Address(glCopyTexSubImage2DEXT as *const ())),
+    (b"glCopyTexImage1D", 1023, crate::Address(glCopyTexImage1D as *const ())),
+    (b"glCopyTexImage1DEXT", 1024, crate::Address(glCopyTexImage1DEXT as *const ())),
+    (b"glCopyTexImage2D", 1025, crate::Address(glCopyTexImage2D as *const ())),
+    (b"glCopyTexImage2DEXT", 1026, crate::Address(glCopyTexImage2DEXT as *const ())),
+    (b"glCopyTexSubImage1D", 1027, crate::Address(glCopyTexSubImage1D as *const ())),
+    (b"glCopyTexSubImage1DEXT", 1028, crate::Address(glCopyTexSubImage1DEXT as *const ())),
+    (b"glCopyTexSubImage2D", 1029, crate::Address(glCopyTexSubImage2D as *const ())),
+    (b"glCopyTexSubImage2DEXT", 1030, crate::Address(glCopyTexSubImage2DEXT as *const ())),
     (b"glCopyTexSubImage3D", 1036, crate::Address(glCopyTexSubImage3D as *const ())),
     (b"glCopyTexSubImage3DEXT", 1037, crate::Address(glCopyTexSubImage3DEXT as *const ())),
     (b"glCopyTextureImage1DEXT", 1043, crate::Address(glCopyTextureImage1DEXT as *const ())),
@@ -2911,11 +2915,11 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1097] = [
     (b"glRasterPos4s", 607, crate::Address(glRasterPos4s as *const ())),
     (b"glRasterPos4sv", 608, crate::Address(glRasterPos4sv as *const ())),
     (b"glReadBuffer", 977, crate::Address(glReadBuffer as *const ())),
-    (b"glReadPixels", 1023, crate::Address(glReadPixels as *const ())),
-    (b"glReadnPixels", 1024, crate::Address(glReadnPixels as *const ())),
-    (b"glReadnPixelsARB", 1025, crate::Address(glReadnPixelsARB as *const ())),
-    (b"glReadnPixelsEXT", 1026, crate::Address(glReadnPixelsEXT as *const ())),
-    (b"glReadnPixelsKHR", 1027, crate::Address(glReadnPixelsKHR as *const ())),
+    (b"glReadPixels", 1031, crate::Address(glReadPixels as *const ())),
+    (b"glReadnPixels", 1032, crate::Address(glReadnPixels as *const ())),
+    (b"glReadnPixelsARB", 1033, crate::Address(glReadnPixelsARB as *const ())),
+    (b"glReadnPixelsEXT", 1034, crate::Address(glReadnPixelsEXT as *const ())),
+    (b"glReadnPixelsKHR", 1035, crate::Address(glReadnPixelsKHR as *const ())),
     (b"glRectd", 943, crate::Address(glRectd as *const ())),
     (b"glRectdv", 944, crate::Address(glRectdv as *const ())),
     (b"glRectf", 945, crate::Address(glRectf as *const ())),
@@ -10470,133 +10474,133 @@ export! { 759, glPrimitiveRestartIndex, first_glPrimitiveRestartIndex, hook_glPr
     unsafe { gl.glPrimitiveRestartIndex(index) };
 } }
 export! { 760, glTexImage1D, first_glTexImage1D, hook_glTexImage1D, (target: u32, level: i32, internalformat: i32, width: i32, border: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
-    hooks::any();
+    hooks::texture(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexImage1D(target, level, internalformat, width, border, format, type_, pixels) };
 } }
 export! { 761, glTexImage2D, first_glTexImage2D, hook_glTexImage2D, (target: u32, level: i32, internalformat: i32, width: i32, height: i32, border: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
-    hooks::any();
+    hooks::texture(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexImage2D(target, level, internalformat, width, height, border, format, type_, pixels) };
 } }
 export! { 762, glTexImage3D, first_glTexImage3D, hook_glTexImage3D, (target: u32, level: i32, internalformat: i32, width: i32, height: i32, depth: i32, border: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
-    hooks::any();
+    hooks::texture(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexImage3D(target, level, internalformat, width, height, depth, border, format, type_, pixels) };
 } }
 export! { 763, glTexImage3DEXT, first_glTexImage3DEXT, hook_glTexImage3DEXT, (target: u32, level: i32, internalformat: u32, width: i32, height: i32, depth: i32, border: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
-    hooks::any();
+    hooks::texture(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexImage3DEXT(target, level, internalformat, width, height, depth, border, format, type_, pixels) };
 } }
 export! { 764, glTexSubImage1D, first_glTexSubImage1D, hook_glTexSubImage1D, (target: u32, level: i32, xoffset: i32, width: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
-    hooks::any();
+    hooks::texture(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexSubImage1D(target, level, xoffset, width, format, type_, pixels) };
 } }
 export! { 765, glTexSubImage1DEXT, first_glTexSubImage1DEXT, hook_glTexSubImage1DEXT, (target: u32, level: i32, xoffset: i32, width: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
-    hooks::any();
+    hooks::texture(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexSubImage1DEXT(target, level, xoffset, width, format, type_, pixels) };
 } }
 export! { 766, glTexSubImage2D, first_glTexSubImage2D, hook_glTexSubImage2D, (target: u32, level: i32, xoffset: i32, yoffset: i32, width: i32, height: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
-    hooks::any();
+    hooks::texture(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexSubImage2D(target, level, xoffset, yoffset, width, height, format, type_, pixels) };
 } }
 export! { 767, glTexSubImage2DEXT, first_glTexSubImage2DEXT, hook_glTexSubImage2DEXT, (target: u32, level: i32, xoffset: i32, yoffset: i32, width: i32, height: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
-    hooks::any();
+    hooks::texture(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexSubImage2DEXT(target, level, xoffset, yoffset, width, height, format, type_, pixels) };
 } }
 export! { 768, glTexSubImage3D, first_glTexSubImage3D, hook_glTexSubImage3D, (target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
-    hooks::any();
+    hooks::texture(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexSubImage3D(target, level, xoffset, yoffset, zoffset, width, height, depth, format, type_, pixels) };
 } }
 export! { 769, glTexSubImage3DEXT, first_glTexSubImage3DEXT, hook_glTexSubImage3DEXT, (target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
-    hooks::any();
+    hooks::texture(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexSubImage3DEXT(target, level, xoffset, yoffset, zoffset, width, height, depth, format, type_, pixels) };
 } }
 export! { 770, glCompressedTexImage1D, first_glCompressedTexImage1D, hook_glCompressedTexImage1D, (target: u32, level: i32, internalformat: u32, width: i32, border: i32, imageSize: i32, data: Ptr) -> (), {
-    hooks::any();
+    hooks::texture(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glCompressedTexImage1D(target, level, internalformat, width, border, imageSize, data) };
 } }
 export! { 771, glCompressedTexImage1DARB, first_glCompressedTexImage1DARB, hook_glCompressedTexImage1DARB, (target: u32, level: i32, internalformat: u32, width: i32, border: i32, imageSize: i32, data: Ptr) -> (), {
-    hooks::any();
+    hooks::texture(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glCompressedTexImage1DARB(target, level, internalformat, width, border, imageSize, data) };
 } }
 export! { 772, glCompressedTexImage2D, first_glCompressedTexImage2D, hook_glCompressedTexImage2D, (target: u32, level: i32, internalformat: u32, width: i32, height: i32, border: i32, imageSize: i32, data: Ptr) -> (), {
-    hooks::any();
+    hooks::texture(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glCompressedTexImage2D(target, level, internalformat, width, height, border, imageSize, data) };
 } }
 export! { 773, glCompressedTexImage2DARB, first_glCompressedTexImage2DARB, hook_glCompressedTexImage2DARB, (target: u32, level: i32, internalformat: u32, width: i32, height: i32, border: i32, imageSize: i32, data: Ptr) -> (), {
-    hooks::any();
+    hooks::texture(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glCompressedTexImage2DARB(target, level, internalformat, width, height, border, imageSize, data) };
 } }
 export! { 774, glCompressedTexImage3D, first_glCompressedTexImage3D, hook_glCompressedTexImage3D, (target: u32, level: i32, internalformat: u32, width: i32, height: i32, depth: i32, border: i32, imageSize: i32, data: Ptr) -> (), {
-    hooks::any();
+    hooks::texture(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glCompressedTexImage3D(target, level, internalformat, width, height, depth, border, imageSize, data) };
 } }
 export! { 775, glCompressedTexImage3DARB, first_glCompressedTexImage3DARB, hook_glCompressedTexImage3DARB, (target: u32, level: i32, internalformat: u32, width: i32, height: i32, depth: i32, border: i32, imageSize: i32, data: Ptr) -> (), {
-    hooks::any();
+    hooks::texture(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glCompressedTexImage3DARB(target, level, internalformat, width, height, depth, border, imageSize, data) };
 } }
 export! { 776, glCompressedTexSubImage1D, first_glCompressedTexSubImage1D, hook_glCompressedTexSubImage1D, (target: u32, level: i32, xoffset: i32, width: i32, format: u32, imageSize: i32, data: Ptr) -> (), {
-    hooks::any();
+    hooks::texture(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glCompressedTexSubImage1D(target, level, xoffset, width, format, imageSize, data) };
 } }
 export! { 777, glCompressedTexSubImage1DARB, first_glCompressedTexSubImage1DARB, hook_glCompressedTexSubImage1DARB, (target: u32, level: i32, xoffset: i32, width: i32, format: u32, imageSize: i32, data: Ptr) -> (), {
-    hooks::any();
+    hooks::texture(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glCompressedTexSubImage1DARB(target, level, xoffset, width, format, imageSize, data) };
 } }
 export! { 778, glCompressedTexSubImage2D, first_glCompressedTexSubImage2D, hook_glCompressedTexSubImage2D, (target: u32, level: i32, xoffset: i32, yoffset: i32, width: i32, height: i32, format: u32, imageSize: i32, data: Ptr) -> (), {
-    hooks::any();
+    hooks::texture(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glCompressedTexSubImage2D(target, level, xoffset, yoffset, width, height, format, imageSize, data) };
 } }
 export! { 779, glCompressedTexSubImage2DARB, first_glCompressedTexSubImage2DARB, hook_glCompressedTexSubImage2DARB, (target: u32, level: i32, xoffset: i32, yoffset: i32, width: i32, height: i32, format: u32, imageSize: i32, data: Ptr) -> (), {
-    hooks::any();
+    hooks::texture(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glCompressedTexSubImage2DARB(target, level, xoffset, yoffset, width, height, format, imageSize, data) };
 } }
 export! { 780, glCompressedTexSubImage3D, first_glCompressedTexSubImage3D, hook_glCompressedTexSubImage3D, (target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, format: u32, imageSize: i32, data: Ptr) -> (), {
-    hooks::any();
+    hooks::texture(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glCompressedTexSubImage3D(target, level, xoffset, yoffset, zoffset, width, height, depth, format, imageSize, data) };
 } }
 export! { 781, glCompressedTexSubImage3DARB, first_glCompressedTexSubImage3DARB, hook_glCompressedTexSubImage3DARB, (target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, format: u32, imageSize: i32, data: Ptr) -> (), {
-    hooks::any();
+    hooks::texture(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glCompressedTexSubImage3DARB(target, level, xoffset, yoffset, zoffset, width, height, depth, format, imageSize, data) };
@@ -11775,57 +11779,57 @@ export! { 1022, glDiscardFramebufferEXT, first_glDiscardFramebufferEXT, hook_glD
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glDiscardFramebufferEXT(target, numAttachments, attachments) })
 } }
-export! { 1023, glReadPixels, first_glReadPixels, hook_glReadPixels, (x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
+export! { 1023, glCopyTexImage1D, first_glCopyTexImage1D, hook_glCopyTexImage1D, (target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, border: i32) -> (), {
+    // SAFETY: the program's own call.
+    hooks::copy(target, x, width, &mut |gl| unsafe { gl.glCopyTexImage1D(target, level, internalformat, x, y, width, border) })
+} }
+export! { 1024, glCopyTexImage1DEXT, first_glCopyTexImage1DEXT, hook_glCopyTexImage1DEXT, (target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, border: i32) -> (), {
+    // SAFETY: the program's own call.
+    hooks::copy(target, x, width, &mut |gl| unsafe { gl.glCopyTexImage1DEXT(target, level, internalformat, x, y, width, border) })
+} }
+export! { 1025, glCopyTexImage2D, first_glCopyTexImage2D, hook_glCopyTexImage2D, (target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, height: i32, border: i32) -> (), {
+    // SAFETY: the program's own call.
+    hooks::copy(target, x, width, &mut |gl| unsafe { gl.glCopyTexImage2D(target, level, internalformat, x, y, width, height, border) })
+} }
+export! { 1026, glCopyTexImage2DEXT, first_glCopyTexImage2DEXT, hook_glCopyTexImage2DEXT, (target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, height: i32, border: i32) -> (), {
+    // SAFETY: the program's own call.
+    hooks::copy(target, x, width, &mut |gl| unsafe { gl.glCopyTexImage2DEXT(target, level, internalformat, x, y, width, height, border) })
+} }
+export! { 1027, glCopyTexSubImage1D, first_glCopyTexSubImage1D, hook_glCopyTexSubImage1D, (target: u32, level: i32, xoffset: i32, x: i32, y: i32, width: i32) -> (), {
+    // SAFETY: the program's own call.
+    hooks::copy(target, x, width, &mut |gl| unsafe { gl.glCopyTexSubImage1D(target, level, xoffset, x, y, width) })
+} }
+export! { 1028, glCopyTexSubImage1DEXT, first_glCopyTexSubImage1DEXT, hook_glCopyTexSubImage1DEXT, (target: u32, level: i32, xoffset: i32, x: i32, y: i32, width: i32) -> (), {
+    // SAFETY: the program's own call.
+    hooks::copy(target, x, width, &mut |gl| unsafe { gl.glCopyTexSubImage1DEXT(target, level, xoffset, x, y, width) })
+} }
+export! { 1029, glCopyTexSubImage2D, first_glCopyTexSubImage2D, hook_glCopyTexSubImage2D, (target: u32, level: i32, xoffset: i32, yoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
+    // SAFETY: the program's own call.
+    hooks::copy(target, x, width, &mut |gl| unsafe { gl.glCopyTexSubImage2D(target, level, xoffset, yoffset, x, y, width, height) })
+} }
+export! { 1030, glCopyTexSubImage2DEXT, first_glCopyTexSubImage2DEXT, hook_glCopyTexSubImage2DEXT, (target: u32, level: i32, xoffset: i32, yoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
+    // SAFETY: the program's own call.
+    hooks::copy(target, x, width, &mut |gl| unsafe { gl.glCopyTexSubImage2DEXT(target, level, xoffset, yoffset, x, y, width, height) })
+} }
+export! { 1031, glReadPixels, first_glReadPixels, hook_glReadPixels, (x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glReadPixels(x, y, width, height, format, type_, pixels) })
 } }
-export! { 1024, glReadnPixels, first_glReadnPixels, hook_glReadnPixels, (x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, bufSize: i32, data: Ptr) -> (), {
+export! { 1032, glReadnPixels, first_glReadnPixels, hook_glReadnPixels, (x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, bufSize: i32, data: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glReadnPixels(x, y, width, height, format, type_, bufSize, data) })
 } }
-export! { 1025, glReadnPixelsARB, first_glReadnPixelsARB, hook_glReadnPixelsARB, (x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, bufSize: i32, data: Ptr) -> (), {
+export! { 1033, glReadnPixelsARB, first_glReadnPixelsARB, hook_glReadnPixelsARB, (x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, bufSize: i32, data: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glReadnPixelsARB(x, y, width, height, format, type_, bufSize, data) })
 } }
-export! { 1026, glReadnPixelsEXT, first_glReadnPixelsEXT, hook_glReadnPixelsEXT, (x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, bufSize: i32, data: Ptr) -> (), {
+export! { 1034, glReadnPixelsEXT, first_glReadnPixelsEXT, hook_glReadnPixelsEXT, (x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, bufSize: i32, data: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glReadnPixelsEXT(x, y, width, height, format, type_, bufSize, data) })
 } }
-export! { 1027, glReadnPixelsKHR, first_glReadnPixelsKHR, hook_glReadnPixelsKHR, (x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, bufSize: i32, data: Ptr) -> (), {
+export! { 1035, glReadnPixelsKHR, first_glReadnPixelsKHR, hook_glReadnPixelsKHR, (x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, bufSize: i32, data: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glReadnPixelsKHR(x, y, width, height, format, type_, bufSize, data) })
-} }
-export! { 1028, glCopyTexImage1D, first_glCopyTexImage1D, hook_glCopyTexImage1D, (target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, border: i32) -> (), {
-    // SAFETY: the program's own call.
-    hooks::read(x, width, &mut |gl| unsafe { gl.glCopyTexImage1D(target, level, internalformat, x, y, width, border) })
-} }
-export! { 1029, glCopyTexImage1DEXT, first_glCopyTexImage1DEXT, hook_glCopyTexImage1DEXT, (target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, border: i32) -> (), {
-    // SAFETY: the program's own call.
-    hooks::read(x, width, &mut |gl| unsafe { gl.glCopyTexImage1DEXT(target, level, internalformat, x, y, width, border) })
-} }
-export! { 1030, glCopyTexImage2D, first_glCopyTexImage2D, hook_glCopyTexImage2D, (target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, height: i32, border: i32) -> (), {
-    // SAFETY: the program's own call.
-    hooks::read(x, width, &mut |gl| unsafe { gl.glCopyTexImage2D(target, level, internalformat, x, y, width, height, border) })
-} }
-export! { 1031, glCopyTexImage2DEXT, first_glCopyTexImage2DEXT, hook_glCopyTexImage2DEXT, (target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, height: i32, border: i32) -> (), {
-    // SAFETY: the program's own call.
-    hooks::read(x, width, &mut |gl| unsafe { gl.glCopyTexImage2DEXT(target, level, internalformat, x, y, width, height, border) })
-} }
-export! { 1032, glCopyTexSubImage1D, first_glCopyTexSubImage1D, hook_glCopyTexSubImage1D, (target: u32, level: i32, xoffset: i32, x: i32, y: i32, width: i32) -> (), {
-    // SAFETY: the program's own call.
-    hooks::read(x, width, &mut |gl| unsafe { gl.glCopyTexSubImage1D(target, level, xoffset, x, y, width) })
-} }
-export! { 1033, glCopyTexSubImage1DEXT, first_glCopyTexSubImage1DEXT, hook_glCopyTexSubImage1DEXT, (target: u32, level: i32, xoffset: i32, x: i32, y: i32, width: i32) -> (), {
-    // SAFETY: the program's own call.
-    hooks::read(x, width, &mut |gl| unsafe { gl.glCopyTexSubImage1DEXT(target, level, xoffset, x, y, width) })
-} }
-export! { 1034, glCopyTexSubImage2D, first_glCopyTexSubImage2D, hook_glCopyTexSubImage2D, (target: u32, level: i32, xoffset: i32, yoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
-    // SAFETY: the program's own call.
-    hooks::read(x, width, &mut |gl| unsafe { gl.glCopyTexSubImage2D(target, level, xoffset, yoffset, x, y, width, height) })
-} }
-export! { 1035, glCopyTexSubImage2DEXT, first_glCopyTexSubImage2DEXT, hook_glCopyTexSubImage2DEXT, (target: u32, level: i32, xoffset: i32, yoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
-    // SAFETY: the program's own call.
-    hooks::read(x, width, &mut |gl| unsafe { gl.glCopyTexSubImage2DEXT(target, level, xoffset, yoffset, x, y, width, height) })
 } }
 export! { 1036, glCopyTexSubImage3D, first_glCopyTexSubImage3D, hook_glCopyTexSubImage3D, (target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
     // SAFETY: the program's own call.

@@ -43,6 +43,23 @@ pub(crate) fn any() {
     compile(Command::Of(Run::Open), Touch::NONE);
 }
 
+/// The texture bound at `target` is about to be written to.
+#[inline]
+pub(crate) fn texture(target: u32) {
+    any();
+    if context::peek(|l| l.has_copies()) == Some(true) {
+        enter(|gl, l| l.texture_written(gl, target));
+    }
+}
+
+/// A copy of the read framebuffer to the texture bound at `target`, of columns in pixels.
+pub(crate) fn copy(target: u32, x: i32, width: i32, call: &mut dyn FnMut(&'static Real)) {
+    let copied = enter(|gl, l| l.copy_texture(gl, target, x, width, &mut || call(gl.real())));
+    if copied.is_none() {
+        call(real());
+    }
+}
+
 /// A command on the current matrix or its stack is about to be called.
 #[inline]
 pub(crate) fn matrix(command: Command) {

@@ -7,7 +7,7 @@ use core::ffi::CStr;
 /// The driver of the context that is current on this thread. Every method is the GL command of its name.
 #[derive(Clone, Copy, Debug)]
 pub struct Gl {
-    real: &'static Real,
+    pub(super) real: &'static Real,
     // The context is current on one thread only.
     _not_send: core::marker::PhantomData<*const ()>,
 }
@@ -177,14 +177,6 @@ impl Gl {
         out
     }
 
-    /// glGetTexGeniv of one value; `coord` is GL_S to GL_Q.
-    pub fn get_tex_gen(&self, coord: u32, name: u32) -> i32 {
-        let mut v = [0i32; 4];
-        // SAFETY: room for 4 elements.
-        unsafe { self.real.glGetTexGeniv(coord, name, v.as_mut_ptr().cast()) };
-        v[0]
-    }
-
     /// glGetLightfv, up to 4 values.
     pub fn get_light(&self, light: u32, name: u32) -> [f32; 4] {
         let mut v = [0f32; 4];
@@ -244,25 +236,6 @@ impl Gl {
     pub fn load_matrix(&self, m: &[f32; 16]) {
         // SAFETY: 16 floats.
         unsafe { self.real.glLoadMatrixf(m.as_ptr() as Ptr) }
-    }
-
-    /// glTexImage3D of an array texture without data.
-    pub fn tex_storage_3d(&self, internal: u32, w: i32, h: i32, d: i32, format: u32, kind: u32) {
-        // SAFETY: no data.
-        unsafe {
-            self.real.glTexImage3D(
-                super::consts::TEXTURE_2D_ARRAY,
-                0,
-                internal as i32,
-                w,
-                h,
-                d,
-                0,
-                format,
-                kind,
-                core::ptr::null_mut(),
-            )
-        }
     }
 
     /// glTexImage2D with a whole picture of 16-bit words, rows from texture row 0 on, 4 channels.
@@ -469,12 +442,6 @@ impl Gl {
             self.real
                 .glUniform4fv(location, v.len() as i32, v.as_ptr() as Ptr)
         }
-    }
-
-    /// glDeleteTextures of one name.
-    pub fn delete_texture(&self, name: u32) {
-        // SAFETY: one name.
-        unsafe { self.real.glDeleteTextures(1, (&raw const name) as Ptr) }
     }
 
     /// glDeleteFramebuffers of one name.

@@ -9,6 +9,7 @@ pub mod immediate;
 #[allow(missing_docs, non_upper_case_globals, clippy::missing_safety_doc, reason = "generated; the names are the API's own")]
 #[rustfmt::skip]
 mod table;
+mod textures;
 
 pub use api::Gl;
 pub use immediate::Recording;

@@ -4,7 +4,7 @@ use super::real::{Ptr, Real};
 use core::ffi::{CStr, c_ulong};
 
 /// Number of commands in the table.
-pub const COUNT: usize = 1153;
+pub const COUNT: usize = 1155;
 
 /// Index of each command in the table.
 pub mod slot {
@@ -1031,19 +1031,19 @@ pub mod slot {
     pub const glInvalidateFramebuffer: usize = 1020;
     pub const glInvalidateSubFramebuffer: usize = 1021;
     pub const glDiscardFramebufferEXT: usize = 1022;
-    pub const glReadPixels: usize = 1023;
-    pub const glReadnPixels: usize = 1024;
-    pub const glReadnPixelsARB: usize = 1025;
-    pub const glReadnPixelsEXT: usize = 1026;
-    pub const glReadnPixelsKHR: usize = 1027;
-    pub const glCopyTexImage1D: usize = 1028;
-    pub const glCopyTexImage1DEXT: usize = 1029;
-    pub const glCopyTexImage2D: usize = 1030;
-    pub const glCopyTexImage2DEXT: usize = 1031;
-    pub const glCopyTexSubImage1D: usize = 1032;
-    pub const glCopyTexSubImage1DEXT: usize = 1033;
-    pub const glCopyTexSubImage2D: usize = 1034;
-    pub const glCopyTexSubImage2DEXT: usize = 1035;
+    pub const glCopyTexImage1D: usize = 1023;
+    pub const glCopyTexImage1DEXT: usize = 1024;
+    pub const glCopyTexImage2D: usize = 1025;
+    pub const glCopyTexImage2DEXT: usize = 1026;
+    pub const glCopyTexSubImage1D: usize = 1027;
+    pub const glCopyTexSubImage1DEXT: usize = 1028;
+    pub const glCopyTexSubImage2D: usize = 1029;
+    pub const glCopyTexSubImage2DEXT: usize = 1030;
+    pub const glReadPixels: usize = 1031;
+    pub const glReadnPixels: usize = 1032;
+    pub const glReadnPixelsARB: usize = 1033;
+    pub const glReadnPixelsEXT: usize = 1034;
+    pub const glReadnPixelsKHR: usize = 1035;
     pub const glCopyTexSubImage3D: usize = 1036;
     pub const glCopyTexSubImage3DEXT: usize = 1037;
     pub const glCopyTextureSubImage1D: usize = 1038;
@@ -1110,57 +1110,59 @@ pub mod slot {
     pub const OSMesaCreateContextAttribs: usize = 1099;
     pub const OSMesaDestroyContext: usize = 1100;
     pub const OSMesaGetProcAddress: usize = 1101;
-    pub const glIsList: usize = 1102;
-    pub const glGetString: usize = 1103;
-    pub const glGetStringi: usize = 1104;
-    pub const glIsEnabled: usize = 1105;
-    pub const glIsEnabledi: usize = 1106;
-    pub const glGetIntegeri_v: usize = 1107;
-    pub const glGetTexGeniv: usize = 1108;
-    pub const glGetTexGenfv: usize = 1109;
-    pub const glGetTexEnviv: usize = 1110;
-    pub const glGetLightfv: usize = 1111;
-    pub const glGetTexParameteriv: usize = 1112;
-    pub const glGetMaterialfv: usize = 1113;
-    pub const glGenQueries: usize = 1114;
-    pub const glGenTextures: usize = 1115;
-    pub const glTexImage2DMultisample: usize = 1116;
-    pub const glTexImage3DMultisample: usize = 1117;
-    pub const glGenFramebuffers: usize = 1118;
-    pub const glGenRenderbuffers: usize = 1119;
-    pub const glBindRenderbuffer: usize = 1120;
-    pub const glRenderbufferStorage: usize = 1121;
-    pub const glRenderbufferStorageMultisample: usize = 1122;
-    pub const glDeleteRenderbuffers: usize = 1123;
-    pub const glCreateShader: usize = 1124;
-    pub const glShaderSource: usize = 1125;
-    pub const glCompileShader: usize = 1126;
-    pub const glGetShaderiv: usize = 1127;
-    pub const glGetShaderInfoLog: usize = 1128;
-    pub const glCreateProgram: usize = 1129;
-    pub const glAttachShader: usize = 1130;
-    pub const glLinkProgram: usize = 1131;
-    pub const glGetProgramiv: usize = 1132;
-    pub const glGetProgramInfoLog: usize = 1133;
-    pub const glDeleteShader: usize = 1134;
-    pub const glDeleteProgram: usize = 1135;
-    pub const glGetUniformLocation: usize = 1136;
-    pub const glGetUniformBlockIndex: usize = 1137;
-    pub const glUniformBlockBinding: usize = 1138;
-    pub const glBindBufferBase: usize = 1139;
-    pub const glBindBufferRange: usize = 1140;
-    pub const glGenBuffers: usize = 1141;
-    pub const glBindBuffer: usize = 1142;
-    pub const glBufferData: usize = 1143;
-    pub const glBufferSubData: usize = 1144;
-    pub const glDeleteBuffers: usize = 1145;
-    pub const glBindAttribLocation: usize = 1146;
-    pub const glProgramParameteri: usize = 1147;
-    pub const glGenVertexArrays: usize = 1148;
-    pub const glBindVertexArray: usize = 1149;
-    pub const glGenSamplers: usize = 1150;
-    pub const glBindSampler: usize = 1151;
-    pub const glPixelStorei: usize = 1152;
+    pub const glGetTexLevelParameteriv: usize = 1102;
+    pub const glCopyImageSubData: usize = 1103;
+    pub const glIsList: usize = 1104;
+    pub const glGetString: usize = 1105;
+    pub const glGetStringi: usize = 1106;
+    pub const glIsEnabled: usize = 1107;
+    pub const glIsEnabledi: usize = 1108;
+    pub const glGetIntegeri_v: usize = 1109;
+    pub const glGetTexGeniv: usize = 1110;
+    pub const glGetTexGenfv: usize = 1111;
+    pub const glGetTexEnviv: usize = 1112;
+    pub const glGetLightfv: usize = 1113;
+    pub const glGetTexParameteriv: usize = 1114;
+    pub const glGetMaterialfv: usize = 1115;
+    pub const glGenQueries: usize = 1116;
+    pub const glGenTextures: usize = 1117;
+    pub const glTexImage2DMultisample: usize = 1118;
+    pub const glTexImage3DMultisample: usize = 1119;
+    pub const glGenFramebuffers: usize = 1120;
+    pub const glGenRenderbuffers: usize = 1121;
+    pub const glBindRenderbuffer: usize = 1122;
+    pub const glRenderbufferStorage: usize = 1123;
+    pub const glRenderbufferStorageMultisample: usize = 1124;
+    pub const glDeleteRenderbuffers: usize = 1125;
+    pub const glCreateShader: usize = 1126;
+    pub const glShaderSource: usize = 1127;
+    pub const glCompileShader: usize = 1128;
+    pub const glGetShaderiv: usize = 1129;
+    pub const glGetShaderInfoLog: usize = 1130;
+    pub const glCreateProgram: usize = 1131;
+    pub const glAttachShader: usize = 1132;
+    pub const glLinkProgram: usize = 1133;
+    pub const glGetProgramiv: usize = 1134;
+    pub const glGetProgramInfoLog: usize = 1135;
+    pub const glDeleteShader: usize = 1136;
+    pub const glDeleteProgram: usize = 1137;
+    pub const glGetUniformLocation: usize = 1138;
+    pub const glGetUniformBlockIndex: usize = 1139;
+    pub const glUniformBlockBinding: usize = 1140;
+    pub const glBindBufferBase: usize = 1141;
+    pub const glBindBufferRange: usize = 1142;
+    pub const glGenBuffers: usize = 1143;
+    pub const glBindBuffer: usize = 1144;
+    pub const glBufferData: usize = 1145;
+    pub const glBufferSubData: usize = 1146;
+    pub const glDeleteBuffers: usize = 1147;
+    pub const glBindAttribLocation: usize = 1148;
+    pub const glProgramParameteri: usize = 1149;
+    pub const glGenVertexArrays: usize = 1150;
+    pub const glBindVertexArray: usize = 1151;
+    pub const glGenSamplers: usize = 1152;
+    pub const glBindSampler: usize = 1153;
+    pub const glPixelStorei: usize = 1154;
 }
 
 /// Name of each command.
@@ -2188,11 +2190,6 @@ pub static NAMES: [&CStr; COUNT] = [
     c"glInvalidateFramebuffer",
     c"glInvalidateSubFramebuffer",
     c"glDiscardFramebufferEXT",
-    c"glReadPixels",
-    c"glReadnPixels",
-    c"glReadnPixelsARB",
-    c"glReadnPixelsEXT",
-    c"glReadnPixelsKHR",
     c"glCopyTexImage1D",
     c"glCopyTexImage1DEXT",
     c"glCopyTexImage2D",
@@ -2201,6 +2198,11 @@ pub static NAMES: [&CStr; COUNT] = [
     c"glCopyTexSubImage1DEXT",
     c"glCopyTexSubImage2D",
     c"glCopyTexSubImage2DEXT",
+    c"glReadPixels",
+    c"glReadnPixels",
+    c"glReadnPixelsARB",
+    c"glReadnPixelsEXT",
+    c"glReadnPixelsKHR",
     c"glCopyTexSubImage3D",
     c"glCopyTexSubImage3DEXT",
     c"glCopyTextureSubImage1D",
@@ -2267,6 +2269,8 @@ pub static NAMES: [&CStr; COUNT] = [
     c"OSMesaCreateContextAttribs",
     c"OSMesaDestroyContext",
     c"OSMesaGetProcAddress",
+    c"glGetTexLevelParameteriv",
+    c"glCopyImageSubData",
     c"glIsList",
     c"glGetString",
     c"glGetStringi",
@@ -3344,11 +3348,6 @@ real_functions! {
     glInvalidateFramebuffer(target: u32, numAttachments: i32, attachments: Ptr);
     glInvalidateSubFramebuffer(target: u32, numAttachments: i32, attachments: Ptr, x: i32, y: i32, width: i32, height: i32);
     glDiscardFramebufferEXT(target: u32, numAttachments: i32, attachments: Ptr);
-    glReadPixels(x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, pixels: Ptr);
-    glReadnPixels(x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, bufSize: i32, data: Ptr);
-    glReadnPixelsARB(x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, bufSize: i32, data: Ptr);
-    glReadnPixelsEXT(x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, bufSize: i32, data: Ptr);
-    glReadnPixelsKHR(x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, bufSize: i32, data: Ptr);
     glCopyTexImage1D(target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, border: i32);
     glCopyTexImage1DEXT(target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, border: i32);
     glCopyTexImage2D(target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, height: i32, border: i32);
@@ -3357,6 +3356,11 @@ real_functions! {
     glCopyTexSubImage1DEXT(target: u32, level: i32, xoffset: i32, x: i32, y: i32, width: i32);
     glCopyTexSubImage2D(target: u32, level: i32, xoffset: i32, yoffset: i32, x: i32, y: i32, width: i32, height: i32);
     glCopyTexSubImage2DEXT(target: u32, level: i32, xoffset: i32, yoffset: i32, x: i32, y: i32, width: i32, height: i32);
+    glReadPixels(x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, pixels: Ptr);
+    glReadnPixels(x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, bufSize: i32, data: Ptr);
+    glReadnPixelsARB(x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, bufSize: i32, data: Ptr);
+    glReadnPixelsEXT(x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, bufSize: i32, data: Ptr);
+    glReadnPixelsKHR(x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, bufSize: i32, data: Ptr);
     glCopyTexSubImage3D(target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, x: i32, y: i32, width: i32, height: i32);
     glCopyTexSubImage3DEXT(target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, x: i32, y: i32, width: i32, height: i32);
     glCopyTextureSubImage1D(texture: u32, level: i32, xoffset: i32, x: i32, y: i32, width: i32);
@@ -3423,6 +3427,8 @@ real_functions! {
     OSMesaCreateContextAttribs(attribs: Ptr, share: Ptr) -> Ptr = core::ptr::null_mut();
     OSMesaDestroyContext(ctx: Ptr);
     OSMesaGetProcAddress(name: Ptr) -> Ptr = core::ptr::null_mut();
+    glGetTexLevelParameteriv(target: u32, level: i32, pname: u32, params: Ptr);
+    glCopyImageSubData(srcName: u32, srcTarget: u32, srcLevel: i32, srcX: i32, srcY: i32, srcZ: i32, dstName: u32, dstTarget: u32, dstLevel: i32, dstX: i32, dstY: i32, dstZ: i32, srcWidth: i32, srcHeight: i32, srcDepth: i32);
     glIsList(list: u32) -> u8 = 0;
     glGetString(name: u32) -> Ptr = core::ptr::null_mut();
     glGetStringi(name: u32, index: u32) -> Ptr = core::ptr::null_mut();

@@ -183,7 +183,8 @@ impl Layer {
         if self.state.draws_to_window() {
             self.rig.latch(&self.state.projection);
         }
-        let plan = self.uncounted(plan(kind, &self.state, &self.rig, &self.means));
+        let plan = plan(kind, &self.state, &self.rig, &self.means);
+        let plan = self.uncopied(gl, self.uncounted(plan));
         if plan.method == Method::Once {
             self.queries.drawn();
         } else {
@@ -201,6 +202,7 @@ impl Layer {
 
     pub(super) fn replay(&mut self, gl: &Gl, plan: &Plan, again: Again, call: &mut dyn FnMut(u32)) {
         // Of what queries count, only the own view is counted.
+        let bound = self.copies.bound(gl);
         let mut queries = std::mem::take(&mut self.queries);
         let (own, mut paused) = (self.atlas.tiles.own(), true);
         queries.pause(gl);
@@ -215,6 +217,7 @@ impl Layer {
                 if view == own && std::mem::take(&mut paused) {
                     queries.resume(gl);
                 }
+                self.copies.bind(gl, &bound, view);
                 call(view);
             },
         );

@@ -259,7 +259,7 @@ impl Layer {
     }
 
     /// Binds a copy of a view's tile for reading. Changes the draw framebuffer; the state is refreshed.
-    fn take_single(&mut self, gl: &Gl, view: u32) {
+    pub(super) fn take_single(&mut self, gl: &Gl, view: u32) {
         if !self.atlas.has_single() {
             keep_bindings(gl, || {
                 self.atlas

@@ -1,6 +1,7 @@
 //! One context under the layer: puts the stages together. The hooks call nothing else.
 #![forbid(unsafe_code)]
 
+mod copies;
 mod drawing;
 mod frame;
 mod framebuffer;
@@ -61,6 +62,7 @@ pub struct Layer {
     raster: Option<Shear>,
     pushed: Vec<framebuffer::Pushed>,
     queries: queries::Queries,
+    copies: copies::Copies,
     recording: Recording,
     immediate: Immediate,
     support: Support,
@@ -81,12 +83,7 @@ impl Layer {
     ) -> Result<Layer, LayerError> {
         let support = Support::ask(gl)?;
         let mut state = State::new(Window::ask(gl, width, height), support.compatibility);
-        while let e @ 1.. = gl.get_error() {
-            state.errors.push_back(e);
-            if state.errors.len() > 16 {
-                break;
-            }
-        }
+        state.keep_errors(gl);
         let mut names = Names::default();
         let atlas = make_atlas(gl, &mut names, config, &state, &support)?;
         let mut report = Report::default();
@@ -116,6 +113,7 @@ impl Layer {
             raster: None,
             pushed: Vec::new(),
             queries: queries::Queries::default(),
+            copies: copies::Copies::new(support.compatibility),
             recording: Recording::default(),
             immediate: Immediate::default(),
             support,
@@ -144,7 +142,10 @@ impl Layer {
 
     /// Whether a texture is one of ours.
     pub fn owns_texture(&self, name: u32) -> bool {
-        name != 0 && (self.atlas.owns(name) || self.interleaver.texture() == name)
+        name != 0
+            && (self.atlas.owns(name)
+                || self.interleaver.texture() == name
+                || self.copies.owns(name))
     }
 
     /// Whether a framebuffer object is one of ours.
@@ -158,6 +159,7 @@ impl Layer {
             return;
         }
         self.names.hide();
+        self.copies.clear(gl);
         let note = if self.remake(gl) {
             "the program numbers its textures itself; ours moved out of its way"
         } else {

@@ -167,6 +167,16 @@ impl State {
             touched.without(Touch::RECTS | Touch::PROJECTION | Touch::MODE | Touch::OBJECTS);
     }
 
+    /// Takes the program's errors out of the driver's queue, before calls of ours that may raise some.
+    pub fn keep_errors(&mut self, gl: &Gl) {
+        while let e @ 1.. = gl.get_error() {
+            self.errors.push_back(e);
+            if self.errors.len() > 16 {
+                break;
+            }
+        }
+    }
+
     /// Whether a draw now lands in framebuffer 0 as picture: not in a list, a selection, a feedback or an own framebuffer.
     pub fn draws_to_window(&self) -> bool {
         self.framebuffers.draw == 0

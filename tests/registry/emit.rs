@@ -262,10 +262,11 @@ pub fn entry(commands: &[Command]) -> String {
                 )
                 .unwrap();
             }
-            "matrix" | "cap" | "any" => {
+            "matrix" | "cap" | "any" | "texture" => {
                 let note = match class {
                     "matrix" => format!("matrix(Command::{arg})"),
                     "any" => "any()".into(),
+                    "texture" => "texture(target)".into(),
                     _ => format!("cap({}, {})", c.params[0].name, name.starts_with("glEnable")),
                 };
                 writeln!(o, "    hooks::{note};\n    let gl = hooks::real();\n    // SAFETY: the program's own call.\n    {call};").unwrap();
@@ -276,6 +277,7 @@ pub fn entry(commands: &[Command]) -> String {
             }
             "draw" => writeln!(o, "    // SAFETY: the program's own call.\n    hooks::draw(Kind::{arg}, &mut |gl| {call})").unwrap(),
             "read" => writeln!(o, "    // SAFETY: the program's own call.\n    hooks::read(x, width, &mut |gl| {call})").unwrap(),
+            "copy" => writeln!(o, "    // SAFETY: the program's own call.\n    hooks::copy(target, x, width, &mut |gl| {call})").unwrap(),
             "hide" => {
                 writeln!(o, "    // SAFETY: the program's own call.\n    hooks::hide({}, &mut |gl| {call})", c.params[0].name).unwrap()
             }

@@ -56,6 +56,7 @@ pub(crate) unsafe fn glDeleteTextures(n: i32, textures: Ptr) {
     {
         enter(|gl, l| l.yield_names(gl));
     }
+    enter(|gl, l| l.deleted_textures(gl, names));
     // SAFETY: the program's own call.
     unsafe { real().glDeleteTextures(n, textures) };
 }

@@ -1,0 +1,93 @@
+//! The layer's calls about textures.
+
+use super::consts as c;
+use super::{Gl, Ptr};
+
+impl Gl {
+    /// glGetTexParameteriv of one value.
+    pub fn get_tex_parameter(&self, target: u32, name: u32) -> i32 {
+        let mut v = [0i32; 4];
+        // SAFETY: room for the most values that a name has.
+        unsafe {
+            self.real
+                .glGetTexParameteriv(target, name, v.as_mut_ptr().cast())
+        };
+        v[0]
+    }
+
+    /// glGetTexLevelParameteriv
+    pub fn get_tex_level_parameter(&self, target: u32, level: i32, name: u32) -> i32 {
+        let mut v = 0i32;
+        // SAFETY: room for one value.
+        unsafe {
+            self.real
+                .glGetTexLevelParameteriv(target, level, name, (&raw mut v).cast())
+        };
+        v
+    }
+
+    /// glTexImage2D of level 0 without data. No unpack buffer may be bound.
+    pub fn tex_image_2d_empty(&self, target: u32, internal: u32, w: i32, h: i32, depth: bool) {
+        let (format, kind) = if depth {
+            (c::DEPTH_COMPONENT, c::UNSIGNED_INT)
+        } else {
+            (c::RGBA, c::UNSIGNED_BYTE)
+        };
+        // SAFETY: no data is read.
+        unsafe {
+            self.real.glTexImage2D(
+                target,
+                0,
+                internal as i32,
+                w,
+                h,
+                0,
+                format,
+                kind,
+                core::ptr::null_mut(),
+            )
+        };
+    }
+
+    /// glCopyImageSubData of the whole level 0 of a two-dimensional texture.
+    pub fn copy_image(&self, target: u32, from: u32, to: u32, w: i32, h: i32) {
+        // SAFETY: no pointers.
+        unsafe {
+            self.real
+                .glCopyImageSubData(from, target, 0, 0, 0, 0, to, target, 0, 0, 0, 0, w, h, 1)
+        };
+    }
+
+    /// glGetTexGeniv of one value; `coord` is GL_S to GL_Q.
+    pub fn get_tex_gen(&self, coord: u32, name: u32) -> i32 {
+        let mut v = [0i32; 4];
+        // SAFETY: room for 4 elements.
+        unsafe { self.real.glGetTexGeniv(coord, name, v.as_mut_ptr().cast()) };
+        v[0]
+    }
+
+    /// glTexImage3D of an array texture without data.
+    pub fn tex_storage_3d(&self, internal: u32, w: i32, h: i32, d: i32, format: u32, kind: u32) {
+        // SAFETY: no data.
+        unsafe {
+            self.real.glTexImage3D(
+                c::TEXTURE_2D_ARRAY,
+                0,
+                internal as i32,
+                w,
+                h,
+                d,
+                0,
+                format,
+                kind,
+                core::ptr::null_mut(),
+            )
+        }
+    }
+
+    /// glDeleteTextures of one name.
+    pub fn delete_texture(&self, name: u32) {
+        // SAFETY: one name.
+        unsafe { self.real.glDeleteTextures(1, (&raw const name) as Ptr) }
+    }
+}
