@@ -91,10 +91,12 @@ install: ## install to PREFIX after `make build` (default /usr/local)
 	@test -x $(BIN)/manyview && test -f $(BIN)/libmanyview.so && test -x $(BIN)/manyview-probe || \
 		{ echo "Nothing to install: run make build first" >&2; exit 1; }
 	install -d $(DESTDIR)$(PREFIX)/bin $(DESTDIR)$(PREFIX)/lib/manyview \
-		$(DESTDIR)$(PREFIX)/share/manyview/shaders $(DESTDIR)$(PREFIX)/share/doc/manyview/docs
+		$(DESTDIR)$(PREFIX)/lib/manyview/profiles $(DESTDIR)$(PREFIX)/share/manyview/shaders $(DESTDIR)$(PREFIX)/share/doc/manyview/docs
 	install -m 755 $(BIN)/manyview $(DESTDIR)$(PREFIX)/bin/manyview
 	install -m 644 $(BIN)/libmanyview.so $(DESTDIR)$(PREFIX)/lib/manyview/libmanyview.so
 	install -m 755 $(BIN)/manyview-probe $(DESTDIR)$(PREFIX)/lib/manyview/manyview-probe
+	for profile in $(wildcard profiles/*.toml); do \
+		install -m 644 $$profile $(DESTDIR)$(PREFIX)/lib/manyview/profiles/ || exit 1; done
 	for shader in $(wildcard shaders/*.wgsl); do \
 		install -m 644 $$shader $(DESTDIR)$(PREFIX)/share/manyview/shaders/ || exit 1; done
 	install -m 644 README.md ARCHITECTURE.md CHANGELOG.md LICENSE $(DESTDIR)$(PREFIX)/share/doc/manyview/

@@ -3,7 +3,7 @@
 
 mod support;
 
-use manyview::config::{Config, OPTIONS, Settings};
+use manyview::config::{Config, OPTIONS, Profile, Settings};
 use manyview::display::Display;
 use std::path::{Path, PathBuf};
 use support::manyview;
@@ -47,12 +47,17 @@ fn file_name(block: &str) -> Option<&str> {
 fn the_toml_blocks_of_the_readme_are_accepted() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("readme.toml");
-    let (mut panels, mut options) = (0, 0);
+    let (mut panels, mut options, mut profiles) = (0, 0, 0);
     for block in toml_blocks(README) {
         std::fs::write(&path, block).expect("written");
         if block.lines().any(|line| line.starts_with("kind = ")) {
             Display::load(path.to_str().expect("UTF-8")).expect("a panel");
             panels += 1;
+            continue;
+        }
+        if block.lines().any(|line| line.starts_with("rule = ")) {
+            Profile::read(&path).expect("a profile");
+            profiles += 1;
             continue;
         }
         let lookup =
@@ -61,7 +66,10 @@ fn the_toml_blocks_of_the_readme_are_accepted() {
         Config::from_settings(&settings).expect("good values");
         options += 1;
     }
-    assert!(panels > 0 && options > 0, "the README shows both kinds");
+    assert!(
+        panels > 0 && options > 0 && profiles > 0,
+        "the README shows every kind"
+    );
 }
 
 /// The lines of a document that are typed into a shell: indented, without what follows a `#`.

@@ -83,6 +83,7 @@ fn scene(name: &str) -> Scene {
         "prims" => scene("prims", &[], 1),
         "arrays" => scene("arrays", &[], 1),
         "immediate" => scene("immediate", &[], 1),
+        "sky" => scene("sky", &[], 1),
         "teapot_srgb" => scene("teapot", &["--srgb"], 1),
         "room_srgb" => scene("room", &["--srgb"], 1),
         "teapot_samples" => multisampled("teapot"),
@@ -496,9 +497,9 @@ macro_rules! oracle {
 }
 
 oracle! {
-    glx: gears lists echo teapot room fogtexgen points clip mirror mesh mesh_vbo prims arrays immediate;
-    egl: gears lists echo teapot room fogtexgen points clip mirror mesh mesh_vbo prims arrays immediate;
-    osmesa: gears lists echo teapot room fogtexgen points clip mirror mesh mesh_vbo prims arrays immediate;
+    glx: gears lists echo teapot room fogtexgen points clip mirror mesh mesh_vbo prims arrays immediate sky;
+    egl: gears lists echo teapot room fogtexgen points clip mirror mesh mesh_vbo prims arrays immediate sky;
+    osmesa: gears lists echo teapot room fogtexgen points clip mirror mesh mesh_vbo prims arrays immediate sky;
 }
 
 /// Surfaces of other kinds, by replay.

@@ -16,7 +16,7 @@ static const char *program = "demo", *api_name, *dump;
 static const struct demo_api *api;
 static struct demo_window window = {.pbuffer = -1};
 static int frames = -1, view_index, view_count = 1, tiled, check, timing;
-static double eye_spacing = 0.3, focal_depth = 8.0;
+static double eye_spacing = 0.3, focal_depth = 8.0, hud_depth;
 
 _Noreturn void demo_fail(int status, const char *format, ...)
 {
@@ -70,8 +70,11 @@ void demo_scissor_off(void)
 }
 
 /* View i of N: the camera moved by e along its x axis, sheared so that depth X keeps its place:
- * row0' = row0 + sep * row3 - sep * conv * (0,0,0,1), sep = A e / X, conv = X, A = P[0][0]. */
-void demo_projection_done(void)
+ * row0' = row0 + sep * row3 - sep * conv * (0,0,0,1), sep = A e / X, conv = X, A = P[0][0].
+ * Without the last term everything is infinitely far. */
+static double last_separation; /* of the last perspective projection, per unit of clip-space w */
+
+static void load_view(int infinitely_far)
 {
     GLfloat p[16]; /* column-major: row r, column c is p[4 * c + r] */
     GLint mode;
@@ -89,7 +92,8 @@ void demo_projection_done(void)
         double x = p[0] - along * p[3], y = p[4] - along * p[7], z = p[8] - along * p[11];
         a = sqrt(x * x + y * y + z * z);
     }
-    double sep = a / sqrt(w2) * e / focal_depth, conv = focal_depth * sqrt(w2);
+    double sep = a / sqrt(w2) * e / focal_depth, conv = infinitely_far ? 0.0 : focal_depth * sqrt(w2);
+    last_separation = sep;
     for (int c = 0; c < 4; c++)
         p[4 * c] = (GLfloat)(p[4 * c] + sep * p[4 * c + 3] - (c == 3 ? sep * conv : 0.0));
     glGetIntegerv(GL_MATRIX_MODE, &mode);
@@ -98,7 +102,25 @@ void demo_projection_done(void)
     glMatrixMode((GLenum)mode);
 }
 
-void demo_perspective(double fovy, double aspect, double z_near, double z_far)
+void demo_projection_done(void) { load_view(0); }
+
+void demo_flat_done(void)
+{
+    GLfloat p[16];
+    GLint mode;
+    double sep = hud_depth * last_separation;
+    if (sep == 0.0)
+        return;
+    glGetFloatv(GL_PROJECTION_MATRIX, p);
+    for (int c = 0; c < 4; c++)
+        p[4 * c] = (GLfloat)(p[4 * c] + sep * p[4 * c + 3]);
+    glGetIntegerv(GL_MATRIX_MODE, &mode);
+    glMatrixMode(GL_PROJECTION);
+    glLoadMatrixf(p);
+    glMatrixMode((GLenum)mode);
+}
+
+static void perspective(double fovy, double aspect, double z_near, double z_far, int infinitely_far)
 {
     double h = z_near * tan(fovy * M_PI / 360.0), w = h * aspect;
     GLint mode;
@@ -106,9 +128,13 @@ void demo_perspective(double fovy, double aspect, double z_near, double z_far)
     glMatrixMode(GL_PROJECTION);
     glLoadIdentity();
     glFrustum(-w, w, -h, h, z_near, z_far);
-    demo_projection_done();
+    load_view(infinitely_far);
     glMatrixMode((GLenum)mode);
 }
+
+void demo_perspective(double fovy, double aspect, double z_near, double z_far) { perspective(fovy, aspect, z_near, z_far, 0); }
+
+void demo_perspective_sky(double fovy, double aspect, double z_near, double z_far) { perspective(fovy, aspect, z_near, z_far, 1); }
 
 /* ---- options ---- */
 
@@ -122,6 +148,7 @@ static void usage(void)
            "  --view i/N             draw view i of N, 0 the leftmost\n"
            "  --eye-spacing K        distance of neighbouring cameras (default 0.3)\n"
            "  --focal-depth X        depth that keeps its place in all views (default 8)\n"
+           "  --hud-depth D          flat displays: 0 on the screen (default), 1 infinitely far, below 0 nearer\n"
            "  --canvas WxH           size of the window (default: that of the picture)\n"
            "  --offset X,Y           lower left corner of the picture in the window (default 0,0)\n"
            "  --dump FILE.png        write the last frame; with %%d in the name, every frame\n"
@@ -187,7 +214,7 @@ static void parse(int argc, char **argv)
         if (!strcmp(o, "--time")) { timing = 1; continue; }
         if (!strcmp(o, "--help")) { help = 1; continue; }
         static const char *valued[] = {"--api", "--surface", "--frames", "--size", "--view", "--eye-spacing",
-            "--focal-depth", "--canvas", "--offset", "--dump", "--samples", NULL};
+            "--focal-depth", "--hud-depth", "--canvas", "--offset", "--dump", "--samples", NULL};
         int known = 0;
         for (const char **k = valued; *k; k++)
             known |= !strcmp(o, *k);
@@ -212,6 +239,8 @@ static void parse(int argc, char **argv)
             eye_spacing = number(o, v);
         } else if (!strcmp(o, "--focal-depth")) {
             focal_depth = number(o, v);
+        } else if (!strcmp(o, "--hud-depth")) {
+            hud_depth = number(o, v);
         } else if (!strcmp(o, "--canvas")) {
             pair(o, v, 'x', &window.width, &window.height);
             canvas = 1;

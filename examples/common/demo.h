@@ -40,6 +40,10 @@ void demo_scissor_off(void);
 void demo_projection_done(void);
 /* Loads a perspective projection and calls demo_projection_done(). fovy in degrees. */
 void demo_perspective(double fovy, double aspect, double z_near, double z_far);
+/* The same for what is infinitely far in every view. */
+void demo_perspective_sky(double fovy, double aspect, double z_near, double z_far);
+/* To be called after an orthographic GL_PROJECTION matrix of a flat display: --hud-depth moves it as a whole. */
+void demo_flat_done(void);
 
 typedef void (*demo_function)(void);
 demo_function demo_proc(const char *name); /* glXGetProcAddressARB and its kin; fails if null */

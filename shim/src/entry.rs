@@ -7,7 +7,7 @@ use manyview_core::gl::{Ptr, slot};
 use manyview_core::state::Effect;
 
 /// Where each exported function jumps to, by slot: at first its resolver, then the driver's function or the hook.
-pub(crate) static ENTRY: [AtomicPtr<()>; 1155] = [
+pub(crate) static ENTRY: [AtomicPtr<()>; 1158] = [
     AtomicPtr::new(first_glVertex2d as *mut ()),
     AtomicPtr::new(first_glVertex2dv as *mut ()),
     AtomicPtr::new(first_glVertex2f as *mut ()),
@@ -538,6 +538,12 @@ pub(crate) static ENTRY: [AtomicPtr<()>; 1155] = [
     AtomicPtr::new(first_glDisableiEXT as *mut ()),
     AtomicPtr::new(first_glDisableiNV as *mut ()),
     AtomicPtr::new(first_glDisableiOES as *mut ()),
+    AtomicPtr::new(first_glDepthMask as *mut ()),
+    AtomicPtr::new(first_glActiveTexture as *mut ()),
+    AtomicPtr::new(first_glActiveTextureARB as *mut ()),
+    AtomicPtr::new(first_glBindTextures as *mut ()),
+    AtomicPtr::new(first_glBindTextureUnit as *mut ()),
+    AtomicPtr::new(first_glBindMultiTextureEXT as *mut ()),
     AtomicPtr::new(first_glLightf as *mut ()),
     AtomicPtr::new(first_glLightfv as *mut ()),
     AtomicPtr::new(first_glLighti as *mut ()),
@@ -718,7 +724,6 @@ pub(crate) static ENTRY: [AtomicPtr<()>; 1155] = [
     AtomicPtr::new(first_glColorMaskiOES as *mut ()),
     AtomicPtr::new(first_glCullFace as *mut ()),
     AtomicPtr::new(first_glDepthFunc as *mut ()),
-    AtomicPtr::new(first_glDepthMask as *mut ()),
     AtomicPtr::new(first_glDepthRange as *mut ()),
     AtomicPtr::new(first_glDepthRangef as *mut ()),
     AtomicPtr::new(first_glDepthRangefOES as *mut ()),
@@ -800,8 +805,6 @@ pub(crate) static ENTRY: [AtomicPtr<()>; 1155] = [
     AtomicPtr::new(first_glTexParameterIuiv as *mut ()),
     AtomicPtr::new(first_glTexParameterIuivEXT as *mut ()),
     AtomicPtr::new(first_glTexParameterIuivOES as *mut ()),
-    AtomicPtr::new(first_glActiveTexture as *mut ()),
-    AtomicPtr::new(first_glActiveTextureARB as *mut ()),
     AtomicPtr::new(first_glProgramEnvParameter4dARB as *mut ()),
     AtomicPtr::new(first_glProgramEnvParameter4dvARB as *mut ()),
     AtomicPtr::new(first_glProgramEnvParameter4fARB as *mut ()),
@@ -1166,7 +1169,7 @@ pub(crate) static ENTRY: [AtomicPtr<()>; 1155] = [
 ];
 
 /// The hook of each exported function, by slot.
-pub(crate) static HOOK: [Option<crate::Address>; 1155] = [
+pub(crate) static HOOK: [Option<crate::Address>; 1158] = [
     Some(crate::Address(hook_glVertex2d as *const ())),
     Some(crate::Address(hook_glVertex2dv as *const ())),
     Some(crate::Address(hook_glVertex2f as *const ())),
@@ -1697,6 +1700,12 @@ pub(crate) static HOOK: [Option<crate::Address>; 1155] = [
     Some(crate::Address(hook_glDisableiEXT as *const ())),
     Some(crate::Address(hook_glDisableiNV as *const ())),
     Some(crate::Address(hook_glDisableiOES as *const ())),
+    Some(crate::Address(hook_glDepthMask as *const ())),
+    Some(crate::Address(hook_glActiveTexture as *const ())),
+    Some(crate::Address(hook_glActiveTextureARB as *const ())),
+    Some(crate::Address(hook_glBindTextures as *const ())),
+    Some(crate::Address(hook_glBindTextureUnit as *const ())),
+    Some(crate::Address(hook_glBindMultiTextureEXT as *const ())),
     Some(crate::Address(hook_glLightf as *const ())),
     Some(crate::Address(hook_glLightfv as *const ())),
     Some(crate::Address(hook_glLighti as *const ())),
@@ -1877,7 +1886,6 @@ pub(crate) static HOOK: [Option<crate::Address>; 1155] = [
     Some(crate::Address(hook_glColorMaskiOES as *const ())),
     Some(crate::Address(hook_glCullFace as *const ())),
     Some(crate::Address(hook_glDepthFunc as *const ())),
-    Some(crate::Address(hook_glDepthMask as *const ())),
     Some(crate::Address(hook_glDepthRange as *const ())),
     Some(crate::Address(hook_glDepthRangef as *const ())),
     Some(crate::Address(hook_glDepthRangefOES as *const ())),
@@ -1959,8 +1967,6 @@ pub(crate) static HOOK: [Option<crate::Address>; 1155] = [
     Some(crate::Address(hook_glTexParameterIuiv as *const ())),
     Some(crate::Address(hook_glTexParameterIuivEXT as *const ())),
     Some(crate::Address(hook_glTexParameterIuivOES as *const ())),
-    Some(crate::Address(hook_glActiveTexture as *const ())),
-    Some(crate::Address(hook_glActiveTextureARB as *const ())),
     Some(crate::Address(hook_glProgramEnvParameter4dARB as *const ())),
     Some(crate::Address(hook_glProgramEnvParameter4dvARB as *const ())),
     Some(crate::Address(hook_glProgramEnvParameter4fARB as *const ())),
@@ -2325,100 +2331,103 @@ pub(crate) static HOOK: [Option<crate::Address>; 1155] = [
 ];
 
 /// Exported names in order, their slots and addresses: what dlsym and the GetProcAddress family hand out.
-pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1097] = [
-    (b"OSMesaCreateContext", 1097, crate::Address(OSMesaCreateContext as *const ())),
-    (b"OSMesaCreateContextAttribs", 1099, crate::Address(OSMesaCreateContextAttribs as *const ())),
-    (b"OSMesaCreateContextExt", 1098, crate::Address(OSMesaCreateContextExt as *const ())),
-    (b"OSMesaDestroyContext", 1100, crate::Address(OSMesaDestroyContext as *const ())),
-    (b"OSMesaGetProcAddress", 1101, crate::Address(OSMesaGetProcAddress as *const ())),
-    (b"OSMesaMakeCurrent", 1096, crate::Address(OSMesaMakeCurrent as *const ())),
-    (b"eglCreateContext", 1088, crate::Address(eglCreateContext as *const ())),
-    (b"eglDestroyContext", 1089, crate::Address(eglDestroyContext as *const ())),
-    (b"eglGetProcAddress", 1091, crate::Address(eglGetProcAddress as *const ())),
-    (b"eglMakeCurrent", 1087, crate::Address(eglMakeCurrent as *const ())),
-    (b"eglReleaseThread", 1090, crate::Address(eglReleaseThread as *const ())),
-    (b"eglSwapBuffers", 1084, crate::Address(eglSwapBuffers as *const ())),
-    (b"eglSwapBuffersWithDamageEXT", 1086, crate::Address(eglSwapBuffersWithDamageEXT as *const ())),
-    (b"eglSwapBuffersWithDamageKHR", 1085, crate::Address(eglSwapBuffersWithDamageKHR as *const ())),
-    (b"glAccum", 953, crate::Address(glAccum as *const ())),
-    (b"glActiveTexture", 792, crate::Address(glActiveTexture as *const ())),
-    (b"glActiveTextureARB", 793, crate::Address(glActiveTextureARB as *const ())),
-    (b"glAlphaFunc", 664, crate::Address(glAlphaFunc as *const ())),
+pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1100] = [
+    (b"OSMesaCreateContext", 1100, crate::Address(OSMesaCreateContext as *const ())),
+    (b"OSMesaCreateContextAttribs", 1102, crate::Address(OSMesaCreateContextAttribs as *const ())),
+    (b"OSMesaCreateContextExt", 1101, crate::Address(OSMesaCreateContextExt as *const ())),
+    (b"OSMesaDestroyContext", 1103, crate::Address(OSMesaDestroyContext as *const ())),
+    (b"OSMesaGetProcAddress", 1104, crate::Address(OSMesaGetProcAddress as *const ())),
+    (b"OSMesaMakeCurrent", 1099, crate::Address(OSMesaMakeCurrent as *const ())),
+    (b"eglCreateContext", 1091, crate::Address(eglCreateContext as *const ())),
+    (b"eglDestroyContext", 1092, crate::Address(eglDestroyContext as *const ())),
+    (b"eglGetProcAddress", 1094, crate::Address(eglGetProcAddress as *const ())),
+    (b"eglMakeCurrent", 1090, crate::Address(eglMakeCurrent as *const ())),
+    (b"eglReleaseThread", 1093, crate::Address(eglReleaseThread as *const ())),
+    (b"eglSwapBuffers", 1087, crate::Address(eglSwapBuffers as *const ())),
+    (b"eglSwapBuffersWithDamageEXT", 1089, crate::Address(eglSwapBuffersWithDamageEXT as *const ())),
+    (b"eglSwapBuffersWithDamageKHR", 1088, crate::Address(eglSwapBuffersWithDamageKHR as *const ())),
+    (b"glAccum", 956, crate::Address(glAccum as *const ())),
+    (b"glActiveTexture", 531, crate::Address(glActiveTexture as *const ())),
+    (b"glActiveTextureARB", 532, crate::Address(glActiveTextureARB as *const ())),
+    (b"glAlphaFunc", 670, crate::Address(glAlphaFunc as *const ())),
     (b"glArrayElement", 260, crate::Address(glArrayElement as *const ())),
     (b"glArrayElementEXT", 261, crate::Address(glArrayElementEXT as *const ())),
     (b"glBegin", 454, crate::Address(glBegin as *const ())),
-    (b"glBeginQuery", 1054, crate::Address(glBeginQuery as *const ())),
-    (b"glBeginQueryARB", 1055, crate::Address(glBeginQueryARB as *const ())),
-    (b"glBeginTransformFeedback", 658, crate::Address(glBeginTransformFeedback as *const ())),
-    (b"glBeginTransformFeedbackEXT", 659, crate::Address(glBeginTransformFeedbackEXT as *const ())),
-    (b"glBeginTransformFeedbackNV", 660, crate::Address(glBeginTransformFeedbackNV as *const ())),
-    (b"glBindFramebuffer", 968, crate::Address(glBindFramebuffer as *const ())),
-    (b"glBindFramebufferEXT", 969, crate::Address(glBindFramebufferEXT as *const ())),
-    (b"glBindProgramARB", 575, crate::Address(glBindProgramARB as *const ())),
-    (b"glBindProgramNV", 576, crate::Address(glBindProgramNV as *const ())),
-    (b"glBindProgramPipeline", 582, crate::Address(glBindProgramPipeline as *const ())),
-    (b"glBindTexture", 962, crate::Address(glBindTexture as *const ())),
-    (b"glBindTextureEXT", 963, crate::Address(glBindTextureEXT as *const ())),
-    (b"glBitmap", 954, crate::Address(glBitmap as *const ())),
-    (b"glBlendColor", 693, crate::Address(glBlendColor as *const ())),
-    (b"glBlendColorEXT", 694, crate::Address(glBlendColorEXT as *const ())),
-    (b"glBlendEquation", 679, crate::Address(glBlendEquation as *const ())),
-    (b"glBlendEquationEXT", 680, crate::Address(glBlendEquationEXT as *const ())),
-    (b"glBlendEquationIndexedAMD", 689, crate::Address(glBlendEquationIndexedAMD as *const ())),
-    (b"glBlendEquationSeparate", 681, crate::Address(glBlendEquationSeparate as *const ())),
-    (b"glBlendEquationSeparateEXT", 682, crate::Address(glBlendEquationSeparateEXT as *const ())),
-    (b"glBlendEquationSeparateIndexedAMD", 684, crate::Address(glBlendEquationSeparateIndexedAMD as *const ())),
-    (b"glBlendEquationSeparatei", 683, crate::Address(glBlendEquationSeparatei as *const ())),
-    (b"glBlendEquationSeparateiARB", 685, crate::Address(glBlendEquationSeparateiARB as *const ())),
-    (b"glBlendEquationSeparateiEXT", 686, crate::Address(glBlendEquationSeparateiEXT as *const ())),
-    (b"glBlendEquationSeparateiOES", 687, crate::Address(glBlendEquationSeparateiOES as *const ())),
-    (b"glBlendEquationi", 688, crate::Address(glBlendEquationi as *const ())),
-    (b"glBlendEquationiARB", 690, crate::Address(glBlendEquationiARB as *const ())),
-    (b"glBlendEquationiEXT", 691, crate::Address(glBlendEquationiEXT as *const ())),
-    (b"glBlendEquationiOES", 692, crate::Address(glBlendEquationiOES as *const ())),
-    (b"glBlendFunc", 665, crate::Address(glBlendFunc as *const ())),
-    (b"glBlendFuncIndexedAMD", 675, crate::Address(glBlendFuncIndexedAMD as *const ())),
-    (b"glBlendFuncSeparate", 666, crate::Address(glBlendFuncSeparate as *const ())),
-    (b"glBlendFuncSeparateEXT", 667, crate::Address(glBlendFuncSeparateEXT as *const ())),
-    (b"glBlendFuncSeparateINGR", 668, crate::Address(glBlendFuncSeparateINGR as *const ())),
-    (b"glBlendFuncSeparateIndexedAMD", 670, crate::Address(glBlendFuncSeparateIndexedAMD as *const ())),
-    (b"glBlendFuncSeparatei", 669, crate::Address(glBlendFuncSeparatei as *const ())),
-    (b"glBlendFuncSeparateiARB", 671, crate::Address(glBlendFuncSeparateiARB as *const ())),
-    (b"glBlendFuncSeparateiEXT", 672, crate::Address(glBlendFuncSeparateiEXT as *const ())),
-    (b"glBlendFuncSeparateiOES", 673, crate::Address(glBlendFuncSeparateiOES as *const ())),
-    (b"glBlendFunci", 674, crate::Address(glBlendFunci as *const ())),
-    (b"glBlendFunciARB", 676, crate::Address(glBlendFunciARB as *const ())),
-    (b"glBlendFunciEXT", 677, crate::Address(glBlendFunciEXT as *const ())),
-    (b"glBlendFunciOES", 678, crate::Address(glBlendFunciOES as *const ())),
-    (b"glBlitFramebuffer", 984, crate::Address(glBlitFramebuffer as *const ())),
-    (b"glBlitFramebufferEXT", 985, crate::Address(glBlitFramebufferEXT as *const ())),
-    (b"glBlitFramebufferNV", 986, crate::Address(glBlitFramebufferNV as *const ())),
-    (b"glBlitNamedFramebuffer", 987, crate::Address(glBlitNamedFramebuffer as *const ())),
-    (b"glCallList", 959, crate::Address(glCallList as *const ())),
-    (b"glCallLists", 960, crate::Address(glCallLists as *const ())),
-    (b"glCheckFramebufferStatus", 1016, crate::Address(glCheckFramebufferStatus as *const ())),
-    (b"glCheckFramebufferStatusEXT", 1017, crate::Address(glCheckFramebufferStatusEXT as *const ())),
-    (b"glClampColor", 578, crate::Address(glClampColor as *const ())),
-    (b"glClampColorARB", 579, crate::Address(glClampColorARB as *const ())),
-    (b"glClear", 887, crate::Address(glClear as *const ())),
-    (b"glClearAccum", 695, crate::Address(glClearAccum as *const ())),
-    (b"glClearBufferfi", 888, crate::Address(glClearBufferfi as *const ())),
-    (b"glClearBufferfv", 889, crate::Address(glClearBufferfv as *const ())),
-    (b"glClearBufferiv", 890, crate::Address(glClearBufferiv as *const ())),
-    (b"glClearBufferuiv", 891, crate::Address(glClearBufferuiv as *const ())),
-    (b"glClearColor", 696, crate::Address(glClearColor as *const ())),
-    (b"glClearDepth", 697, crate::Address(glClearDepth as *const ())),
-    (b"glClearDepthf", 698, crate::Address(glClearDepthf as *const ())),
-    (b"glClearDepthfOES", 699, crate::Address(glClearDepthfOES as *const ())),
-    (b"glClearIndex", 700, crate::Address(glClearIndex as *const ())),
-    (b"glClearNamedFramebufferfi", 991, crate::Address(glClearNamedFramebufferfi as *const ())),
-    (b"glClearNamedFramebufferfv", 988, crate::Address(glClearNamedFramebufferfv as *const ())),
-    (b"glClearNamedFramebufferiv", 989, crate::Address(glClearNamedFramebufferiv as *const ())),
-    (b"glClearNamedFramebufferuiv", 990, crate::Address(glClearNamedFramebufferuiv as *const ())),
-    (b"glClearStencil", 701, crate::Address(glClearStencil as *const ())),
-    (b"glClipControl", 573, crate::Address(glClipControl as *const ())),
-    (b"glClipControlEXT", 574, crate::Address(glClipControlEXT as *const ())),
-    (b"glClipPlane", 702, crate::Address(glClipPlane as *const ())),
+    (b"glBeginQuery", 1057, crate::Address(glBeginQuery as *const ())),
+    (b"glBeginQueryARB", 1058, crate::Address(glBeginQueryARB as *const ())),
+    (b"glBeginTransformFeedback", 664, crate::Address(glBeginTransformFeedback as *const ())),
+    (b"glBeginTransformFeedbackEXT", 665, crate::Address(glBeginTransformFeedbackEXT as *const ())),
+    (b"glBeginTransformFeedbackNV", 666, crate::Address(glBeginTransformFeedbackNV as *const ())),
+    (b"glBindFramebuffer", 971, crate::Address(glBindFramebuffer as *const ())),
+    (b"glBindFramebufferEXT", 972, crate::Address(glBindFramebufferEXT as *const ())),
+    (b"glBindMultiTextureEXT", 535, crate::Address(glBindMultiTextureEXT as *const ())),
+    (b"glBindProgramARB", 581, crate::Address(glBindProgramARB as *const ())),
+    (b"glBindProgramNV", 582, crate::Address(glBindProgramNV as *const ())),
+    (b"glBindProgramPipeline", 588, crate::Address(glBindProgramPipeline as *const ())),
+    (b"glBindTexture", 965, crate::Address(glBindTexture as *const ())),
+    (b"glBindTextureEXT", 966, crate::Address(glBindTextureEXT as *const ())),
+    (b"glBindTextureUnit", 534, crate::Address(glBindTextureUnit as *const ())),
+    (b"glBindTextures", 533, crate::Address(glBindTextures as *const ())),
+    (b"glBitmap", 957, crate::Address(glBitmap as *const ())),
+    (b"glBlendColor", 699, crate::Address(glBlendColor as *const ())),
+    (b"glBlendColorEXT", 700, crate::Address(glBlendColorEXT as *const ())),
+    (b"glBlendEquation", 685, crate::Address(glBlendEquation as *const ())),
+    (b"glBlendEquationEXT", 686, crate::Address(glBlendEquationEXT as *const ())),
+    (b"glBlendEquationIndexedAMD", 695, crate::Address(glBlendEquationIndexedAMD as *const ())),
+    (b"glBlendEquationSeparate", 687, crate::Address(glBlendEquationSeparate as *const ())),
+    (b"glBlendEquationSeparateEXT", 688, crate::Address(glBlendEquationSeparateEXT as *const ())),
+    (b"glBlendEquationSeparateIndexedAMD", 690, crate::Address(glBlendEquationSeparateIndexedAMD as *const ())),
+    (b"glBlendEquationSeparatei", 689, crate::Address(glBlendEquationSeparatei as *const ())),
+    (b"glBlendEquationSeparateiARB", 691, crate::Address(glBlendEquationSeparateiARB as *const ())),
+    (b"glBlendEquationSeparateiEXT", 692, crate::Address(glBlendEquationSeparateiEXT as *const ())),
+    (b"glBlendEquationSeparateiOES", 693, crate::Address(glBlendEquationSeparateiOES as *const ())),
+    (b"glBlendEquationi", 694, crate::Address(glBlendEquationi as *const ())),
+    (b"glBlendEquationiARB", 696, crate::Address(glBlendEquationiARB as *const ())),
+    (b"glBlendEquationiEXT", 697, crate::Address(glBlendEquationiEXT as *const ())),
+    (b"glBlendEquationiOES", 698, crate::Address(glBlendEquationiOES as *const ())),
+    (b"glBlendFunc", 671, crate::Address(glBlendFunc as *const ())),
+    (b"glBlendFuncIndexedAMD", 681, crate::Address(glBlendFuncIndexedAMD as *const ())),
+    (b"glBlendFuncSeparate", 672, crate::Address(glBlendFuncSeparate as *const ())),
+    (b"glBlendFuncSeparateEXT", 673, crate::Address(glBlendFuncSeparateEXT as *const ())),
+    (b"glBlendFuncSeparateINGR", 674, crate::Address(glBlendFuncSeparateINGR as *const ())),
+    (b"glBlendFuncSeparateIndexedAMD", 676, crate::Address(glBlendFuncSeparateIndexedAMD as *const ())),
+    (b"glBlendFuncSeparatei", 675, crate::Address(glBlendFuncSeparatei as *const ())),
+    (b"glBlendFuncSeparateiARB", 677, crate::Address(glBlendFuncSeparateiARB as *const ())),
+    (b"glBlendFuncSeparateiEXT", 678, crate::Address(glBlendFuncSeparateiEXT as *const ())),
+    (b"glBlendFuncSeparateiOES", 679, crate::Address(glBlendFuncSeparateiOES as *const ())),
+    (b"glBlendFunci", 680, crate::Address(glBlendFunci as *const ())),
+    (b"glBlendFunciARB", 682, crate::Address(glBlendFunciARB as *const ())),
+    (b"glBlendFunciEXT", 683, crate::Address(glBlendFunciEXT as *const ())),
+    (b"glBlendFunciOES", 684, crate::Address(glBlendFunciOES as *const ())),
+    (b"glBlitFramebuffer", 987, crate::Address(glBlitFramebuffer as *const ())),
+    (b"glBlitFramebufferEXT", 988, crate::Address(glBlitFramebufferEXT as *const ())),
+    (b"glBlitFramebufferNV", 989, crate::Address(glBlitFramebufferNV as *const ())),
+    (b"glBlitNamedFramebuffer", 990, crate::Address(glBlitNamedFramebuffer as *const ())),
+    (b"glCallList", 962, crate::Address(glCallList as *const ())),
+    (b"glCallLists", 963, crate::Address(glCallLists as *const ())),
+    (b"glCheckFramebufferStatus", 1019, crate::Address(glCheckFramebufferStatus as *const ())),
+    (b"glCheckFramebufferStatusEXT", 1020, crate::Address(glCheckFramebufferStatusEXT as *const ())),
+    (b"glClampColor", 584, crate::Address(glClampColor as *const ())),
+    (b"glClampColorARB", 585, crate::Address(glClampColorARB as *const ())),
+    (b"glClear", 890, crate::Address(glClear as *const ())),
+    (b"glClearAccum", 701, crate::Address(glClearAccum as *const ())),
+    (b"glClearBufferfi", 891, crate::Address(glClearBufferfi as *const ())),
+    (b"glClearBufferfv", 892, crate::Address(glClearBufferfv as *const ())),
+    (b"glClearBufferiv", 893, crate::Address(glClearBufferiv as *const ())),
+    (b"glClearBufferuiv", 894, crate::Address(glClearBufferuiv as *const ())),
+    (b"glClearColor", 702, crate::Address(glClearColor as *const ())),
+    (b"glClearDepth", 703, crate::Address(glClearDepth as *const ())),
+    (b"glClearDepthf", 704, crate::Address(glClearDepthf as *const ())),
+    (b"glClearDepthfOES", 705, crate::Address(glClearDepthfOES as *const ())),
+    (b"glClearIndex", 706, crate::Address(glClearIndex as *const ())),
+    (b"glClearNamedFramebufferfi", 994, crate::Address(glClearNamedFramebufferfi as *const ())),
+    (b"glClearNamedFramebufferfv", 991, crate::Address(glClearNamedFramebufferfv as *const ())),
+    (b"glClearNamedFramebufferiv", 992, crate::Address(glClearNamedFramebufferiv as *const ())),
+    (b"glClearNamedFramebufferuiv", 993, crate::Address(glClearNamedFramebufferuiv as *const ())),
+    (b"glClearStencil", 707, crate::Address(glClearStencil as *const ())),
+    (b"glClipControl", 579, crate::Address(glClipControl as *const ())),
+    (b"glClipControlEXT", 580, crate::Address(glClipControlEXT as *const ())),
+    (b"glClipPlane", 708, crate::Address(glClipPlane as *const ())),
     (b"glColor3b", 30, crate::Address(glColor3b as *const ())),
     (b"glColor3bv", 31, crate::Address(glColor3bv as *const ())),
     (b"glColor3d", 32, crate::Address(glColor3d as *const ())),
@@ -2455,119 +2464,119 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1097] = [
     (b"glColor4uiv", 59, crate::Address(glColor4uiv as *const ())),
     (b"glColor4us", 60, crate::Address(glColor4us as *const ())),
     (b"glColor4usv", 61, crate::Address(glColor4usv as *const ())),
-    (b"glColorMask", 703, crate::Address(glColorMask as *const ())),
-    (b"glColorMaskIndexedEXT", 705, crate::Address(glColorMaskIndexedEXT as *const ())),
-    (b"glColorMaski", 704, crate::Address(glColorMaski as *const ())),
-    (b"glColorMaskiEXT", 706, crate::Address(glColorMaskiEXT as *const ())),
-    (b"glColorMaskiOES", 707, crate::Address(glColorMaskiOES as *const ())),
-    (b"glColorMaterial", 538, crate::Address(glColorMaterial as *const ())),
+    (b"glColorMask", 709, crate::Address(glColorMask as *const ())),
+    (b"glColorMaskIndexedEXT", 711, crate::Address(glColorMaskIndexedEXT as *const ())),
+    (b"glColorMaski", 710, crate::Address(glColorMaski as *const ())),
+    (b"glColorMaskiEXT", 712, crate::Address(glColorMaskiEXT as *const ())),
+    (b"glColorMaskiOES", 713, crate::Address(glColorMaskiOES as *const ())),
+    (b"glColorMaterial", 544, crate::Address(glColorMaterial as *const ())),
     (b"glColorP3ui", 440, crate::Address(glColorP3ui as *const ())),
     (b"glColorP3uiv", 441, crate::Address(glColorP3uiv as *const ())),
     (b"glColorP4ui", 442, crate::Address(glColorP4ui as *const ())),
     (b"glColorP4uiv", 443, crate::Address(glColorP4uiv as *const ())),
-    (b"glCompressedTexImage1D", 770, crate::Address(glCompressedTexImage1D as *const ())),
-    (b"glCompressedTexImage1DARB", 771, crate::Address(glCompressedTexImage1DARB as *const ())),
-    (b"glCompressedTexImage2D", 772, crate::Address(glCompressedTexImage2D as *const ())),
-    (b"glCompressedTexImage2DARB", 773, crate::Address(glCompressedTexImage2DARB as *const ())),
-    (b"glCompressedTexImage3D", 774, crate::Address(glCompressedTexImage3D as *const ())),
-    (b"glCompressedTexImage3DARB", 775, crate::Address(glCompressedTexImage3DARB as *const ())),
-    (b"glCompressedTexSubImage1D", 776, crate::Address(glCompressedTexSubImage1D as *const ())),
-    (b"glCompressedTexSubImage1DARB", 777, crate::Address(glCompressedTexSubImage1DARB as *const ())),
-    (b"glCompressedTexSubImage2D", 778, crate::Address(glCompressedTexSubImage2D as *const ())),
-    (b"glCompressedTexSubImage2DARB", 779, crate::Address(glCompressedTexSubImage2DARB as *const ())),
-    (b"glCompressedTexSubImage3D", 780, crate::Address(glCompressedTexSubImage3D as *const ())),
-    (b"glCompressedTexSubImage3DARB", 781, crate::Address(glCompressedTexSubImage3DARB as *const ())),
-    (b"glCopyColorTable", 1045, crate::Address(glCopyColorTable as *const ())),
-    (b"glCopyColorTableSGI", 1046, crate::Address(glCopyColorTableSGI as *const ())),
-    (b"glCopyConvolutionFilter1D", 1047, crate::Address(glCopyConvolutionFilter1D as *const ())),
-    (b"glCopyConvolutionFilter1DEXT", 1048, crate::Address(glCopyConvolutionFilter1DEXT as *const ())),
-    (b"glCopyConvolutionFilter2D", 1049, crate::Address(glCopyConvolutionFilter2D as *const ())),
-    (b"glCopyConvolutionFilter2DEXT", 1050, crate::Address(glCopyConvolutionFilter2DEXT as *const ())),
-    (b"glCopyMultiTexImage1DEXT", 1041, crate::Address(glCopyMultiTexImage1DEXT as *const ())),
-    (b"glCopyMultiTexImage2DEXT", 1042, crate::Address(glCopyMultiTexImage2DEXT as *const ())),
-    (b"glCopyPixels", 956, crate::Address(glCopyPixels as *const ())),
-    (b"glCopyTexImage1D", 1023, crate::Address(glCopyTexImage1D as *const ())),
-    (b"glCopyTexImage1DEXT", 1024, crate::Address(glCopyTexImage1DEXT as *const ())),
-    (b"glCopyTexImage2D", 1025, crate::Address(glCopyTexImage2D as *const ())),
-    (b"glCopyTexImage2DEXT", 1026, crate::Address(glCopyTexImage2DEXT as *const ())),
-    (b"glCopyTexSubImage1D", 1027, crate::Address(glCopyTexSubImage1D as *const ())),
-    (b"glCopyTexSubImage1DEXT", 1028, crate::Address(glCopyTexSubImage1DEXT as *const ())),
-    (b"glCopyTexSubImage2D", 1029, crate::Address(glCopyTexSubImage2D as *const ())),
-    (b"glCopyTexSubImage2DEXT", 1030, crate::Address(glCopyTexSubImage2DEXT as *const ())),
-    (b"glCopyTexSubImage3D", 1036, crate::Address(glCopyTexSubImage3D as *const ())),
-    (b"glCopyTexSubImage3DEXT", 1037, crate::Address(glCopyTexSubImage3DEXT as *const ())),
-    (b"glCopyTextureImage1DEXT", 1043, crate::Address(glCopyTextureImage1DEXT as *const ())),
-    (b"glCopyTextureImage2DEXT", 1044, crate::Address(glCopyTextureImage2DEXT as *const ())),
-    (b"glCopyTextureSubImage1D", 1038, crate::Address(glCopyTextureSubImage1D as *const ())),
-    (b"glCopyTextureSubImage2D", 1039, crate::Address(glCopyTextureSubImage2D as *const ())),
-    (b"glCopyTextureSubImage3D", 1040, crate::Address(glCopyTextureSubImage3D as *const ())),
-    (b"glCullFace", 708, crate::Address(glCullFace as *const ())),
-    (b"glDeleteFramebuffers", 970, crate::Address(glDeleteFramebuffers as *const ())),
-    (b"glDeleteFramebuffersEXT", 971, crate::Address(glDeleteFramebuffersEXT as *const ())),
-    (b"glDeleteLists", 961, crate::Address(glDeleteLists as *const ())),
-    (b"glDeleteQueries", 1058, crate::Address(glDeleteQueries as *const ())),
-    (b"glDeleteQueriesARB", 1059, crate::Address(glDeleteQueriesARB as *const ())),
-    (b"glDeleteTextures", 964, crate::Address(glDeleteTextures as *const ())),
-    (b"glDepthBoundsEXT", 716, crate::Address(glDepthBoundsEXT as *const ())),
-    (b"glDepthFunc", 709, crate::Address(glDepthFunc as *const ())),
-    (b"glDepthMask", 710, crate::Address(glDepthMask as *const ())),
-    (b"glDepthRange", 711, crate::Address(glDepthRange as *const ())),
-    (b"glDepthRangeArrayv", 715, crate::Address(glDepthRangeArrayv as *const ())),
-    (b"glDepthRangeIndexed", 714, crate::Address(glDepthRangeIndexed as *const ())),
-    (b"glDepthRangef", 712, crate::Address(glDepthRangef as *const ())),
-    (b"glDepthRangefOES", 713, crate::Address(glDepthRangefOES as *const ())),
+    (b"glCompressedTexImage1D", 775, crate::Address(glCompressedTexImage1D as *const ())),
+    (b"glCompressedTexImage1DARB", 776, crate::Address(glCompressedTexImage1DARB as *const ())),
+    (b"glCompressedTexImage2D", 777, crate::Address(glCompressedTexImage2D as *const ())),
+    (b"glCompressedTexImage2DARB", 778, crate::Address(glCompressedTexImage2DARB as *const ())),
+    (b"glCompressedTexImage3D", 779, crate::Address(glCompressedTexImage3D as *const ())),
+    (b"glCompressedTexImage3DARB", 780, crate::Address(glCompressedTexImage3DARB as *const ())),
+    (b"glCompressedTexSubImage1D", 781, crate::Address(glCompressedTexSubImage1D as *const ())),
+    (b"glCompressedTexSubImage1DARB", 782, crate::Address(glCompressedTexSubImage1DARB as *const ())),
+    (b"glCompressedTexSubImage2D", 783, crate::Address(glCompressedTexSubImage2D as *const ())),
+    (b"glCompressedTexSubImage2DARB", 784, crate::Address(glCompressedTexSubImage2DARB as *const ())),
+    (b"glCompressedTexSubImage3D", 785, crate::Address(glCompressedTexSubImage3D as *const ())),
+    (b"glCompressedTexSubImage3DARB", 786, crate::Address(glCompressedTexSubImage3DARB as *const ())),
+    (b"glCopyColorTable", 1048, crate::Address(glCopyColorTable as *const ())),
+    (b"glCopyColorTableSGI", 1049, crate::Address(glCopyColorTableSGI as *const ())),
+    (b"glCopyConvolutionFilter1D", 1050, crate::Address(glCopyConvolutionFilter1D as *const ())),
+    (b"glCopyConvolutionFilter1DEXT", 1051, crate::Address(glCopyConvolutionFilter1DEXT as *const ())),
+    (b"glCopyConvolutionFilter2D", 1052, crate::Address(glCopyConvolutionFilter2D as *const ())),
+    (b"glCopyConvolutionFilter2DEXT", 1053, crate::Address(glCopyConvolutionFilter2DEXT as *const ())),
+    (b"glCopyMultiTexImage1DEXT", 1044, crate::Address(glCopyMultiTexImage1DEXT as *const ())),
+    (b"glCopyMultiTexImage2DEXT", 1045, crate::Address(glCopyMultiTexImage2DEXT as *const ())),
+    (b"glCopyPixels", 959, crate::Address(glCopyPixels as *const ())),
+    (b"glCopyTexImage1D", 1026, crate::Address(glCopyTexImage1D as *const ())),
+    (b"glCopyTexImage1DEXT", 1027, crate::Address(glCopyTexImage1DEXT as *const ())),
+    (b"glCopyTexImage2D", 1028, crate::Address(glCopyTexImage2D as *const ())),
+    (b"glCopyTexImage2DEXT", 1029, crate::Address(glCopyTexImage2DEXT as *const ())),
+    (b"glCopyTexSubImage1D", 1030, crate::Address(glCopyTexSubImage1D as *const ())),
+    (b"glCopyTexSubImage1DEXT", 1031, crate::Address(glCopyTexSubImage1DEXT as *const ())),
+    (b"glCopyTexSubImage2D", 1032, crate::Address(glCopyTexSubImage2D as *const ())),
+    (b"glCopyTexSubImage2DEXT", 1033, crate::Address(glCopyTexSubImage2DEXT as *const ())),
+    (b"glCopyTexSubImage3D", 1039, crate::Address(glCopyTexSubImage3D as *const ())),
+    (b"glCopyTexSubImage3DEXT", 1040, crate::Address(glCopyTexSubImage3DEXT as *const ())),
+    (b"glCopyTextureImage1DEXT", 1046, crate::Address(glCopyTextureImage1DEXT as *const ())),
+    (b"glCopyTextureImage2DEXT", 1047, crate::Address(glCopyTextureImage2DEXT as *const ())),
+    (b"glCopyTextureSubImage1D", 1041, crate::Address(glCopyTextureSubImage1D as *const ())),
+    (b"glCopyTextureSubImage2D", 1042, crate::Address(glCopyTextureSubImage2D as *const ())),
+    (b"glCopyTextureSubImage3D", 1043, crate::Address(glCopyTextureSubImage3D as *const ())),
+    (b"glCullFace", 714, crate::Address(glCullFace as *const ())),
+    (b"glDeleteFramebuffers", 973, crate::Address(glDeleteFramebuffers as *const ())),
+    (b"glDeleteFramebuffersEXT", 974, crate::Address(glDeleteFramebuffersEXT as *const ())),
+    (b"glDeleteLists", 964, crate::Address(glDeleteLists as *const ())),
+    (b"glDeleteQueries", 1061, crate::Address(glDeleteQueries as *const ())),
+    (b"glDeleteQueriesARB", 1062, crate::Address(glDeleteQueriesARB as *const ())),
+    (b"glDeleteTextures", 967, crate::Address(glDeleteTextures as *const ())),
+    (b"glDepthBoundsEXT", 721, crate::Address(glDepthBoundsEXT as *const ())),
+    (b"glDepthFunc", 715, crate::Address(glDepthFunc as *const ())),
+    (b"glDepthMask", 530, crate::Address(glDepthMask as *const ())),
+    (b"glDepthRange", 716, crate::Address(glDepthRange as *const ())),
+    (b"glDepthRangeArrayv", 720, crate::Address(glDepthRangeArrayv as *const ())),
+    (b"glDepthRangeIndexed", 719, crate::Address(glDepthRangeIndexed as *const ())),
+    (b"glDepthRangef", 717, crate::Address(glDepthRangef as *const ())),
+    (b"glDepthRangefOES", 718, crate::Address(glDepthRangefOES as *const ())),
     (b"glDisable", 519, crate::Address(glDisable as *const ())),
     (b"glDisableIndexedEXT", 526, crate::Address(glDisableIndexedEXT as *const ())),
     (b"glDisablei", 525, crate::Address(glDisablei as *const ())),
     (b"glDisableiEXT", 527, crate::Address(glDisableiEXT as *const ())),
     (b"glDisableiNV", 528, crate::Address(glDisableiNV as *const ())),
     (b"glDisableiOES", 529, crate::Address(glDisableiOES as *const ())),
-    (b"glDiscardFramebufferEXT", 1022, crate::Address(glDiscardFramebufferEXT as *const ())),
-    (b"glDrawArrays", 892, crate::Address(glDrawArrays as *const ())),
-    (b"glDrawArraysEXT", 893, crate::Address(glDrawArraysEXT as *const ())),
-    (b"glDrawArraysIndirect", 928, crate::Address(glDrawArraysIndirect as *const ())),
-    (b"glDrawArraysInstanced", 909, crate::Address(glDrawArraysInstanced as *const ())),
-    (b"glDrawArraysInstancedANGLE", 910, crate::Address(glDrawArraysInstancedANGLE as *const ())),
-    (b"glDrawArraysInstancedARB", 911, crate::Address(glDrawArraysInstancedARB as *const ())),
-    (b"glDrawArraysInstancedBaseInstance", 922, crate::Address(glDrawArraysInstancedBaseInstance as *const ())),
-    (b"glDrawArraysInstancedBaseInstanceEXT", 923, crate::Address(glDrawArraysInstancedBaseInstanceEXT as *const ())),
-    (b"glDrawArraysInstancedEXT", 912, crate::Address(glDrawArraysInstancedEXT as *const ())),
-    (b"glDrawArraysInstancedNV", 913, crate::Address(glDrawArraysInstancedNV as *const ())),
-    (b"glDrawBuffer", 972, crate::Address(glDrawBuffer as *const ())),
-    (b"glDrawBuffers", 973, crate::Address(glDrawBuffers as *const ())),
-    (b"glDrawBuffersARB", 974, crate::Address(glDrawBuffersARB as *const ())),
-    (b"glDrawBuffersATI", 975, crate::Address(glDrawBuffersATI as *const ())),
-    (b"glDrawBuffersEXT", 976, crate::Address(glDrawBuffersEXT as *const ())),
-    (b"glDrawElements", 894, crate::Address(glDrawElements as *const ())),
-    (b"glDrawElementsBaseVertex", 901, crate::Address(glDrawElementsBaseVertex as *const ())),
-    (b"glDrawElementsBaseVertexEXT", 902, crate::Address(glDrawElementsBaseVertexEXT as *const ())),
-    (b"glDrawElementsBaseVertexOES", 903, crate::Address(glDrawElementsBaseVertexOES as *const ())),
-    (b"glDrawElementsIndirect", 929, crate::Address(glDrawElementsIndirect as *const ())),
-    (b"glDrawElementsInstanced", 914, crate::Address(glDrawElementsInstanced as *const ())),
-    (b"glDrawElementsInstancedANGLE", 915, crate::Address(glDrawElementsInstancedANGLE as *const ())),
-    (b"glDrawElementsInstancedARB", 916, crate::Address(glDrawElementsInstancedARB as *const ())),
-    (b"glDrawElementsInstancedBaseInstance", 924, crate::Address(glDrawElementsInstancedBaseInstance as *const ())),
-    (b"glDrawElementsInstancedBaseInstanceEXT", 925, crate::Address(glDrawElementsInstancedBaseInstanceEXT as *const ())),
-    (b"glDrawElementsInstancedBaseVertex", 919, crate::Address(glDrawElementsInstancedBaseVertex as *const ())),
-    (b"glDrawElementsInstancedBaseVertexBaseInstance", 926, crate::Address(glDrawElementsInstancedBaseVertexBaseInstance as *const ())),
-    (b"glDrawElementsInstancedBaseVertexBaseInstanceEXT", 927, crate::Address(glDrawElementsInstancedBaseVertexBaseInstanceEXT as *const ())),
-    (b"glDrawElementsInstancedBaseVertexEXT", 920, crate::Address(glDrawElementsInstancedBaseVertexEXT as *const ())),
-    (b"glDrawElementsInstancedBaseVertexOES", 921, crate::Address(glDrawElementsInstancedBaseVertexOES as *const ())),
-    (b"glDrawElementsInstancedEXT", 917, crate::Address(glDrawElementsInstancedEXT as *const ())),
-    (b"glDrawElementsInstancedNV", 918, crate::Address(glDrawElementsInstancedNV as *const ())),
-    (b"glDrawPixels", 955, crate::Address(glDrawPixels as *const ())),
-    (b"glDrawRangeElements", 895, crate::Address(glDrawRangeElements as *const ())),
-    (b"glDrawRangeElementsBaseVertex", 904, crate::Address(glDrawRangeElementsBaseVertex as *const ())),
-    (b"glDrawRangeElementsBaseVertexEXT", 905, crate::Address(glDrawRangeElementsBaseVertexEXT as *const ())),
-    (b"glDrawRangeElementsBaseVertexOES", 906, crate::Address(glDrawRangeElementsBaseVertexOES as *const ())),
-    (b"glDrawRangeElementsEXT", 896, crate::Address(glDrawRangeElementsEXT as *const ())),
-    (b"glDrawTransformFeedback", 936, crate::Address(glDrawTransformFeedback as *const ())),
-    (b"glDrawTransformFeedbackEXT", 937, crate::Address(glDrawTransformFeedbackEXT as *const ())),
-    (b"glDrawTransformFeedbackInstanced", 939, crate::Address(glDrawTransformFeedbackInstanced as *const ())),
-    (b"glDrawTransformFeedbackInstancedEXT", 940, crate::Address(glDrawTransformFeedbackInstancedEXT as *const ())),
-    (b"glDrawTransformFeedbackNV", 938, crate::Address(glDrawTransformFeedbackNV as *const ())),
-    (b"glDrawTransformFeedbackStream", 941, crate::Address(glDrawTransformFeedbackStream as *const ())),
-    (b"glDrawTransformFeedbackStreamInstanced", 942, crate::Address(glDrawTransformFeedbackStreamInstanced as *const ())),
+    (b"glDiscardFramebufferEXT", 1025, crate::Address(glDiscardFramebufferEXT as *const ())),
+    (b"glDrawArrays", 895, crate::Address(glDrawArrays as *const ())),
+    (b"glDrawArraysEXT", 896, crate::Address(glDrawArraysEXT as *const ())),
+    (b"glDrawArraysIndirect", 931, crate::Address(glDrawArraysIndirect as *const ())),
+    (b"glDrawArraysInstanced", 912, crate::Address(glDrawArraysInstanced as *const ())),
+    (b"glDrawArraysInstancedANGLE", 913, crate::Address(glDrawArraysInstancedANGLE as *const ())),
+    (b"glDrawArraysInstancedARB", 914, crate::Address(glDrawArraysInstancedARB as *const ())),
+    (b"glDrawArraysInstancedBaseInstance", 925, crate::Address(glDrawArraysInstancedBaseInstance as *const ())),
+    (b"glDrawArraysInstancedBaseInstanceEXT", 926, crate::Address(glDrawArraysInstancedBaseInstanceEXT as *const ())),
+    (b"glDrawArraysInstancedEXT", 915, crate::Address(glDrawArraysInstancedEXT as *const ())),
+    (b"glDrawArraysInstancedNV", 916, crate::Address(glDrawArraysInstancedNV as *const ())),
+    (b"glDrawBuffer", 975, crate::Address(glDrawBuffer as *const ())),
+    (b"glDrawBuffers", 976, crate::Address(glDrawBuffers as *const ())),
+    (b"glDrawBuffersARB", 977, crate::Address(glDrawBuffersARB as *const ())),
+    (b"glDrawBuffersATI", 978, crate::Address(glDrawBuffersATI as *const ())),
+    (b"glDrawBuffersEXT", 979, crate::Address(glDrawBuffersEXT as *const ())),
+    (b"glDrawElements", 897, crate::Address(glDrawElements as *const ())),
+    (b"glDrawElementsBaseVertex", 904, crate::Address(glDrawElementsBaseVertex as *const ())),
+    (b"glDrawElementsBaseVertexEXT", 905, crate::Address(glDrawElementsBaseVertexEXT as *const ())),
+    (b"glDrawElementsBaseVertexOES", 906, crate::Address(glDrawElementsBaseVertexOES as *const ())),
+    (b"glDrawElementsIndirect", 932, crate::Address(glDrawElementsIndirect as *const ())),
+    (b"glDrawElementsInstanced", 917, crate::Address(glDrawElementsInstanced as *const ())),
+    (b"glDrawElementsInstancedANGLE", 918, crate::Address(glDrawElementsInstancedANGLE as *const ())),
+    (b"glDrawElementsInstancedARB", 919, crate::Address(glDrawElementsInstancedARB as *const ())),
+    (b"glDrawElementsInstancedBaseInstance", 927, crate::Address(glDrawElementsInstancedBaseInstance as *const ())),
+    (b"glDrawElementsInstancedBaseInstanceEXT", 928, crate::Address(glDrawElementsInstancedBaseInstanceEXT as *const ())),
+    (b"glDrawElementsInstancedBaseVertex", 922, crate::Address(glDrawElementsInstancedBaseVertex as *const ())),
+    (b"glDrawElementsInstancedBaseVertexBaseInstance", 929, crate::Address(glDrawElementsInstancedBaseVertexBaseInstance as *const ())),
+    (b"glDrawElementsInstancedBaseVertexBaseInstanceEXT", 930, crate::Address(glDrawElementsInstancedBaseVertexBaseInstanceEXT as *const ())),
+    (b"glDrawElementsInstancedBaseVertexEXT", 923, crate::Address(glDrawElementsInstancedBaseVertexEXT as *const ())),
+    (b"glDrawElementsInstancedBaseVertexOES", 924, crate::Address(glDrawElementsInstancedBaseVertexOES as *const ())),
+    (b"glDrawElementsInstancedEXT", 920, crate::Address(glDrawElementsInstancedEXT as *const ())),
+    (b"glDrawElementsInstancedNV", 921, crate::Address(glDrawElementsInstancedNV as *const ())),
+    (b"glDrawPixels", 958, crate::Address(glDrawPixels as *const ())),
+    (b"glDrawRangeElements", 898, crate::Address(glDrawRangeElements as *const ())),
+    (b"glDrawRangeElementsBaseVertex", 907, crate::Address(glDrawRangeElementsBaseVertex as *const ())),
+    (b"glDrawRangeElementsBaseVertexEXT", 908, crate::Address(glDrawRangeElementsBaseVertexEXT as *const ())),
+    (b"glDrawRangeElementsBaseVertexOES", 909, crate::Address(glDrawRangeElementsBaseVertexOES as *const ())),
+    (b"glDrawRangeElementsEXT", 899, crate::Address(glDrawRangeElementsEXT as *const ())),
+    (b"glDrawTransformFeedback", 939, crate::Address(glDrawTransformFeedback as *const ())),
+    (b"glDrawTransformFeedbackEXT", 940, crate::Address(glDrawTransformFeedbackEXT as *const ())),
+    (b"glDrawTransformFeedbackInstanced", 942, crate::Address(glDrawTransformFeedbackInstanced as *const ())),
+    (b"glDrawTransformFeedbackInstancedEXT", 943, crate::Address(glDrawTransformFeedbackInstancedEXT as *const ())),
+    (b"glDrawTransformFeedbackNV", 941, crate::Address(glDrawTransformFeedbackNV as *const ())),
+    (b"glDrawTransformFeedbackStream", 944, crate::Address(glDrawTransformFeedbackStream as *const ())),
+    (b"glDrawTransformFeedbackStreamInstanced", 945, crate::Address(glDrawTransformFeedbackStreamInstanced as *const ())),
     (b"glEdgeFlag", 234, crate::Address(glEdgeFlag as *const ())),
     (b"glEdgeFlagv", 235, crate::Address(glEdgeFlagv as *const ())),
     (b"glEnable", 518, crate::Address(glEnable as *const ())),
@@ -2577,12 +2586,12 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1097] = [
     (b"glEnableiNV", 523, crate::Address(glEnableiNV as *const ())),
     (b"glEnableiOES", 524, crate::Address(glEnableiOES as *const ())),
     (b"glEnd", 455, crate::Address(glEnd as *const ())),
-    (b"glEndList", 958, crate::Address(glEndList as *const ())),
-    (b"glEndQuery", 1056, crate::Address(glEndQuery as *const ())),
-    (b"glEndQueryARB", 1057, crate::Address(glEndQueryARB as *const ())),
-    (b"glEndTransformFeedback", 661, crate::Address(glEndTransformFeedback as *const ())),
-    (b"glEndTransformFeedbackEXT", 662, crate::Address(glEndTransformFeedbackEXT as *const ())),
-    (b"glEndTransformFeedbackNV", 663, crate::Address(glEndTransformFeedbackNV as *const ())),
+    (b"glEndList", 961, crate::Address(glEndList as *const ())),
+    (b"glEndQuery", 1059, crate::Address(glEndQuery as *const ())),
+    (b"glEndQueryARB", 1060, crate::Address(glEndQueryARB as *const ())),
+    (b"glEndTransformFeedback", 667, crate::Address(glEndTransformFeedback as *const ())),
+    (b"glEndTransformFeedbackEXT", 668, crate::Address(glEndTransformFeedbackEXT as *const ())),
+    (b"glEndTransformFeedbackNV", 669, crate::Address(glEndTransformFeedbackNV as *const ())),
     (b"glEvalCoord1d", 250, crate::Address(glEvalCoord1d as *const ())),
     (b"glEvalCoord1dv", 251, crate::Address(glEvalCoord1dv as *const ())),
     (b"glEvalCoord1f", 252, crate::Address(glEvalCoord1f as *const ())),
@@ -2591,12 +2600,12 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1097] = [
     (b"glEvalCoord2dv", 255, crate::Address(glEvalCoord2dv as *const ())),
     (b"glEvalCoord2f", 256, crate::Address(glEvalCoord2f as *const ())),
     (b"glEvalCoord2fv", 257, crate::Address(glEvalCoord2fv as *const ())),
-    (b"glEvalMesh1", 951, crate::Address(glEvalMesh1 as *const ())),
-    (b"glEvalMesh2", 952, crate::Address(glEvalMesh2 as *const ())),
+    (b"glEvalMesh1", 954, crate::Address(glEvalMesh1 as *const ())),
+    (b"glEvalMesh2", 955, crate::Address(glEvalMesh2 as *const ())),
     (b"glEvalPoint1", 258, crate::Address(glEvalPoint1 as *const ())),
     (b"glEvalPoint2", 259, crate::Address(glEvalPoint2 as *const ())),
-    (b"glFinish", 1051, crate::Address(glFinish as *const ())),
-    (b"glFlush", 1052, crate::Address(glFlush as *const ())),
+    (b"glFinish", 1054, crate::Address(glFinish as *const ())),
+    (b"glFlush", 1055, crate::Address(glFlush as *const ())),
     (b"glFogCoordd", 224, crate::Address(glFogCoordd as *const ())),
     (b"glFogCoorddEXT", 225, crate::Address(glFogCoorddEXT as *const ())),
     (b"glFogCoorddv", 226, crate::Address(glFogCoorddv as *const ())),
@@ -2607,57 +2616,57 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1097] = [
     (b"glFogCoordfvEXT", 231, crate::Address(glFogCoordfvEXT as *const ())),
     (b"glFogCoordhNV", 232, crate::Address(glFogCoordhNV as *const ())),
     (b"glFogCoordhvNV", 233, crate::Address(glFogCoordhvNV as *const ())),
-    (b"glFogf", 545, crate::Address(glFogf as *const ())),
-    (b"glFogfv", 546, crate::Address(glFogfv as *const ())),
-    (b"glFogi", 547, crate::Address(glFogi as *const ())),
-    (b"glFogiv", 548, crate::Address(glFogiv as *const ())),
-    (b"glFramebufferDrawBufferEXT", 981, crate::Address(glFramebufferDrawBufferEXT as *const ())),
-    (b"glFramebufferDrawBuffersEXT", 982, crate::Address(glFramebufferDrawBuffersEXT as *const ())),
-    (b"glFramebufferParameteri", 1018, crate::Address(glFramebufferParameteri as *const ())),
-    (b"glFramebufferReadBufferEXT", 983, crate::Address(glFramebufferReadBufferEXT as *const ())),
-    (b"glFramebufferRenderbuffer", 1012, crate::Address(glFramebufferRenderbuffer as *const ())),
-    (b"glFramebufferRenderbufferEXT", 1013, crate::Address(glFramebufferRenderbufferEXT as *const ())),
-    (b"glFramebufferTexture", 999, crate::Address(glFramebufferTexture as *const ())),
-    (b"glFramebufferTexture1D", 1003, crate::Address(glFramebufferTexture1D as *const ())),
-    (b"glFramebufferTexture1DEXT", 1004, crate::Address(glFramebufferTexture1DEXT as *const ())),
-    (b"glFramebufferTexture2D", 1005, crate::Address(glFramebufferTexture2D as *const ())),
-    (b"glFramebufferTexture2DEXT", 1006, crate::Address(glFramebufferTexture2DEXT as *const ())),
-    (b"glFramebufferTexture3D", 1007, crate::Address(glFramebufferTexture3D as *const ())),
-    (b"glFramebufferTexture3DEXT", 1008, crate::Address(glFramebufferTexture3DEXT as *const ())),
-    (b"glFramebufferTextureARB", 1000, crate::Address(glFramebufferTextureARB as *const ())),
-    (b"glFramebufferTextureEXT", 1001, crate::Address(glFramebufferTextureEXT as *const ())),
-    (b"glFramebufferTextureLayer", 1009, crate::Address(glFramebufferTextureLayer as *const ())),
-    (b"glFramebufferTextureLayerARB", 1010, crate::Address(glFramebufferTextureLayerARB as *const ())),
-    (b"glFramebufferTextureLayerEXT", 1011, crate::Address(glFramebufferTextureLayerEXT as *const ())),
-    (b"glFramebufferTextureOES", 1002, crate::Address(glFramebufferTextureOES as *const ())),
-    (b"glFrontFace", 717, crate::Address(glFrontFace as *const ())),
+    (b"glFogf", 551, crate::Address(glFogf as *const ())),
+    (b"glFogfv", 552, crate::Address(glFogfv as *const ())),
+    (b"glFogi", 553, crate::Address(glFogi as *const ())),
+    (b"glFogiv", 554, crate::Address(glFogiv as *const ())),
+    (b"glFramebufferDrawBufferEXT", 984, crate::Address(glFramebufferDrawBufferEXT as *const ())),
+    (b"glFramebufferDrawBuffersEXT", 985, crate::Address(glFramebufferDrawBuffersEXT as *const ())),
+    (b"glFramebufferParameteri", 1021, crate::Address(glFramebufferParameteri as *const ())),
+    (b"glFramebufferReadBufferEXT", 986, crate::Address(glFramebufferReadBufferEXT as *const ())),
+    (b"glFramebufferRenderbuffer", 1015, crate::Address(glFramebufferRenderbuffer as *const ())),
+    (b"glFramebufferRenderbufferEXT", 1016, crate::Address(glFramebufferRenderbufferEXT as *const ())),
+    (b"glFramebufferTexture", 1002, crate::Address(glFramebufferTexture as *const ())),
+    (b"glFramebufferTexture1D", 1006, crate::Address(glFramebufferTexture1D as *const ())),
+    (b"glFramebufferTexture1DEXT", 1007, crate::Address(glFramebufferTexture1DEXT as *const ())),
+    (b"glFramebufferTexture2D", 1008, crate::Address(glFramebufferTexture2D as *const ())),
+    (b"glFramebufferTexture2DEXT", 1009, crate::Address(glFramebufferTexture2DEXT as *const ())),
+    (b"glFramebufferTexture3D", 1010, crate::Address(glFramebufferTexture3D as *const ())),
+    (b"glFramebufferTexture3DEXT", 1011, crate::Address(glFramebufferTexture3DEXT as *const ())),
+    (b"glFramebufferTextureARB", 1003, crate::Address(glFramebufferTextureARB as *const ())),
+    (b"glFramebufferTextureEXT", 1004, crate::Address(glFramebufferTextureEXT as *const ())),
+    (b"glFramebufferTextureLayer", 1012, crate::Address(glFramebufferTextureLayer as *const ())),
+    (b"glFramebufferTextureLayerARB", 1013, crate::Address(glFramebufferTextureLayerARB as *const ())),
+    (b"glFramebufferTextureLayerEXT", 1014, crate::Address(glFramebufferTextureLayerEXT as *const ())),
+    (b"glFramebufferTextureOES", 1005, crate::Address(glFramebufferTextureOES as *const ())),
+    (b"glFrontFace", 722, crate::Address(glFrontFace as *const ())),
     (b"glFrustum", 476, crate::Address(glFrustum as *const ())),
-    (b"glGenerateMipmap", 885, crate::Address(glGenerateMipmap as *const ())),
-    (b"glGenerateMipmapEXT", 886, crate::Address(glGenerateMipmapEXT as *const ())),
-    (b"glGetBooleanv", 993, crate::Address(glGetBooleanv as *const ())),
-    (b"glGetDoublev", 995, crate::Address(glGetDoublev as *const ())),
-    (b"glGetError", 1053, crate::Address(glGetError as *const ())),
-    (b"glGetFloatv", 994, crate::Address(glGetFloatv as *const ())),
-    (b"glGetFramebufferAttachmentParameteriv", 1014, crate::Address(glGetFramebufferAttachmentParameteriv as *const ())),
-    (b"glGetFramebufferAttachmentParameterivEXT", 1015, crate::Address(glGetFramebufferAttachmentParameterivEXT as *const ())),
-    (b"glGetFramebufferParameteriv", 1019, crate::Address(glGetFramebufferParameteriv as *const ())),
-    (b"glGetInteger64v", 996, crate::Address(glGetInteger64v as *const ())),
-    (b"glGetInteger64vAPPLE", 997, crate::Address(glGetInteger64vAPPLE as *const ())),
-    (b"glGetInteger64vEXT", 998, crate::Address(glGetInteger64vEXT as *const ())),
-    (b"glGetIntegerv", 992, crate::Address(glGetIntegerv as *const ())),
-    (b"glGetQueryObjecti64v", 1067, crate::Address(glGetQueryObjecti64v as *const ())),
-    (b"glGetQueryObjecti64vEXT", 1068, crate::Address(glGetQueryObjecti64vEXT as *const ())),
-    (b"glGetQueryObjectiv", 1062, crate::Address(glGetQueryObjectiv as *const ())),
-    (b"glGetQueryObjectivARB", 1063, crate::Address(glGetQueryObjectivARB as *const ())),
-    (b"glGetQueryObjectivEXT", 1064, crate::Address(glGetQueryObjectivEXT as *const ())),
-    (b"glGetQueryObjectui64v", 1069, crate::Address(glGetQueryObjectui64v as *const ())),
-    (b"glGetQueryObjectui64vEXT", 1070, crate::Address(glGetQueryObjectui64vEXT as *const ())),
-    (b"glGetQueryObjectuiv", 1065, crate::Address(glGetQueryObjectuiv as *const ())),
-    (b"glGetQueryObjectuivARB", 1066, crate::Address(glGetQueryObjectuivARB as *const ())),
-    (b"glGetQueryiv", 1060, crate::Address(glGetQueryiv as *const ())),
-    (b"glGetQueryivARB", 1061, crate::Address(glGetQueryivARB as *const ())),
-    (b"glHint", 569, crate::Address(glHint as *const ())),
-    (b"glIndexMask", 718, crate::Address(glIndexMask as *const ())),
+    (b"glGenerateMipmap", 888, crate::Address(glGenerateMipmap as *const ())),
+    (b"glGenerateMipmapEXT", 889, crate::Address(glGenerateMipmapEXT as *const ())),
+    (b"glGetBooleanv", 996, crate::Address(glGetBooleanv as *const ())),
+    (b"glGetDoublev", 998, crate::Address(glGetDoublev as *const ())),
+    (b"glGetError", 1056, crate::Address(glGetError as *const ())),
+    (b"glGetFloatv", 997, crate::Address(glGetFloatv as *const ())),
+    (b"glGetFramebufferAttachmentParameteriv", 1017, crate::Address(glGetFramebufferAttachmentParameteriv as *const ())),
+    (b"glGetFramebufferAttachmentParameterivEXT", 1018, crate::Address(glGetFramebufferAttachmentParameterivEXT as *const ())),
+    (b"glGetFramebufferParameteriv", 1022, crate::Address(glGetFramebufferParameteriv as *const ())),
+    (b"glGetInteger64v", 999, crate::Address(glGetInteger64v as *const ())),
+    (b"glGetInteger64vAPPLE", 1000, crate::Address(glGetInteger64vAPPLE as *const ())),
+    (b"glGetInteger64vEXT", 1001, crate::Address(glGetInteger64vEXT as *const ())),
+    (b"glGetIntegerv", 995, crate::Address(glGetIntegerv as *const ())),
+    (b"glGetQueryObjecti64v", 1070, crate::Address(glGetQueryObjecti64v as *const ())),
+    (b"glGetQueryObjecti64vEXT", 1071, crate::Address(glGetQueryObjecti64vEXT as *const ())),
+    (b"glGetQueryObjectiv", 1065, crate::Address(glGetQueryObjectiv as *const ())),
+    (b"glGetQueryObjectivARB", 1066, crate::Address(glGetQueryObjectivARB as *const ())),
+    (b"glGetQueryObjectivEXT", 1067, crate::Address(glGetQueryObjectivEXT as *const ())),
+    (b"glGetQueryObjectui64v", 1072, crate::Address(glGetQueryObjectui64v as *const ())),
+    (b"glGetQueryObjectui64vEXT", 1073, crate::Address(glGetQueryObjectui64vEXT as *const ())),
+    (b"glGetQueryObjectuiv", 1068, crate::Address(glGetQueryObjectuiv as *const ())),
+    (b"glGetQueryObjectuivARB", 1069, crate::Address(glGetQueryObjectuivARB as *const ())),
+    (b"glGetQueryiv", 1063, crate::Address(glGetQueryiv as *const ())),
+    (b"glGetQueryivARB", 1064, crate::Address(glGetQueryivARB as *const ())),
+    (b"glHint", 575, crate::Address(glHint as *const ())),
+    (b"glIndexMask", 723, crate::Address(glIndexMask as *const ())),
     (b"glIndexd", 236, crate::Address(glIndexd as *const ())),
     (b"glIndexdv", 237, crate::Address(glIndexdv as *const ())),
     (b"glIndexf", 238, crate::Address(glIndexf as *const ())),
@@ -2668,40 +2677,40 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1097] = [
     (b"glIndexsv", 243, crate::Address(glIndexsv as *const ())),
     (b"glIndexub", 244, crate::Address(glIndexub as *const ())),
     (b"glIndexubv", 245, crate::Address(glIndexubv as *const ())),
-    (b"glInitNames", 719, crate::Address(glInitNames as *const ())),
-    (b"glInvalidateFramebuffer", 1020, crate::Address(glInvalidateFramebuffer as *const ())),
-    (b"glInvalidateSubFramebuffer", 1021, crate::Address(glInvalidateSubFramebuffer as *const ())),
-    (b"glIsFramebuffer", 966, crate::Address(glIsFramebuffer as *const ())),
-    (b"glIsFramebufferEXT", 967, crate::Address(glIsFramebufferEXT as *const ())),
-    (b"glIsTexture", 965, crate::Address(glIsTexture as *const ())),
-    (b"glLightModelf", 534, crate::Address(glLightModelf as *const ())),
-    (b"glLightModelfv", 535, crate::Address(glLightModelfv as *const ())),
-    (b"glLightModeli", 536, crate::Address(glLightModeli as *const ())),
-    (b"glLightModeliv", 537, crate::Address(glLightModeliv as *const ())),
-    (b"glLightf", 530, crate::Address(glLightf as *const ())),
-    (b"glLightfv", 531, crate::Address(glLightfv as *const ())),
-    (b"glLighti", 532, crate::Address(glLighti as *const ())),
-    (b"glLightiv", 533, crate::Address(glLightiv as *const ())),
-    (b"glLineStipple", 724, crate::Address(glLineStipple as *const ())),
-    (b"glLineWidth", 570, crate::Address(glLineWidth as *const ())),
-    (b"glListBase", 725, crate::Address(glListBase as *const ())),
+    (b"glInitNames", 724, crate::Address(glInitNames as *const ())),
+    (b"glInvalidateFramebuffer", 1023, crate::Address(glInvalidateFramebuffer as *const ())),
+    (b"glInvalidateSubFramebuffer", 1024, crate::Address(glInvalidateSubFramebuffer as *const ())),
+    (b"glIsFramebuffer", 969, crate::Address(glIsFramebuffer as *const ())),
+    (b"glIsFramebufferEXT", 970, crate::Address(glIsFramebufferEXT as *const ())),
+    (b"glIsTexture", 968, crate::Address(glIsTexture as *const ())),
+    (b"glLightModelf", 540, crate::Address(glLightModelf as *const ())),
+    (b"glLightModelfv", 541, crate::Address(glLightModelfv as *const ())),
+    (b"glLightModeli", 542, crate::Address(glLightModeli as *const ())),
+    (b"glLightModeliv", 543, crate::Address(glLightModeliv as *const ())),
+    (b"glLightf", 536, crate::Address(glLightf as *const ())),
+    (b"glLightfv", 537, crate::Address(glLightfv as *const ())),
+    (b"glLighti", 538, crate::Address(glLighti as *const ())),
+    (b"glLightiv", 539, crate::Address(glLightiv as *const ())),
+    (b"glLineStipple", 729, crate::Address(glLineStipple as *const ())),
+    (b"glLineWidth", 576, crate::Address(glLineWidth as *const ())),
+    (b"glListBase", 730, crate::Address(glListBase as *const ())),
     (b"glLoadIdentity", 457, crate::Address(glLoadIdentity as *const ())),
     (b"glLoadMatrixd", 458, crate::Address(glLoadMatrixd as *const ())),
     (b"glLoadMatrixf", 459, crate::Address(glLoadMatrixf as *const ())),
-    (b"glLoadName", 720, crate::Address(glLoadName as *const ())),
+    (b"glLoadName", 725, crate::Address(glLoadName as *const ())),
     (b"glLoadTransposeMatrixd", 460, crate::Address(glLoadTransposeMatrixd as *const ())),
     (b"glLoadTransposeMatrixdARB", 461, crate::Address(glLoadTransposeMatrixdARB as *const ())),
     (b"glLoadTransposeMatrixf", 462, crate::Address(glLoadTransposeMatrixf as *const ())),
     (b"glLoadTransposeMatrixfARB", 463, crate::Address(glLoadTransposeMatrixfARB as *const ())),
-    (b"glLogicOp", 726, crate::Address(glLogicOp as *const ())),
-    (b"glMap1d", 727, crate::Address(glMap1d as *const ())),
-    (b"glMap1f", 728, crate::Address(glMap1f as *const ())),
-    (b"glMap2d", 729, crate::Address(glMap2d as *const ())),
-    (b"glMap2f", 730, crate::Address(glMap2f as *const ())),
-    (b"glMapGrid1d", 731, crate::Address(glMapGrid1d as *const ())),
-    (b"glMapGrid1f", 732, crate::Address(glMapGrid1f as *const ())),
-    (b"glMapGrid2d", 733, crate::Address(glMapGrid2d as *const ())),
-    (b"glMapGrid2f", 734, crate::Address(glMapGrid2f as *const ())),
+    (b"glLogicOp", 731, crate::Address(glLogicOp as *const ())),
+    (b"glMap1d", 732, crate::Address(glMap1d as *const ())),
+    (b"glMap1f", 733, crate::Address(glMap1f as *const ())),
+    (b"glMap2d", 734, crate::Address(glMap2d as *const ())),
+    (b"glMap2f", 735, crate::Address(glMap2f as *const ())),
+    (b"glMapGrid1d", 736, crate::Address(glMapGrid1d as *const ())),
+    (b"glMapGrid1f", 737, crate::Address(glMapGrid1f as *const ())),
+    (b"glMapGrid2d", 738, crate::Address(glMapGrid2d as *const ())),
+    (b"glMapGrid2f", 739, crate::Address(glMapGrid2f as *const ())),
     (b"glMaterialf", 246, crate::Address(glMaterialf as *const ())),
     (b"glMaterialfv", 247, crate::Address(glMaterialfv as *const ())),
     (b"glMateriali", 248, crate::Address(glMateriali as *const ())),
@@ -2725,27 +2734,27 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1097] = [
     (b"glMatrixScalefEXT", 491, crate::Address(glMatrixScalefEXT as *const ())),
     (b"glMatrixTranslatedEXT", 492, crate::Address(glMatrixTranslatedEXT as *const ())),
     (b"glMatrixTranslatefEXT", 493, crate::Address(glMatrixTranslatefEXT as *const ())),
-    (b"glMinSampleShading", 749, crate::Address(glMinSampleShading as *const ())),
-    (b"glMinSampleShadingARB", 750, crate::Address(glMinSampleShadingARB as *const ())),
-    (b"glMinSampleShadingOES", 751, crate::Address(glMinSampleShadingOES as *const ())),
+    (b"glMinSampleShading", 754, crate::Address(glMinSampleShading as *const ())),
+    (b"glMinSampleShadingARB", 755, crate::Address(glMinSampleShadingARB as *const ())),
+    (b"glMinSampleShadingOES", 756, crate::Address(glMinSampleShadingOES as *const ())),
     (b"glMultMatrixd", 464, crate::Address(glMultMatrixd as *const ())),
     (b"glMultMatrixf", 465, crate::Address(glMultMatrixf as *const ())),
     (b"glMultTransposeMatrixd", 466, crate::Address(glMultTransposeMatrixd as *const ())),
     (b"glMultTransposeMatrixdARB", 467, crate::Address(glMultTransposeMatrixdARB as *const ())),
     (b"glMultTransposeMatrixf", 468, crate::Address(glMultTransposeMatrixf as *const ())),
     (b"glMultTransposeMatrixfARB", 469, crate::Address(glMultTransposeMatrixfARB as *const ())),
-    (b"glMultiDrawArrays", 897, crate::Address(glMultiDrawArrays as *const ())),
-    (b"glMultiDrawArraysEXT", 898, crate::Address(glMultiDrawArraysEXT as *const ())),
-    (b"glMultiDrawArraysIndirect", 930, crate::Address(glMultiDrawArraysIndirect as *const ())),
-    (b"glMultiDrawArraysIndirectAMD", 931, crate::Address(glMultiDrawArraysIndirectAMD as *const ())),
-    (b"glMultiDrawArraysIndirectEXT", 932, crate::Address(glMultiDrawArraysIndirectEXT as *const ())),
-    (b"glMultiDrawElements", 899, crate::Address(glMultiDrawElements as *const ())),
-    (b"glMultiDrawElementsBaseVertex", 907, crate::Address(glMultiDrawElementsBaseVertex as *const ())),
-    (b"glMultiDrawElementsBaseVertexEXT", 908, crate::Address(glMultiDrawElementsBaseVertexEXT as *const ())),
-    (b"glMultiDrawElementsEXT", 900, crate::Address(glMultiDrawElementsEXT as *const ())),
-    (b"glMultiDrawElementsIndirect", 933, crate::Address(glMultiDrawElementsIndirect as *const ())),
-    (b"glMultiDrawElementsIndirectAMD", 934, crate::Address(glMultiDrawElementsIndirectAMD as *const ())),
-    (b"glMultiDrawElementsIndirectEXT", 935, crate::Address(glMultiDrawElementsIndirectEXT as *const ())),
+    (b"glMultiDrawArrays", 900, crate::Address(glMultiDrawArrays as *const ())),
+    (b"glMultiDrawArraysEXT", 901, crate::Address(glMultiDrawArraysEXT as *const ())),
+    (b"glMultiDrawArraysIndirect", 933, crate::Address(glMultiDrawArraysIndirect as *const ())),
+    (b"glMultiDrawArraysIndirectAMD", 934, crate::Address(glMultiDrawArraysIndirectAMD as *const ())),
+    (b"glMultiDrawArraysIndirectEXT", 935, crate::Address(glMultiDrawArraysIndirectEXT as *const ())),
+    (b"glMultiDrawElements", 902, crate::Address(glMultiDrawElements as *const ())),
+    (b"glMultiDrawElementsBaseVertex", 910, crate::Address(glMultiDrawElementsBaseVertex as *const ())),
+    (b"glMultiDrawElementsBaseVertexEXT", 911, crate::Address(glMultiDrawElementsBaseVertexEXT as *const ())),
+    (b"glMultiDrawElementsEXT", 903, crate::Address(glMultiDrawElementsEXT as *const ())),
+    (b"glMultiDrawElementsIndirect", 936, crate::Address(glMultiDrawElementsIndirect as *const ())),
+    (b"glMultiDrawElementsIndirectAMD", 937, crate::Address(glMultiDrawElementsIndirectAMD as *const ())),
+    (b"glMultiDrawElementsIndirectEXT", 938, crate::Address(glMultiDrawElementsIndirectEXT as *const ())),
     (b"glMultiTexCoord1d", 118, crate::Address(glMultiTexCoord1d as *const ())),
     (b"glMultiTexCoord1dARB", 119, crate::Address(glMultiTexCoord1dARB as *const ())),
     (b"glMultiTexCoord1dv", 120, crate::Address(glMultiTexCoord1dv as *const ())),
@@ -2826,10 +2835,10 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1097] = [
     (b"glMultiTexCoordP3uiv", 421, crate::Address(glMultiTexCoordP3uiv as *const ())),
     (b"glMultiTexCoordP4ui", 422, crate::Address(glMultiTexCoordP4ui as *const ())),
     (b"glMultiTexCoordP4uiv", 423, crate::Address(glMultiTexCoordP4uiv as *const ())),
-    (b"glNamedFramebufferDrawBuffer", 978, crate::Address(glNamedFramebufferDrawBuffer as *const ())),
-    (b"glNamedFramebufferDrawBuffers", 979, crate::Address(glNamedFramebufferDrawBuffers as *const ())),
-    (b"glNamedFramebufferReadBuffer", 980, crate::Address(glNamedFramebufferReadBuffer as *const ())),
-    (b"glNewList", 957, crate::Address(glNewList as *const ())),
+    (b"glNamedFramebufferDrawBuffer", 981, crate::Address(glNamedFramebufferDrawBuffer as *const ())),
+    (b"glNamedFramebufferDrawBuffers", 982, crate::Address(glNamedFramebufferDrawBuffers as *const ())),
+    (b"glNamedFramebufferReadBuffer", 983, crate::Address(glNamedFramebufferReadBuffer as *const ())),
+    (b"glNewList", 960, crate::Address(glNewList as *const ())),
     (b"glNormal3b", 66, crate::Address(glNormal3b as *const ())),
     (b"glNormal3bv", 67, crate::Address(glNormal3bv as *const ())),
     (b"glNormal3d", 68, crate::Address(glNormal3d as *const ())),
@@ -2845,94 +2854,94 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1097] = [
     (b"glNormalP3ui", 438, crate::Address(glNormalP3ui as *const ())),
     (b"glNormalP3uiv", 439, crate::Address(glNormalP3uiv as *const ())),
     (b"glOrtho", 477, crate::Address(glOrtho as *const ())),
-    (b"glPassThrough", 723, crate::Address(glPassThrough as *const ())),
-    (b"glPixelMapfv", 735, crate::Address(glPixelMapfv as *const ())),
-    (b"glPixelMapuiv", 736, crate::Address(glPixelMapuiv as *const ())),
-    (b"glPixelMapusv", 737, crate::Address(glPixelMapusv as *const ())),
-    (b"glPixelTransferf", 738, crate::Address(glPixelTransferf as *const ())),
-    (b"glPixelTransferi", 739, crate::Address(glPixelTransferi as *const ())),
-    (b"glPixelZoom", 740, crate::Address(glPixelZoom as *const ())),
-    (b"glPointParameterf", 549, crate::Address(glPointParameterf as *const ())),
-    (b"glPointParameterfARB", 550, crate::Address(glPointParameterfARB as *const ())),
-    (b"glPointParameterfEXT", 551, crate::Address(glPointParameterfEXT as *const ())),
-    (b"glPointParameterfSGIS", 552, crate::Address(glPointParameterfSGIS as *const ())),
-    (b"glPointParameterfv", 553, crate::Address(glPointParameterfv as *const ())),
-    (b"glPointParameterfvARB", 554, crate::Address(glPointParameterfvARB as *const ())),
-    (b"glPointParameterfvEXT", 555, crate::Address(glPointParameterfvEXT as *const ())),
-    (b"glPointParameterfvSGIS", 556, crate::Address(glPointParameterfvSGIS as *const ())),
-    (b"glPointParameteri", 557, crate::Address(glPointParameteri as *const ())),
-    (b"glPointParameteriNV", 558, crate::Address(glPointParameteriNV as *const ())),
-    (b"glPointParameteriv", 559, crate::Address(glPointParameteriv as *const ())),
-    (b"glPointParameterivNV", 560, crate::Address(glPointParameterivNV as *const ())),
-    (b"glPointSize", 561, crate::Address(glPointSize as *const ())),
-    (b"glPolygonMode", 563, crate::Address(glPolygonMode as *const ())),
-    (b"glPolygonModeNV", 564, crate::Address(glPolygonModeNV as *const ())),
-    (b"glPolygonOffset", 741, crate::Address(glPolygonOffset as *const ())),
-    (b"glPolygonOffsetClamp", 742, crate::Address(glPolygonOffsetClamp as *const ())),
-    (b"glPolygonOffsetClampEXT", 743, crate::Address(glPolygonOffsetClampEXT as *const ())),
-    (b"glPolygonStipple", 744, crate::Address(glPolygonStipple as *const ())),
-    (b"glPopAttrib", 584, crate::Address(glPopAttrib as *const ())),
+    (b"glPassThrough", 728, crate::Address(glPassThrough as *const ())),
+    (b"glPixelMapfv", 740, crate::Address(glPixelMapfv as *const ())),
+    (b"glPixelMapuiv", 741, crate::Address(glPixelMapuiv as *const ())),
+    (b"glPixelMapusv", 742, crate::Address(glPixelMapusv as *const ())),
+    (b"glPixelTransferf", 743, crate::Address(glPixelTransferf as *const ())),
+    (b"glPixelTransferi", 744, crate::Address(glPixelTransferi as *const ())),
+    (b"glPixelZoom", 745, crate::Address(glPixelZoom as *const ())),
+    (b"glPointParameterf", 555, crate::Address(glPointParameterf as *const ())),
+    (b"glPointParameterfARB", 556, crate::Address(glPointParameterfARB as *const ())),
+    (b"glPointParameterfEXT", 557, crate::Address(glPointParameterfEXT as *const ())),
+    (b"glPointParameterfSGIS", 558, crate::Address(glPointParameterfSGIS as *const ())),
+    (b"glPointParameterfv", 559, crate::Address(glPointParameterfv as *const ())),
+    (b"glPointParameterfvARB", 560, crate::Address(glPointParameterfvARB as *const ())),
+    (b"glPointParameterfvEXT", 561, crate::Address(glPointParameterfvEXT as *const ())),
+    (b"glPointParameterfvSGIS", 562, crate::Address(glPointParameterfvSGIS as *const ())),
+    (b"glPointParameteri", 563, crate::Address(glPointParameteri as *const ())),
+    (b"glPointParameteriNV", 564, crate::Address(glPointParameteriNV as *const ())),
+    (b"glPointParameteriv", 565, crate::Address(glPointParameteriv as *const ())),
+    (b"glPointParameterivNV", 566, crate::Address(glPointParameterivNV as *const ())),
+    (b"glPointSize", 567, crate::Address(glPointSize as *const ())),
+    (b"glPolygonMode", 569, crate::Address(glPolygonMode as *const ())),
+    (b"glPolygonModeNV", 570, crate::Address(glPolygonModeNV as *const ())),
+    (b"glPolygonOffset", 746, crate::Address(glPolygonOffset as *const ())),
+    (b"glPolygonOffsetClamp", 747, crate::Address(glPolygonOffsetClamp as *const ())),
+    (b"glPolygonOffsetClampEXT", 748, crate::Address(glPolygonOffsetClampEXT as *const ())),
+    (b"glPolygonStipple", 749, crate::Address(glPolygonStipple as *const ())),
+    (b"glPopAttrib", 590, crate::Address(glPopAttrib as *const ())),
     (b"glPopMatrix", 479, crate::Address(glPopMatrix as *const ())),
-    (b"glPopName", 722, crate::Address(glPopName as *const ())),
-    (b"glPrimitiveRestartIndex", 759, crate::Address(glPrimitiveRestartIndex as *const ())),
-    (b"glPrioritizeTextures", 745, crate::Address(glPrioritizeTextures as *const ())),
-    (b"glPrioritizeTexturesEXT", 746, crate::Address(glPrioritizeTexturesEXT as *const ())),
-    (b"glProgramEnvParameter4dARB", 794, crate::Address(glProgramEnvParameter4dARB as *const ())),
-    (b"glProgramEnvParameter4dvARB", 795, crate::Address(glProgramEnvParameter4dvARB as *const ())),
-    (b"glProgramEnvParameter4fARB", 796, crate::Address(glProgramEnvParameter4fARB as *const ())),
-    (b"glProgramEnvParameter4fvARB", 797, crate::Address(glProgramEnvParameter4fvARB as *const ())),
-    (b"glProgramLocalParameter4dARB", 798, crate::Address(glProgramLocalParameter4dARB as *const ())),
-    (b"glProgramLocalParameter4dvARB", 799, crate::Address(glProgramLocalParameter4dvARB as *const ())),
-    (b"glProgramLocalParameter4fARB", 800, crate::Address(glProgramLocalParameter4fARB as *const ())),
-    (b"glProgramLocalParameter4fvARB", 801, crate::Address(glProgramLocalParameter4fvARB as *const ())),
-    (b"glProvokingVertex", 571, crate::Address(glProvokingVertex as *const ())),
-    (b"glProvokingVertexEXT", 572, crate::Address(glProvokingVertexEXT as *const ())),
-    (b"glPushAttrib", 583, crate::Address(glPushAttrib as *const ())),
+    (b"glPopName", 727, crate::Address(glPopName as *const ())),
+    (b"glPrimitiveRestartIndex", 764, crate::Address(glPrimitiveRestartIndex as *const ())),
+    (b"glPrioritizeTextures", 750, crate::Address(glPrioritizeTextures as *const ())),
+    (b"glPrioritizeTexturesEXT", 751, crate::Address(glPrioritizeTexturesEXT as *const ())),
+    (b"glProgramEnvParameter4dARB", 797, crate::Address(glProgramEnvParameter4dARB as *const ())),
+    (b"glProgramEnvParameter4dvARB", 798, crate::Address(glProgramEnvParameter4dvARB as *const ())),
+    (b"glProgramEnvParameter4fARB", 799, crate::Address(glProgramEnvParameter4fARB as *const ())),
+    (b"glProgramEnvParameter4fvARB", 800, crate::Address(glProgramEnvParameter4fvARB as *const ())),
+    (b"glProgramLocalParameter4dARB", 801, crate::Address(glProgramLocalParameter4dARB as *const ())),
+    (b"glProgramLocalParameter4dvARB", 802, crate::Address(glProgramLocalParameter4dvARB as *const ())),
+    (b"glProgramLocalParameter4fARB", 803, crate::Address(glProgramLocalParameter4fARB as *const ())),
+    (b"glProgramLocalParameter4fvARB", 804, crate::Address(glProgramLocalParameter4fvARB as *const ())),
+    (b"glProvokingVertex", 577, crate::Address(glProvokingVertex as *const ())),
+    (b"glProvokingVertexEXT", 578, crate::Address(glProvokingVertexEXT as *const ())),
+    (b"glPushAttrib", 589, crate::Address(glPushAttrib as *const ())),
     (b"glPushMatrix", 478, crate::Address(glPushMatrix as *const ())),
-    (b"glPushName", 721, crate::Address(glPushName as *const ())),
-    (b"glRasterPos2d", 585, crate::Address(glRasterPos2d as *const ())),
-    (b"glRasterPos2dv", 586, crate::Address(glRasterPos2dv as *const ())),
-    (b"glRasterPos2f", 587, crate::Address(glRasterPos2f as *const ())),
-    (b"glRasterPos2fv", 588, crate::Address(glRasterPos2fv as *const ())),
-    (b"glRasterPos2i", 589, crate::Address(glRasterPos2i as *const ())),
-    (b"glRasterPos2iv", 590, crate::Address(glRasterPos2iv as *const ())),
-    (b"glRasterPos2s", 591, crate::Address(glRasterPos2s as *const ())),
-    (b"glRasterPos2sv", 592, crate::Address(glRasterPos2sv as *const ())),
-    (b"glRasterPos3d", 593, crate::Address(glRasterPos3d as *const ())),
-    (b"glRasterPos3dv", 594, crate::Address(glRasterPos3dv as *const ())),
-    (b"glRasterPos3f", 595, crate::Address(glRasterPos3f as *const ())),
-    (b"glRasterPos3fv", 596, crate::Address(glRasterPos3fv as *const ())),
-    (b"glRasterPos3i", 597, crate::Address(glRasterPos3i as *const ())),
-    (b"glRasterPos3iv", 598, crate::Address(glRasterPos3iv as *const ())),
-    (b"glRasterPos3s", 599, crate::Address(glRasterPos3s as *const ())),
-    (b"glRasterPos3sv", 600, crate::Address(glRasterPos3sv as *const ())),
-    (b"glRasterPos4d", 601, crate::Address(glRasterPos4d as *const ())),
-    (b"glRasterPos4dv", 602, crate::Address(glRasterPos4dv as *const ())),
-    (b"glRasterPos4f", 603, crate::Address(glRasterPos4f as *const ())),
-    (b"glRasterPos4fv", 604, crate::Address(glRasterPos4fv as *const ())),
-    (b"glRasterPos4i", 605, crate::Address(glRasterPos4i as *const ())),
-    (b"glRasterPos4iv", 606, crate::Address(glRasterPos4iv as *const ())),
-    (b"glRasterPos4s", 607, crate::Address(glRasterPos4s as *const ())),
-    (b"glRasterPos4sv", 608, crate::Address(glRasterPos4sv as *const ())),
-    (b"glReadBuffer", 977, crate::Address(glReadBuffer as *const ())),
-    (b"glReadPixels", 1031, crate::Address(glReadPixels as *const ())),
-    (b"glReadnPixels", 1032, crate::Address(glReadnPixels as *const ())),
-    (b"glReadnPixelsARB", 1033, crate::Address(glReadnPixelsARB as *const ())),
-    (b"glReadnPixelsEXT", 1034, crate::Address(glReadnPixelsEXT as *const ())),
-    (b"glReadnPixelsKHR", 1035, crate::Address(glReadnPixelsKHR as *const ())),
-    (b"glRectd", 943, crate::Address(glRectd as *const ())),
-    (b"glRectdv", 944, crate::Address(glRectdv as *const ())),
-    (b"glRectf", 945, crate::Address(glRectf as *const ())),
-    (b"glRectfv", 946, crate::Address(glRectfv as *const ())),
-    (b"glRecti", 947, crate::Address(glRecti as *const ())),
-    (b"glRectiv", 948, crate::Address(glRectiv as *const ())),
-    (b"glRects", 949, crate::Address(glRects as *const ())),
-    (b"glRectsv", 950, crate::Address(glRectsv as *const ())),
-    (b"glRenderMode", 657, crate::Address(glRenderMode as *const ())),
+    (b"glPushName", 726, crate::Address(glPushName as *const ())),
+    (b"glRasterPos2d", 591, crate::Address(glRasterPos2d as *const ())),
+    (b"glRasterPos2dv", 592, crate::Address(glRasterPos2dv as *const ())),
+    (b"glRasterPos2f", 593, crate::Address(glRasterPos2f as *const ())),
+    (b"glRasterPos2fv", 594, crate::Address(glRasterPos2fv as *const ())),
+    (b"glRasterPos2i", 595, crate::Address(glRasterPos2i as *const ())),
+    (b"glRasterPos2iv", 596, crate::Address(glRasterPos2iv as *const ())),
+    (b"glRasterPos2s", 597, crate::Address(glRasterPos2s as *const ())),
+    (b"glRasterPos2sv", 598, crate::Address(glRasterPos2sv as *const ())),
+    (b"glRasterPos3d", 599, crate::Address(glRasterPos3d as *const ())),
+    (b"glRasterPos3dv", 600, crate::Address(glRasterPos3dv as *const ())),
+    (b"glRasterPos3f", 601, crate::Address(glRasterPos3f as *const ())),
+    (b"glRasterPos3fv", 602, crate::Address(glRasterPos3fv as *const ())),
+    (b"glRasterPos3i", 603, crate::Address(glRasterPos3i as *const ())),
+    (b"glRasterPos3iv", 604, crate::Address(glRasterPos3iv as *const ())),
+    (b"glRasterPos3s", 605, crate::Address(glRasterPos3s as *const ())),
+    (b"glRasterPos3sv", 606, crate::Address(glRasterPos3sv as *const ())),
+    (b"glRasterPos4d", 607, crate::Address(glRasterPos4d as *const ())),
+    (b"glRasterPos4dv", 608, crate::Address(glRasterPos4dv as *const ())),
+    (b"glRasterPos4f", 609, crate::Address(glRasterPos4f as *const ())),
+    (b"glRasterPos4fv", 610, crate::Address(glRasterPos4fv as *const ())),
+    (b"glRasterPos4i", 611, crate::Address(glRasterPos4i as *const ())),
+    (b"glRasterPos4iv", 612, crate::Address(glRasterPos4iv as *const ())),
+    (b"glRasterPos4s", 613, crate::Address(glRasterPos4s as *const ())),
+    (b"glRasterPos4sv", 614, crate::Address(glRasterPos4sv as *const ())),
+    (b"glReadBuffer", 980, crate::Address(glReadBuffer as *const ())),
+    (b"glReadPixels", 1034, crate::Address(glReadPixels as *const ())),
+    (b"glReadnPixels", 1035, crate::Address(glReadnPixels as *const ())),
+    (b"glReadnPixelsARB", 1036, crate::Address(glReadnPixelsARB as *const ())),
+    (b"glReadnPixelsEXT", 1037, crate::Address(glReadnPixelsEXT as *const ())),
+    (b"glReadnPixelsKHR", 1038, crate::Address(glReadnPixelsKHR as *const ())),
+    (b"glRectd", 946, crate::Address(glRectd as *const ())),
+    (b"glRectdv", 947, crate::Address(glRectdv as *const ())),
+    (b"glRectf", 948, crate::Address(glRectf as *const ())),
+    (b"glRectfv", 949, crate::Address(glRectfv as *const ())),
+    (b"glRecti", 950, crate::Address(glRecti as *const ())),
+    (b"glRectiv", 951, crate::Address(glRectiv as *const ())),
+    (b"glRects", 952, crate::Address(glRects as *const ())),
+    (b"glRectsv", 953, crate::Address(glRectsv as *const ())),
+    (b"glRenderMode", 663, crate::Address(glRenderMode as *const ())),
     (b"glRotated", 470, crate::Address(glRotated as *const ())),
     (b"glRotatef", 471, crate::Address(glRotatef as *const ())),
-    (b"glSampleCoverage", 747, crate::Address(glSampleCoverage as *const ())),
-    (b"glSampleCoverageARB", 748, crate::Address(glSampleCoverageARB as *const ())),
+    (b"glSampleCoverage", 752, crate::Address(glSampleCoverage as *const ())),
+    (b"glSampleCoverageARB", 753, crate::Address(glSampleCoverageARB as *const ())),
     (b"glScaled", 472, crate::Address(glScaled as *const ())),
     (b"glScalef", 473, crate::Address(glScalef as *const ())),
     (b"glScissor", 499, crate::Address(glScissor as *const ())),
@@ -2981,14 +2990,14 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1097] = [
     (b"glSecondaryColor3usvEXT", 221, crate::Address(glSecondaryColor3usvEXT as *const ())),
     (b"glSecondaryColorP3ui", 444, crate::Address(glSecondaryColorP3ui as *const ())),
     (b"glSecondaryColorP3uiv", 445, crate::Address(glSecondaryColorP3uiv as *const ())),
-    (b"glShadeModel", 562, crate::Address(glShadeModel as *const ())),
-    (b"glStencilFunc", 752, crate::Address(glStencilFunc as *const ())),
-    (b"glStencilFuncSeparate", 753, crate::Address(glStencilFuncSeparate as *const ())),
-    (b"glStencilMask", 754, crate::Address(glStencilMask as *const ())),
-    (b"glStencilMaskSeparate", 755, crate::Address(glStencilMaskSeparate as *const ())),
-    (b"glStencilOp", 756, crate::Address(glStencilOp as *const ())),
-    (b"glStencilOpSeparate", 757, crate::Address(glStencilOpSeparate as *const ())),
-    (b"glStencilOpSeparateATI", 758, crate::Address(glStencilOpSeparateATI as *const ())),
+    (b"glShadeModel", 568, crate::Address(glShadeModel as *const ())),
+    (b"glStencilFunc", 757, crate::Address(glStencilFunc as *const ())),
+    (b"glStencilFuncSeparate", 758, crate::Address(glStencilFuncSeparate as *const ())),
+    (b"glStencilMask", 759, crate::Address(glStencilMask as *const ())),
+    (b"glStencilMaskSeparate", 760, crate::Address(glStencilMaskSeparate as *const ())),
+    (b"glStencilOp", 761, crate::Address(glStencilOp as *const ())),
+    (b"glStencilOpSeparate", 762, crate::Address(glStencilOpSeparate as *const ())),
+    (b"glStencilOpSeparateATI", 763, crate::Address(glStencilOpSeparateATI as *const ())),
     (b"glTexCoord1d", 78, crate::Address(glTexCoord1d as *const ())),
     (b"glTexCoord1dv", 79, crate::Address(glTexCoord1dv as *const ())),
     (b"glTexCoord1f", 80, crate::Address(glTexCoord1f as *const ())),
@@ -3037,124 +3046,124 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1097] = [
     (b"glTexCoordP3uiv", 429, crate::Address(glTexCoordP3uiv as *const ())),
     (b"glTexCoordP4ui", 430, crate::Address(glTexCoordP4ui as *const ())),
     (b"glTexCoordP4uiv", 431, crate::Address(glTexCoordP4uiv as *const ())),
-    (b"glTexEnvf", 565, crate::Address(glTexEnvf as *const ())),
-    (b"glTexEnvfv", 566, crate::Address(glTexEnvfv as *const ())),
-    (b"glTexEnvi", 567, crate::Address(glTexEnvi as *const ())),
-    (b"glTexEnviv", 568, crate::Address(glTexEnviv as *const ())),
-    (b"glTexGend", 539, crate::Address(glTexGend as *const ())),
-    (b"glTexGendv", 540, crate::Address(glTexGendv as *const ())),
-    (b"glTexGenf", 541, crate::Address(glTexGenf as *const ())),
-    (b"glTexGenfv", 542, crate::Address(glTexGenfv as *const ())),
-    (b"glTexGeni", 543, crate::Address(glTexGeni as *const ())),
-    (b"glTexGeniv", 544, crate::Address(glTexGeniv as *const ())),
-    (b"glTexImage1D", 760, crate::Address(glTexImage1D as *const ())),
-    (b"glTexImage2D", 761, crate::Address(glTexImage2D as *const ())),
-    (b"glTexImage3D", 762, crate::Address(glTexImage3D as *const ())),
-    (b"glTexImage3DEXT", 763, crate::Address(glTexImage3DEXT as *const ())),
-    (b"glTexParameterIiv", 786, crate::Address(glTexParameterIiv as *const ())),
-    (b"glTexParameterIivEXT", 787, crate::Address(glTexParameterIivEXT as *const ())),
-    (b"glTexParameterIivOES", 788, crate::Address(glTexParameterIivOES as *const ())),
-    (b"glTexParameterIuiv", 789, crate::Address(glTexParameterIuiv as *const ())),
-    (b"glTexParameterIuivEXT", 790, crate::Address(glTexParameterIuivEXT as *const ())),
-    (b"glTexParameterIuivOES", 791, crate::Address(glTexParameterIuivOES as *const ())),
-    (b"glTexParameterf", 782, crate::Address(glTexParameterf as *const ())),
-    (b"glTexParameterfv", 783, crate::Address(glTexParameterfv as *const ())),
-    (b"glTexParameteri", 784, crate::Address(glTexParameteri as *const ())),
-    (b"glTexParameteriv", 785, crate::Address(glTexParameteriv as *const ())),
-    (b"glTexSubImage1D", 764, crate::Address(glTexSubImage1D as *const ())),
-    (b"glTexSubImage1DEXT", 765, crate::Address(glTexSubImage1DEXT as *const ())),
-    (b"glTexSubImage2D", 766, crate::Address(glTexSubImage2D as *const ())),
-    (b"glTexSubImage2DEXT", 767, crate::Address(glTexSubImage2DEXT as *const ())),
-    (b"glTexSubImage3D", 768, crate::Address(glTexSubImage3D as *const ())),
-    (b"glTexSubImage3DEXT", 769, crate::Address(glTexSubImage3DEXT as *const ())),
+    (b"glTexEnvf", 571, crate::Address(glTexEnvf as *const ())),
+    (b"glTexEnvfv", 572, crate::Address(glTexEnvfv as *const ())),
+    (b"glTexEnvi", 573, crate::Address(glTexEnvi as *const ())),
+    (b"glTexEnviv", 574, crate::Address(glTexEnviv as *const ())),
+    (b"glTexGend", 545, crate::Address(glTexGend as *const ())),
+    (b"glTexGendv", 546, crate::Address(glTexGendv as *const ())),
+    (b"glTexGenf", 547, crate::Address(glTexGenf as *const ())),
+    (b"glTexGenfv", 548, crate::Address(glTexGenfv as *const ())),
+    (b"glTexGeni", 549, crate::Address(glTexGeni as *const ())),
+    (b"glTexGeniv", 550, crate::Address(glTexGeniv as *const ())),
+    (b"glTexImage1D", 765, crate::Address(glTexImage1D as *const ())),
+    (b"glTexImage2D", 766, crate::Address(glTexImage2D as *const ())),
+    (b"glTexImage3D", 767, crate::Address(glTexImage3D as *const ())),
+    (b"glTexImage3DEXT", 768, crate::Address(glTexImage3DEXT as *const ())),
+    (b"glTexParameterIiv", 791, crate::Address(glTexParameterIiv as *const ())),
+    (b"glTexParameterIivEXT", 792, crate::Address(glTexParameterIivEXT as *const ())),
+    (b"glTexParameterIivOES", 793, crate::Address(glTexParameterIivOES as *const ())),
+    (b"glTexParameterIuiv", 794, crate::Address(glTexParameterIuiv as *const ())),
+    (b"glTexParameterIuivEXT", 795, crate::Address(glTexParameterIuivEXT as *const ())),
+    (b"glTexParameterIuivOES", 796, crate::Address(glTexParameterIuivOES as *const ())),
+    (b"glTexParameterf", 787, crate::Address(glTexParameterf as *const ())),
+    (b"glTexParameterfv", 788, crate::Address(glTexParameterfv as *const ())),
+    (b"glTexParameteri", 789, crate::Address(glTexParameteri as *const ())),
+    (b"glTexParameteriv", 790, crate::Address(glTexParameteriv as *const ())),
+    (b"glTexSubImage1D", 769, crate::Address(glTexSubImage1D as *const ())),
+    (b"glTexSubImage1DEXT", 770, crate::Address(glTexSubImage1DEXT as *const ())),
+    (b"glTexSubImage2D", 771, crate::Address(glTexSubImage2D as *const ())),
+    (b"glTexSubImage2DEXT", 772, crate::Address(glTexSubImage2DEXT as *const ())),
+    (b"glTexSubImage3D", 773, crate::Address(glTexSubImage3D as *const ())),
+    (b"glTexSubImage3DEXT", 774, crate::Address(glTexSubImage3DEXT as *const ())),
     (b"glTranslated", 474, crate::Address(glTranslated as *const ())),
     (b"glTranslatef", 475, crate::Address(glTranslatef as *const ())),
-    (b"glUniform1d", 802, crate::Address(glUniform1d as *const ())),
-    (b"glUniform1dv", 803, crate::Address(glUniform1dv as *const ())),
-    (b"glUniform1f", 804, crate::Address(glUniform1f as *const ())),
-    (b"glUniform1fARB", 805, crate::Address(glUniform1fARB as *const ())),
-    (b"glUniform1fv", 806, crate::Address(glUniform1fv as *const ())),
-    (b"glUniform1fvARB", 807, crate::Address(glUniform1fvARB as *const ())),
-    (b"glUniform1i", 808, crate::Address(glUniform1i as *const ())),
-    (b"glUniform1iARB", 809, crate::Address(glUniform1iARB as *const ())),
-    (b"glUniform1iv", 810, crate::Address(glUniform1iv as *const ())),
-    (b"glUniform1ivARB", 811, crate::Address(glUniform1ivARB as *const ())),
-    (b"glUniform1ui", 812, crate::Address(glUniform1ui as *const ())),
-    (b"glUniform1uiEXT", 813, crate::Address(glUniform1uiEXT as *const ())),
-    (b"glUniform1uiv", 814, crate::Address(glUniform1uiv as *const ())),
-    (b"glUniform1uivEXT", 815, crate::Address(glUniform1uivEXT as *const ())),
-    (b"glUniform2d", 816, crate::Address(glUniform2d as *const ())),
-    (b"glUniform2dv", 817, crate::Address(glUniform2dv as *const ())),
-    (b"glUniform2f", 818, crate::Address(glUniform2f as *const ())),
-    (b"glUniform2fARB", 819, crate::Address(glUniform2fARB as *const ())),
-    (b"glUniform2fv", 820, crate::Address(glUniform2fv as *const ())),
-    (b"glUniform2fvARB", 821, crate::Address(glUniform2fvARB as *const ())),
-    (b"glUniform2i", 822, crate::Address(glUniform2i as *const ())),
-    (b"glUniform2iARB", 823, crate::Address(glUniform2iARB as *const ())),
-    (b"glUniform2iv", 824, crate::Address(glUniform2iv as *const ())),
-    (b"glUniform2ivARB", 825, crate::Address(glUniform2ivARB as *const ())),
-    (b"glUniform2ui", 826, crate::Address(glUniform2ui as *const ())),
-    (b"glUniform2uiEXT", 827, crate::Address(glUniform2uiEXT as *const ())),
-    (b"glUniform2uiv", 828, crate::Address(glUniform2uiv as *const ())),
-    (b"glUniform2uivEXT", 829, crate::Address(glUniform2uivEXT as *const ())),
-    (b"glUniform3d", 830, crate::Address(glUniform3d as *const ())),
-    (b"glUniform3dv", 831, crate::Address(glUniform3dv as *const ())),
-    (b"glUniform3f", 832, crate::Address(glUniform3f as *const ())),
-    (b"glUniform3fARB", 833, crate::Address(glUniform3fARB as *const ())),
-    (b"glUniform3fv", 834, crate::Address(glUniform3fv as *const ())),
-    (b"glUniform3fvARB", 835, crate::Address(glUniform3fvARB as *const ())),
-    (b"glUniform3i", 836, crate::Address(glUniform3i as *const ())),
-    (b"glUniform3iARB", 837, crate::Address(glUniform3iARB as *const ())),
-    (b"glUniform3iv", 838, crate::Address(glUniform3iv as *const ())),
-    (b"glUniform3ivARB", 839, crate::Address(glUniform3ivARB as *const ())),
-    (b"glUniform3ui", 840, crate::Address(glUniform3ui as *const ())),
-    (b"glUniform3uiEXT", 841, crate::Address(glUniform3uiEXT as *const ())),
-    (b"glUniform3uiv", 842, crate::Address(glUniform3uiv as *const ())),
-    (b"glUniform3uivEXT", 843, crate::Address(glUniform3uivEXT as *const ())),
-    (b"glUniform4d", 844, crate::Address(glUniform4d as *const ())),
-    (b"glUniform4dv", 845, crate::Address(glUniform4dv as *const ())),
-    (b"glUniform4f", 846, crate::Address(glUniform4f as *const ())),
-    (b"glUniform4fARB", 847, crate::Address(glUniform4fARB as *const ())),
-    (b"glUniform4fv", 848, crate::Address(glUniform4fv as *const ())),
-    (b"glUniform4fvARB", 849, crate::Address(glUniform4fvARB as *const ())),
-    (b"glUniform4i", 850, crate::Address(glUniform4i as *const ())),
-    (b"glUniform4iARB", 851, crate::Address(glUniform4iARB as *const ())),
-    (b"glUniform4iv", 852, crate::Address(glUniform4iv as *const ())),
-    (b"glUniform4ivARB", 853, crate::Address(glUniform4ivARB as *const ())),
-    (b"glUniform4ui", 854, crate::Address(glUniform4ui as *const ())),
-    (b"glUniform4uiEXT", 855, crate::Address(glUniform4uiEXT as *const ())),
-    (b"glUniform4uiv", 856, crate::Address(glUniform4uiv as *const ())),
-    (b"glUniform4uivEXT", 857, crate::Address(glUniform4uivEXT as *const ())),
-    (b"glUniformMatrix2dv", 858, crate::Address(glUniformMatrix2dv as *const ())),
-    (b"glUniformMatrix2fv", 859, crate::Address(glUniformMatrix2fv as *const ())),
-    (b"glUniformMatrix2fvARB", 860, crate::Address(glUniformMatrix2fvARB as *const ())),
-    (b"glUniformMatrix2x3dv", 861, crate::Address(glUniformMatrix2x3dv as *const ())),
-    (b"glUniformMatrix2x3fv", 862, crate::Address(glUniformMatrix2x3fv as *const ())),
-    (b"glUniformMatrix2x3fvNV", 863, crate::Address(glUniformMatrix2x3fvNV as *const ())),
-    (b"glUniformMatrix2x4dv", 864, crate::Address(glUniformMatrix2x4dv as *const ())),
-    (b"glUniformMatrix2x4fv", 865, crate::Address(glUniformMatrix2x4fv as *const ())),
-    (b"glUniformMatrix2x4fvNV", 866, crate::Address(glUniformMatrix2x4fvNV as *const ())),
-    (b"glUniformMatrix3dv", 867, crate::Address(glUniformMatrix3dv as *const ())),
-    (b"glUniformMatrix3fv", 868, crate::Address(glUniformMatrix3fv as *const ())),
-    (b"glUniformMatrix3fvARB", 869, crate::Address(glUniformMatrix3fvARB as *const ())),
-    (b"glUniformMatrix3x2dv", 870, crate::Address(glUniformMatrix3x2dv as *const ())),
-    (b"glUniformMatrix3x2fv", 871, crate::Address(glUniformMatrix3x2fv as *const ())),
-    (b"glUniformMatrix3x2fvNV", 872, crate::Address(glUniformMatrix3x2fvNV as *const ())),
-    (b"glUniformMatrix3x4dv", 873, crate::Address(glUniformMatrix3x4dv as *const ())),
-    (b"glUniformMatrix3x4fv", 874, crate::Address(glUniformMatrix3x4fv as *const ())),
-    (b"glUniformMatrix3x4fvNV", 875, crate::Address(glUniformMatrix3x4fvNV as *const ())),
-    (b"glUniformMatrix4dv", 876, crate::Address(glUniformMatrix4dv as *const ())),
-    (b"glUniformMatrix4fv", 877, crate::Address(glUniformMatrix4fv as *const ())),
-    (b"glUniformMatrix4fvARB", 878, crate::Address(glUniformMatrix4fvARB as *const ())),
-    (b"glUniformMatrix4x2dv", 879, crate::Address(glUniformMatrix4x2dv as *const ())),
-    (b"glUniformMatrix4x2fv", 880, crate::Address(glUniformMatrix4x2fv as *const ())),
-    (b"glUniformMatrix4x2fvNV", 881, crate::Address(glUniformMatrix4x2fvNV as *const ())),
-    (b"glUniformMatrix4x3dv", 882, crate::Address(glUniformMatrix4x3dv as *const ())),
-    (b"glUniformMatrix4x3fv", 883, crate::Address(glUniformMatrix4x3fv as *const ())),
-    (b"glUniformMatrix4x3fvNV", 884, crate::Address(glUniformMatrix4x3fvNV as *const ())),
-    (b"glUseProgram", 580, crate::Address(glUseProgram as *const ())),
-    (b"glUseProgramObjectARB", 581, crate::Address(glUseProgramObjectARB as *const ())),
-    (b"glUseProgramStages", 577, crate::Address(glUseProgramStages as *const ())),
+    (b"glUniform1d", 805, crate::Address(glUniform1d as *const ())),
+    (b"glUniform1dv", 806, crate::Address(glUniform1dv as *const ())),
+    (b"glUniform1f", 807, crate::Address(glUniform1f as *const ())),
+    (b"glUniform1fARB", 808, crate::Address(glUniform1fARB as *const ())),
+    (b"glUniform1fv", 809, crate::Address(glUniform1fv as *const ())),
+    (b"glUniform1fvARB", 810, crate::Address(glUniform1fvARB as *const ())),
+    (b"glUniform1i", 811, crate::Address(glUniform1i as *const ())),
+    (b"glUniform1iARB", 812, crate::Address(glUniform1iARB as *const ())),
+    (b"glUniform1iv", 813, crate::Address(glUniform1iv as *const ())),
+    (b"glUniform1ivARB", 814, crate::Address(glUniform1ivARB as *const ())),
+    (b"glUniform1ui", 815, crate::Address(glUniform1ui as *const ())),
+    (b"glUniform1uiEXT", 816, crate::Address(glUniform1uiEXT as *const ())),
+    (b"glUniform1uiv", 817, crate::Address(glUniform1uiv as *const ())),
+    (b"glUniform1uivEXT", 818, crate::Address(glUniform1uivEXT as *const ())),
+    (b"glUniform2d", 819, crate::Address(glUniform2d as *const ())),
+    (b"glUniform2dv", 820, crate::Address(glUniform2dv as *const ())),
+    (b"glUniform2f", 821, crate::Address(glUniform2f as *const ())),
+    (b"glUniform2fARB", 822, crate::Address(glUniform2fARB as *const ())),
+    (b"glUniform2fv", 823, crate::Address(glUniform2fv as *const ())),
+    (b"glUniform2fvARB", 824, crate::Address(glUniform2fvARB as *const ())),
+    (b"glUniform2i", 825, crate::Address(glUniform2i as *const ())),
+    (b"glUniform2iARB", 826, crate::Address(glUniform2iARB as *const ())),
+    (b"glUniform2iv", 827, crate::Address(glUniform2iv as *const ())),
+    (b"glUniform2ivARB", 828, crate::Address(glUniform2ivARB as *const ())),
+    (b"glUniform2ui", 829, crate::Address(glUniform2ui as *const ())),
+    (b"glUniform2uiEXT", 830, crate::Address(glUniform2uiEXT as *const ())),
+    (b"glUniform2uiv", 831, crate::Address(glUniform2uiv as *const ())),
+    (b"glUniform2uivEXT", 832, crate::Address(glUniform2uivEXT as *const ())),
+    (b"glUniform3d", 833, crate::Address(glUniform3d as *const ())),
+    (b"glUniform3dv", 834, crate::Address(glUniform3dv as *const ())),
+    (b"glUniform3f", 835, crate::Address(glUniform3f as *const ())),
+    (b"glUniform3fARB", 836, crate::Address(glUniform3fARB as *const ())),
+    (b"glUniform3fv", 837, crate::Address(glUniform3fv as *const ())),
+    (b"glUniform3fvARB", 838, crate::Address(glUniform3fvARB as *const ())),
+    (b"glUniform3i", 839, crate::Address(glUniform3i as *const ())),
+    (b"glUniform3iARB", 840, crate::Address(glUniform3iARB as *const ())),
+    (b"glUniform3iv", 841, crate::Address(glUniform3iv as *const ())),
+    (b"glUniform3ivARB", 842, crate::Address(glUniform3ivARB as *const ())),
+    (b"glUniform3ui", 843, crate::Address(glUniform3ui as *const ())),
+    (b"glUniform3uiEXT", 844, crate::Address(glUniform3uiEXT as *const ())),
+    (b"glUniform3uiv", 845, crate::Address(glUniform3uiv as *const ())),
+    (b"glUniform3uivEXT", 846, crate::Address(glUniform3uivEXT as *const ())),
+    (b"glUniform4d", 847, crate::Address(glUniform4d as *const ())),
+    (b"glUniform4dv", 848, crate::Address(glUniform4dv as *const ())),
+    (b"glUniform4f", 849, crate::Address(glUniform4f as *const ())),
+    (b"glUniform4fARB", 850, crate::Address(glUniform4fARB as *const ())),
+    (b"glUniform4fv", 851, crate::Address(glUniform4fv as *const ())),
+    (b"glUniform4fvARB", 852, crate::Address(glUniform4fvARB as *const ())),
+    (b"glUniform4i", 853, crate::Address(glUniform4i as *const ())),
+    (b"glUniform4iARB", 854, crate::Address(glUniform4iARB as *const ())),
+    (b"glUniform4iv", 855, crate::Address(glUniform4iv as *const ())),
+    (b"glUniform4ivARB", 856, crate::Address(glUniform4ivARB as *const ())),
+    (b"glUniform4ui", 857, crate::Address(glUniform4ui as *const ())),
+    (b"glUniform4uiEXT", 858, crate::Address(glUniform4uiEXT as *const ())),
+    (b"glUniform4uiv", 859, crate::Address(glUniform4uiv as *const ())),
+    (b"glUniform4uivEXT", 860, crate::Address(glUniform4uivEXT as *const ())),
+    (b"glUniformMatrix2dv", 861, crate::Address(glUniformMatrix2dv as *const ())),
+    (b"glUniformMatrix2fv", 862, crate::Address(glUniformMatrix2fv as *const ())),
+    (b"glUniformMatrix2fvARB", 863, crate::Address(glUniformMatrix2fvARB as *const ())),
+    (b"glUniformMatrix2x3dv", 864, crate::Address(glUniformMatrix2x3dv as *const ())),
+    (b"glUniformMatrix2x3fv", 865, crate::Address(glUniformMatrix2x3fv as *const ())),
+    (b"glUniformMatrix2x3fvNV", 866, crate::Address(glUniformMatrix2x3fvNV as *const ())),
+    (b"glUniformMatrix2x4dv", 867, crate::Address(glUniformMatrix2x4dv as *const ())),
+    (b"glUniformMatrix2x4fv", 868, crate::Address(glUniformMatrix2x4fv as *const ())),
+    (b"glUniformMatrix2x4fvNV", 869, crate::Address(glUniformMatrix2x4fvNV as *const ())),
+    (b"glUniformMatrix3dv", 870, crate::Address(glUniformMatrix3dv as *const ())),
+    (b"glUniformMatrix3fv", 871, crate::Address(glUniformMatrix3fv as *const ())),
+    (b"glUniformMatrix3fvARB", 872, crate::Address(glUniformMatrix3fvARB as *const ())),
+    (b"glUniformMatrix3x2dv", 873, crate::Address(glUniformMatrix3x2dv as *const ())),
+    (b"glUniformMatrix3x2fv", 874, crate::Address(glUniformMatrix3x2fv as *const ())),
+    (b"glUniformMatrix3x2fvNV", 875, crate::Address(glUniformMatrix3x2fvNV as *const ())),
+    (b"glUniformMatrix3x4dv", 876, crate::Address(glUniformMatrix3x4dv as *const ())),
+    (b"glUniformMatrix3x4fv", 877, crate::Address(glUniformMatrix3x4fv as *const ())),
+    (b"glUniformMatrix3x4fvNV", 878, crate::Address(glUniformMatrix3x4fvNV as *const ())),
+    (b"glUniformMatrix4dv", 879, crate::Address(glUniformMatrix4dv as *const ())),
+    (b"glUniformMatrix4fv", 880, crate::Address(glUniformMatrix4fv as *const ())),
+    (b"glUniformMatrix4fvARB", 881, crate::Address(glUniformMatrix4fvARB as *const ())),
+    (b"glUniformMatrix4x2dv", 882, crate::Address(glUniformMatrix4x2dv as *const ())),
+    (b"glUniformMatrix4x2fv", 883, crate::Address(glUniformMatrix4x2fv as *const ())),
+    (b"glUniformMatrix4x2fvNV", 884, crate::Address(glUniformMatrix4x2fvNV as *const ())),
+    (b"glUniformMatrix4x3dv", 885, crate::Address(glUniformMatrix4x3dv as *const ())),
+    (b"glUniformMatrix4x3fv", 886, crate::Address(glUniformMatrix4x3fv as *const ())),
+    (b"glUniformMatrix4x3fvNV", 887, crate::Address(glUniformMatrix4x3fvNV as *const ())),
+    (b"glUseProgram", 586, crate::Address(glUseProgram as *const ())),
+    (b"glUseProgramObjectARB", 587, crate::Address(glUseProgramObjectARB as *const ())),
+    (b"glUseProgramStages", 583, crate::Address(glUseProgramStages as *const ())),
     (b"glVertex2d", 0, crate::Address(glVertex2d as *const ())),
     (b"glVertex2dv", 1, crate::Address(glVertex2dv as *const ())),
     (b"glVertex2f", 2, crate::Address(glVertex2f as *const ())),
@@ -3363,66 +3372,66 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1097] = [
     (b"glViewportIndexedfv", 515, crate::Address(glViewportIndexedfv as *const ())),
     (b"glViewportIndexedfvNV", 516, crate::Address(glViewportIndexedfvNV as *const ())),
     (b"glViewportIndexedfvOES", 517, crate::Address(glViewportIndexedfvOES as *const ())),
-    (b"glWindowPos2d", 609, crate::Address(glWindowPos2d as *const ())),
-    (b"glWindowPos2dARB", 610, crate::Address(glWindowPos2dARB as *const ())),
-    (b"glWindowPos2dMESA", 611, crate::Address(glWindowPos2dMESA as *const ())),
-    (b"glWindowPos2dv", 612, crate::Address(glWindowPos2dv as *const ())),
-    (b"glWindowPos2dvARB", 613, crate::Address(glWindowPos2dvARB as *const ())),
-    (b"glWindowPos2dvMESA", 614, crate::Address(glWindowPos2dvMESA as *const ())),
-    (b"glWindowPos2f", 615, crate::Address(glWindowPos2f as *const ())),
-    (b"glWindowPos2fARB", 616, crate::Address(glWindowPos2fARB as *const ())),
-    (b"glWindowPos2fMESA", 617, crate::Address(glWindowPos2fMESA as *const ())),
-    (b"glWindowPos2fv", 618, crate::Address(glWindowPos2fv as *const ())),
-    (b"glWindowPos2fvARB", 619, crate::Address(glWindowPos2fvARB as *const ())),
-    (b"glWindowPos2fvMESA", 620, crate::Address(glWindowPos2fvMESA as *const ())),
-    (b"glWindowPos2i", 621, crate::Address(glWindowPos2i as *const ())),
-    (b"glWindowPos2iARB", 622, crate::Address(glWindowPos2iARB as *const ())),
-    (b"glWindowPos2iMESA", 623, crate::Address(glWindowPos2iMESA as *const ())),
-    (b"glWindowPos2iv", 624, crate::Address(glWindowPos2iv as *const ())),
-    (b"glWindowPos2ivARB", 625, crate::Address(glWindowPos2ivARB as *const ())),
-    (b"glWindowPos2ivMESA", 626, crate::Address(glWindowPos2ivMESA as *const ())),
-    (b"glWindowPos2s", 627, crate::Address(glWindowPos2s as *const ())),
-    (b"glWindowPos2sARB", 628, crate::Address(glWindowPos2sARB as *const ())),
-    (b"glWindowPos2sMESA", 629, crate::Address(glWindowPos2sMESA as *const ())),
-    (b"glWindowPos2sv", 630, crate::Address(glWindowPos2sv as *const ())),
-    (b"glWindowPos2svARB", 631, crate::Address(glWindowPos2svARB as *const ())),
-    (b"glWindowPos2svMESA", 632, crate::Address(glWindowPos2svMESA as *const ())),
-    (b"glWindowPos3d", 633, crate::Address(glWindowPos3d as *const ())),
-    (b"glWindowPos3dARB", 634, crate::Address(glWindowPos3dARB as *const ())),
-    (b"glWindowPos3dMESA", 635, crate::Address(glWindowPos3dMESA as *const ())),
-    (b"glWindowPos3dv", 636, crate::Address(glWindowPos3dv as *const ())),
-    (b"glWindowPos3dvARB", 637, crate::Address(glWindowPos3dvARB as *const ())),
-    (b"glWindowPos3dvMESA", 638, crate::Address(glWindowPos3dvMESA as *const ())),
-    (b"glWindowPos3f", 639, crate::Address(glWindowPos3f as *const ())),
-    (b"glWindowPos3fARB", 640, crate::Address(glWindowPos3fARB as *const ())),
-    (b"glWindowPos3fMESA", 641, crate::Address(glWindowPos3fMESA as *const ())),
-    (b"glWindowPos3fv", 642, crate::Address(glWindowPos3fv as *const ())),
-    (b"glWindowPos3fvARB", 643, crate::Address(glWindowPos3fvARB as *const ())),
-    (b"glWindowPos3fvMESA", 644, crate::Address(glWindowPos3fvMESA as *const ())),
-    (b"glWindowPos3i", 645, crate::Address(glWindowPos3i as *const ())),
-    (b"glWindowPos3iARB", 646, crate::Address(glWindowPos3iARB as *const ())),
-    (b"glWindowPos3iMESA", 647, crate::Address(glWindowPos3iMESA as *const ())),
-    (b"glWindowPos3iv", 648, crate::Address(glWindowPos3iv as *const ())),
-    (b"glWindowPos3ivARB", 649, crate::Address(glWindowPos3ivARB as *const ())),
-    (b"glWindowPos3ivMESA", 650, crate::Address(glWindowPos3ivMESA as *const ())),
-    (b"glWindowPos3s", 651, crate::Address(glWindowPos3s as *const ())),
-    (b"glWindowPos3sARB", 652, crate::Address(glWindowPos3sARB as *const ())),
-    (b"glWindowPos3sMESA", 653, crate::Address(glWindowPos3sMESA as *const ())),
-    (b"glWindowPos3sv", 654, crate::Address(glWindowPos3sv as *const ())),
-    (b"glWindowPos3svARB", 655, crate::Address(glWindowPos3svARB as *const ())),
-    (b"glWindowPos3svMESA", 656, crate::Address(glWindowPos3svMESA as *const ())),
-    (b"glXCreateContext", 1076, crate::Address(glXCreateContext as *const ())),
-    (b"glXCreateContextAttribsARB", 1078, crate::Address(glXCreateContextAttribsARB as *const ())),
-    (b"glXCreateContextWithConfigSGIX", 1079, crate::Address(glXCreateContextWithConfigSGIX as *const ())),
-    (b"glXCreateNewContext", 1077, crate::Address(glXCreateNewContext as *const ())),
-    (b"glXDestroyContext", 1080, crate::Address(glXDestroyContext as *const ())),
-    (b"glXGetProcAddress", 1081, crate::Address(glXGetProcAddress as *const ())),
-    (b"glXGetProcAddressARB", 1082, crate::Address(glXGetProcAddressARB as *const ())),
-    (b"glXMakeContextCurrent", 1074, crate::Address(glXMakeContextCurrent as *const ())),
-    (b"glXMakeCurrent", 1073, crate::Address(glXMakeCurrent as *const ())),
-    (b"glXMakeCurrentReadSGI", 1075, crate::Address(glXMakeCurrentReadSGI as *const ())),
-    (b"glXSwapBuffers", 1071, crate::Address(glXSwapBuffers as *const ())),
-    (b"glXSwapBuffersMscOML", 1072, crate::Address(glXSwapBuffersMscOML as *const ())),
+    (b"glWindowPos2d", 615, crate::Address(glWindowPos2d as *const ())),
+    (b"glWindowPos2dARB", 616, crate::Address(glWindowPos2dARB as *const ())),
+    (b"glWindowPos2dMESA", 617, crate::Address(glWindowPos2dMESA as *const ())),
+    (b"glWindowPos2dv", 618, crate::Address(glWindowPos2dv as *const ())),
+    (b"glWindowPos2dvARB", 619, crate::Address(glWindowPos2dvARB as *const ())),
+    (b"glWindowPos2dvMESA", 620, crate::Address(glWindowPos2dvMESA as *const ())),
+    (b"glWindowPos2f", 621, crate::Address(glWindowPos2f as *const ())),
+    (b"glWindowPos2fARB", 622, crate::Address(glWindowPos2fARB as *const ())),
+    (b"glWindowPos2fMESA", 623, crate::Address(glWindowPos2fMESA as *const ())),
+    (b"glWindowPos2fv", 624, crate::Address(glWindowPos2fv as *const ())),
+    (b"glWindowPos2fvARB", 625, crate::Address(glWindowPos2fvARB as *const ())),
+    (b"glWindowPos2fvMESA", 626, crate::Address(glWindowPos2fvMESA as *const ())),
+    (b"glWindowPos2i", 627, crate::Address(glWindowPos2i as *const ())),
+    (b"glWindowPos2iARB", 628, crate::Address(glWindowPos2iARB as *const ())),
+    (b"glWindowPos2iMESA", 629, crate::Address(glWindowPos2iMESA as *const ())),
+    (b"glWindowPos2iv", 630, crate::Address(glWindowPos2iv as *const ())),
+    (b"glWindowPos2ivARB", 631, crate::Address(glWindowPos2ivARB as *const ())),
+    (b"glWindowPos2ivMESA", 632, crate::Address(glWindowPos2ivMESA as *const ())),
+    (b"glWindowPos2s", 633, crate::Address(glWindowPos2s as *const ())),
+    (b"glWindowPos2sARB", 634, crate::Address(glWindowPos2sARB as *const ())),
+    (b"glWindowPos2sMESA", 635, crate::Address(glWindowPos2sMESA as *const ())),
+    (b"glWindowPos2sv", 636, crate::Address(glWindowPos2sv as *const ())),
+    (b"glWindowPos2svARB", 637, crate::Address(glWindowPos2svARB as *const ())),
+    (b"glWindowPos2svMESA", 638, crate::Address(glWindowPos2svMESA as *const ())),
+    (b"glWindowPos3d", 639, crate::Address(glWindowPos3d as *const ())),
+    (b"glWindowPos3dARB", 640, crate::Address(glWindowPos3dARB as *const ())),
+    (b"glWindowPos3dMESA", 641, crate::Address(glWindowPos3dMESA as *const ())),
+    (b"glWindowPos3dv", 642, crate::Address(glWindowPos3dv as *const ())),
+    (b"glWindowPos3dvARB", 643, crate::Address(glWindowPos3dvARB as *const ())),
+    (b"glWindowPos3dvMESA", 644, crate::Address(glWindowPos3dvMESA as *const ())),
+    (b"glWindowPos3f", 645, crate::Address(glWindowPos3f as *const ())),
+    (b"glWindowPos3fARB", 646, crate::Address(glWindowPos3fARB as *const ())),
+    (b"glWindowPos3fMESA", 647, crate::Address(glWindowPos3fMESA as *const ())),
+    (b"glWindowPos3fv", 648, crate::Address(glWindowPos3fv as *const ())),
+    (b"glWindowPos3fvARB", 649, crate::Address(glWindowPos3fvARB as *const ())),
+    (b"glWindowPos3fvMESA", 650, crate::Address(glWindowPos3fvMESA as *const ())),
+    (b"glWindowPos3i", 651, crate::Address(glWindowPos3i as *const ())),
+    (b"glWindowPos3iARB", 652, crate::Address(glWindowPos3iARB as *const ())),
+    (b"glWindowPos3iMESA", 653, crate::Address(glWindowPos3iMESA as *const ())),
+    (b"glWindowPos3iv", 654, crate::Address(glWindowPos3iv as *const ())),
+    (b"glWindowPos3ivARB", 655, crate::Address(glWindowPos3ivARB as *const ())),
+    (b"glWindowPos3ivMESA", 656, crate::Address(glWindowPos3ivMESA as *const ())),
+    (b"glWindowPos3s", 657, crate::Address(glWindowPos3s as *const ())),
+    (b"glWindowPos3sARB", 658, crate::Address(glWindowPos3sARB as *const ())),
+    (b"glWindowPos3sMESA", 659, crate::Address(glWindowPos3sMESA as *const ())),
+    (b"glWindowPos3sv", 660, crate::Address(glWindowPos3sv as *const ())),
+    (b"glWindowPos3svARB", 661, crate::Address(glWindowPos3svARB as *const ())),
+    (b"glWindowPos3svMESA", 662, crate::Address(glWindowPos3svMESA as *const ())),
+    (b"glXCreateContext", 1079, crate::Address(glXCreateContext as *const ())),
+    (b"glXCreateContextAttribsARB", 1081, crate::Address(glXCreateContextAttribsARB as *const ())),
+    (b"glXCreateContextWithConfigSGIX", 1082, crate::Address(glXCreateContextWithConfigSGIX as *const ())),
+    (b"glXCreateNewContext", 1080, crate::Address(glXCreateNewContext as *const ())),
+    (b"glXDestroyContext", 1083, crate::Address(glXDestroyContext as *const ())),
+    (b"glXGetProcAddress", 1084, crate::Address(glXGetProcAddress as *const ())),
+    (b"glXGetProcAddressARB", 1085, crate::Address(glXGetProcAddressARB as *const ())),
+    (b"glXMakeContextCurrent", 1077, crate::Address(glXMakeContextCurrent as *const ())),
+    (b"glXMakeCurrent", 1076, crate::Address(glXMakeCurrent as *const ())),
+    (b"glXMakeCurrentReadSGI", 1078, crate::Address(glXMakeCurrentReadSGI as *const ())),
+    (b"glXSwapBuffers", 1074, crate::Address(glXSwapBuffers as *const ())),
+    (b"glXSwapBuffersMscOML", 1075, crate::Address(glXSwapBuffersMscOML as *const ())),
 ];
 
 export! { 0, glVertex2d, first_glVertex2d, hook_glVertex2d, (x: f64, y: f64) -> (), {
@@ -9255,2823 +9264,2841 @@ export! { 529, glDisableiOES, first_glDisableiOES, hook_glDisableiOES, (target: 
     // SAFETY: the program's own call.
     unsafe { gl.glDisableiOES(target, index) };
 } }
-export! { 530, glLightf, first_glLightf, hook_glLightf, (light: u32, pname: u32, param: f32) -> (), {
+export! { 530, glDepthMask, first_glDepthMask, hook_glDepthMask, (flag: u8) -> (), {
+    hooks::touch(Touch::DEPTH);
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glDepthMask(flag) };
+} }
+export! { 531, glActiveTexture, first_glActiveTexture, hook_glActiveTexture, (texture: u32) -> (), {
+    hooks::touch(Touch::TEXTURE);
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glActiveTexture(texture) };
+} }
+export! { 532, glActiveTextureARB, first_glActiveTextureARB, hook_glActiveTextureARB, (texture: u32) -> (), {
+    hooks::touch(Touch::TEXTURE);
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glActiveTextureARB(texture) };
+} }
+export! { 533, glBindTextures, first_glBindTextures, hook_glBindTextures, (first: u32, count: i32, textures: Ptr) -> (), {
+    hooks::touch(Touch::TEXTURE);
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glBindTextures(first, count, textures) };
+} }
+export! { 534, glBindTextureUnit, first_glBindTextureUnit, hook_glBindTextureUnit, (unit: u32, texture: u32) -> (), {
+    hooks::touch(Touch::TEXTURE);
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glBindTextureUnit(unit, texture) };
+} }
+export! { 535, glBindMultiTextureEXT, first_glBindMultiTextureEXT, hook_glBindMultiTextureEXT, (texunit: u32, target: u32, texture: u32) -> (), {
+    hooks::touch(Touch::TEXTURE);
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glBindMultiTextureEXT(texunit, target, texture) };
+} }
+export! { 536, glLightf, first_glLightf, hook_glLightf, (light: u32, pname: u32, param: f32) -> (), {
     hooks::touch(Touch::FIXED);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glLightf(light, pname, param) };
 } }
-export! { 531, glLightfv, first_glLightfv, hook_glLightfv, (light: u32, pname: u32, params: Ptr) -> (), {
+export! { 537, glLightfv, first_glLightfv, hook_glLightfv, (light: u32, pname: u32, params: Ptr) -> (), {
     hooks::touch(Touch::FIXED);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glLightfv(light, pname, params) };
 } }
-export! { 532, glLighti, first_glLighti, hook_glLighti, (light: u32, pname: u32, param: i32) -> (), {
+export! { 538, glLighti, first_glLighti, hook_glLighti, (light: u32, pname: u32, param: i32) -> (), {
     hooks::touch(Touch::FIXED);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glLighti(light, pname, param) };
 } }
-export! { 533, glLightiv, first_glLightiv, hook_glLightiv, (light: u32, pname: u32, params: Ptr) -> (), {
+export! { 539, glLightiv, first_glLightiv, hook_glLightiv, (light: u32, pname: u32, params: Ptr) -> (), {
     hooks::touch(Touch::FIXED);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glLightiv(light, pname, params) };
 } }
-export! { 534, glLightModelf, first_glLightModelf, hook_glLightModelf, (pname: u32, param: f32) -> (), {
+export! { 540, glLightModelf, first_glLightModelf, hook_glLightModelf, (pname: u32, param: f32) -> (), {
     hooks::touch(Touch::FIXED);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glLightModelf(pname, param) };
 } }
-export! { 535, glLightModelfv, first_glLightModelfv, hook_glLightModelfv, (pname: u32, params: Ptr) -> (), {
+export! { 541, glLightModelfv, first_glLightModelfv, hook_glLightModelfv, (pname: u32, params: Ptr) -> (), {
     hooks::touch(Touch::FIXED);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glLightModelfv(pname, params) };
 } }
-export! { 536, glLightModeli, first_glLightModeli, hook_glLightModeli, (pname: u32, param: i32) -> (), {
+export! { 542, glLightModeli, first_glLightModeli, hook_glLightModeli, (pname: u32, param: i32) -> (), {
     hooks::touch(Touch::FIXED);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glLightModeli(pname, param) };
 } }
-export! { 537, glLightModeliv, first_glLightModeliv, hook_glLightModeliv, (pname: u32, params: Ptr) -> (), {
+export! { 543, glLightModeliv, first_glLightModeliv, hook_glLightModeliv, (pname: u32, params: Ptr) -> (), {
     hooks::touch(Touch::FIXED);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glLightModeliv(pname, params) };
 } }
-export! { 538, glColorMaterial, first_glColorMaterial, hook_glColorMaterial, (face: u32, mode: u32) -> (), {
+export! { 544, glColorMaterial, first_glColorMaterial, hook_glColorMaterial, (face: u32, mode: u32) -> (), {
     hooks::touch(Touch::FIXED);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glColorMaterial(face, mode) };
 } }
-export! { 539, glTexGend, first_glTexGend, hook_glTexGend, (coord: u32, pname: u32, param: f64) -> (), {
+export! { 545, glTexGend, first_glTexGend, hook_glTexGend, (coord: u32, pname: u32, param: f64) -> (), {
     hooks::touch(Touch::FIXED);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexGend(coord, pname, param) };
 } }
-export! { 540, glTexGendv, first_glTexGendv, hook_glTexGendv, (coord: u32, pname: u32, params: Ptr) -> (), {
+export! { 546, glTexGendv, first_glTexGendv, hook_glTexGendv, (coord: u32, pname: u32, params: Ptr) -> (), {
     hooks::touch(Touch::FIXED);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexGendv(coord, pname, params) };
 } }
-export! { 541, glTexGenf, first_glTexGenf, hook_glTexGenf, (coord: u32, pname: u32, param: f32) -> (), {
+export! { 547, glTexGenf, first_glTexGenf, hook_glTexGenf, (coord: u32, pname: u32, param: f32) -> (), {
     hooks::touch(Touch::FIXED);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexGenf(coord, pname, param) };
 } }
-export! { 542, glTexGenfv, first_glTexGenfv, hook_glTexGenfv, (coord: u32, pname: u32, params: Ptr) -> (), {
+export! { 548, glTexGenfv, first_glTexGenfv, hook_glTexGenfv, (coord: u32, pname: u32, params: Ptr) -> (), {
     hooks::touch(Touch::FIXED);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexGenfv(coord, pname, params) };
 } }
-export! { 543, glTexGeni, first_glTexGeni, hook_glTexGeni, (coord: u32, pname: u32, param: i32) -> (), {
+export! { 549, glTexGeni, first_glTexGeni, hook_glTexGeni, (coord: u32, pname: u32, param: i32) -> (), {
     hooks::touch(Touch::FIXED);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexGeni(coord, pname, param) };
 } }
-export! { 544, glTexGeniv, first_glTexGeniv, hook_glTexGeniv, (coord: u32, pname: u32, params: Ptr) -> (), {
+export! { 550, glTexGeniv, first_glTexGeniv, hook_glTexGeniv, (coord: u32, pname: u32, params: Ptr) -> (), {
     hooks::touch(Touch::FIXED);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexGeniv(coord, pname, params) };
 } }
-export! { 545, glFogf, first_glFogf, hook_glFogf, (pname: u32, param: f32) -> (), {
+export! { 551, glFogf, first_glFogf, hook_glFogf, (pname: u32, param: f32) -> (), {
     hooks::touch(Touch::FIXED);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glFogf(pname, param) };
 } }
-export! { 546, glFogfv, first_glFogfv, hook_glFogfv, (pname: u32, params: Ptr) -> (), {
+export! { 552, glFogfv, first_glFogfv, hook_glFogfv, (pname: u32, params: Ptr) -> (), {
     hooks::touch(Touch::FIXED);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glFogfv(pname, params) };
 } }
-export! { 547, glFogi, first_glFogi, hook_glFogi, (pname: u32, param: i32) -> (), {
+export! { 553, glFogi, first_glFogi, hook_glFogi, (pname: u32, param: i32) -> (), {
     hooks::touch(Touch::FIXED);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glFogi(pname, param) };
 } }
-export! { 548, glFogiv, first_glFogiv, hook_glFogiv, (pname: u32, params: Ptr) -> (), {
+export! { 554, glFogiv, first_glFogiv, hook_glFogiv, (pname: u32, params: Ptr) -> (), {
     hooks::touch(Touch::FIXED);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glFogiv(pname, params) };
 } }
-export! { 549, glPointParameterf, first_glPointParameterf, hook_glPointParameterf, (pname: u32, param: f32) -> (), {
+export! { 555, glPointParameterf, first_glPointParameterf, hook_glPointParameterf, (pname: u32, param: f32) -> (), {
     hooks::touch(Touch::FIXED);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPointParameterf(pname, param) };
 } }
-export! { 550, glPointParameterfARB, first_glPointParameterfARB, hook_glPointParameterfARB, (pname: u32, param: f32) -> (), {
+export! { 556, glPointParameterfARB, first_glPointParameterfARB, hook_glPointParameterfARB, (pname: u32, param: f32) -> (), {
     hooks::touch(Touch::FIXED);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPointParameterfARB(pname, param) };
 } }
-export! { 551, glPointParameterfEXT, first_glPointParameterfEXT, hook_glPointParameterfEXT, (pname: u32, param: f32) -> (), {
+export! { 557, glPointParameterfEXT, first_glPointParameterfEXT, hook_glPointParameterfEXT, (pname: u32, param: f32) -> (), {
     hooks::touch(Touch::FIXED);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPointParameterfEXT(pname, param) };
 } }
-export! { 552, glPointParameterfSGIS, first_glPointParameterfSGIS, hook_glPointParameterfSGIS, (pname: u32, param: f32) -> (), {
+export! { 558, glPointParameterfSGIS, first_glPointParameterfSGIS, hook_glPointParameterfSGIS, (pname: u32, param: f32) -> (), {
     hooks::touch(Touch::FIXED);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPointParameterfSGIS(pname, param) };
 } }
-export! { 553, glPointParameterfv, first_glPointParameterfv, hook_glPointParameterfv, (pname: u32, params: Ptr) -> (), {
+export! { 559, glPointParameterfv, first_glPointParameterfv, hook_glPointParameterfv, (pname: u32, params: Ptr) -> (), {
     hooks::touch(Touch::FIXED);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPointParameterfv(pname, params) };
 } }
-export! { 554, glPointParameterfvARB, first_glPointParameterfvARB, hook_glPointParameterfvARB, (pname: u32, params: Ptr) -> (), {
+export! { 560, glPointParameterfvARB, first_glPointParameterfvARB, hook_glPointParameterfvARB, (pname: u32, params: Ptr) -> (), {
     hooks::touch(Touch::FIXED);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPointParameterfvARB(pname, params) };
 } }
-export! { 555, glPointParameterfvEXT, first_glPointParameterfvEXT, hook_glPointParameterfvEXT, (pname: u32, params: Ptr) -> (), {
+export! { 561, glPointParameterfvEXT, first_glPointParameterfvEXT, hook_glPointParameterfvEXT, (pname: u32, params: Ptr) -> (), {
     hooks::touch(Touch::FIXED);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPointParameterfvEXT(pname, params) };
 } }
-export! { 556, glPointParameterfvSGIS, first_glPointParameterfvSGIS, hook_glPointParameterfvSGIS, (pname: u32, params: Ptr) -> (), {
+export! { 562, glPointParameterfvSGIS, first_glPointParameterfvSGIS, hook_glPointParameterfvSGIS, (pname: u32, params: Ptr) -> (), {
     hooks::touch(Touch::FIXED);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPointParameterfvSGIS(pname, params) };
 } }
-export! { 557, glPointParameteri, first_glPointParameteri, hook_glPointParameteri, (pname: u32, param: i32) -> (), {
+export! { 563, glPointParameteri, first_glPointParameteri, hook_glPointParameteri, (pname: u32, param: i32) -> (), {
     hooks::touch(Touch::FIXED);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPointParameteri(pname, param) };
 } }
-export! { 558, glPointParameteriNV, first_glPointParameteriNV, hook_glPointParameteriNV, (pname: u32, param: i32) -> (), {
+export! { 564, glPointParameteriNV, first_glPointParameteriNV, hook_glPointParameteriNV, (pname: u32, param: i32) -> (), {
     hooks::touch(Touch::FIXED);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPointParameteriNV(pname, param) };
 } }
-export! { 559, glPointParameteriv, first_glPointParameteriv, hook_glPointParameteriv, (pname: u32, params: Ptr) -> (), {
+export! { 565, glPointParameteriv, first_glPointParameteriv, hook_glPointParameteriv, (pname: u32, params: Ptr) -> (), {
     hooks::touch(Touch::FIXED);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPointParameteriv(pname, params) };
 } }
-export! { 560, glPointParameterivNV, first_glPointParameterivNV, hook_glPointParameterivNV, (pname: u32, params: Ptr) -> (), {
+export! { 566, glPointParameterivNV, first_glPointParameterivNV, hook_glPointParameterivNV, (pname: u32, params: Ptr) -> (), {
     hooks::touch(Touch::FIXED);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPointParameterivNV(pname, params) };
 } }
-export! { 561, glPointSize, first_glPointSize, hook_glPointSize, (size: f32) -> (), {
+export! { 567, glPointSize, first_glPointSize, hook_glPointSize, (size: f32) -> (), {
     hooks::touch(Touch::FIXED);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPointSize(size) };
 } }
-export! { 562, glShadeModel, first_glShadeModel, hook_glShadeModel, (mode: u32) -> (), {
+export! { 568, glShadeModel, first_glShadeModel, hook_glShadeModel, (mode: u32) -> (), {
     hooks::touch(Touch::FIXED);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glShadeModel(mode) };
 } }
-export! { 563, glPolygonMode, first_glPolygonMode, hook_glPolygonMode, (face: u32, mode: u32) -> (), {
+export! { 569, glPolygonMode, first_glPolygonMode, hook_glPolygonMode, (face: u32, mode: u32) -> (), {
     hooks::touch(Touch::FIXED);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPolygonMode(face, mode) };
 } }
-export! { 564, glPolygonModeNV, first_glPolygonModeNV, hook_glPolygonModeNV, (face: u32, mode: u32) -> (), {
+export! { 570, glPolygonModeNV, first_glPolygonModeNV, hook_glPolygonModeNV, (face: u32, mode: u32) -> (), {
     hooks::touch(Touch::FIXED);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPolygonModeNV(face, mode) };
 } }
-export! { 565, glTexEnvf, first_glTexEnvf, hook_glTexEnvf, (target: u32, pname: u32, param: f32) -> (), {
+export! { 571, glTexEnvf, first_glTexEnvf, hook_glTexEnvf, (target: u32, pname: u32, param: f32) -> (), {
     hooks::touch(Touch::FIXED);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexEnvf(target, pname, param) };
 } }
-export! { 566, glTexEnvfv, first_glTexEnvfv, hook_glTexEnvfv, (target: u32, pname: u32, params: Ptr) -> (), {
+export! { 572, glTexEnvfv, first_glTexEnvfv, hook_glTexEnvfv, (target: u32, pname: u32, params: Ptr) -> (), {
     hooks::touch(Touch::FIXED);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexEnvfv(target, pname, params) };
 } }
-export! { 567, glTexEnvi, first_glTexEnvi, hook_glTexEnvi, (target: u32, pname: u32, param: i32) -> (), {
+export! { 573, glTexEnvi, first_glTexEnvi, hook_glTexEnvi, (target: u32, pname: u32, param: i32) -> (), {
     hooks::touch(Touch::FIXED);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexEnvi(target, pname, param) };
 } }
-export! { 568, glTexEnviv, first_glTexEnviv, hook_glTexEnviv, (target: u32, pname: u32, params: Ptr) -> (), {
+export! { 574, glTexEnviv, first_glTexEnviv, hook_glTexEnviv, (target: u32, pname: u32, params: Ptr) -> (), {
     hooks::touch(Touch::FIXED);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexEnviv(target, pname, params) };
 } }
-export! { 569, glHint, first_glHint, hook_glHint, (target: u32, mode: u32) -> (), {
+export! { 575, glHint, first_glHint, hook_glHint, (target: u32, mode: u32) -> (), {
     hooks::touch(Touch::FIXED);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glHint(target, mode) };
 } }
-export! { 570, glLineWidth, first_glLineWidth, hook_glLineWidth, (width: f32) -> (), {
+export! { 576, glLineWidth, first_glLineWidth, hook_glLineWidth, (width: f32) -> (), {
     hooks::touch(Touch::FIXED);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glLineWidth(width) };
 } }
-export! { 571, glProvokingVertex, first_glProvokingVertex, hook_glProvokingVertex, (mode: u32) -> (), {
+export! { 577, glProvokingVertex, first_glProvokingVertex, hook_glProvokingVertex, (mode: u32) -> (), {
     hooks::touch(Touch::FIXED);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProvokingVertex(mode) };
 } }
-export! { 572, glProvokingVertexEXT, first_glProvokingVertexEXT, hook_glProvokingVertexEXT, (mode: u32) -> (), {
+export! { 578, glProvokingVertexEXT, first_glProvokingVertexEXT, hook_glProvokingVertexEXT, (mode: u32) -> (), {
     hooks::touch(Touch::FIXED);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProvokingVertexEXT(mode) };
 } }
-export! { 573, glClipControl, first_glClipControl, hook_glClipControl, (origin: u32, depth: u32) -> (), {
+export! { 579, glClipControl, first_glClipControl, hook_glClipControl, (origin: u32, depth: u32) -> (), {
     hooks::touch(Touch::FIXED);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glClipControl(origin, depth) };
 } }
-export! { 574, glClipControlEXT, first_glClipControlEXT, hook_glClipControlEXT, (origin: u32, depth: u32) -> (), {
+export! { 580, glClipControlEXT, first_glClipControlEXT, hook_glClipControlEXT, (origin: u32, depth: u32) -> (), {
     hooks::touch(Touch::FIXED);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glClipControlEXT(origin, depth) };
 } }
-export! { 575, glBindProgramARB, first_glBindProgramARB, hook_glBindProgramARB, (target: u32, program: u32) -> (), {
+export! { 581, glBindProgramARB, first_glBindProgramARB, hook_glBindProgramARB, (target: u32, program: u32) -> (), {
     hooks::touch(Touch::FIXED);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBindProgramARB(target, program) };
 } }
-export! { 576, glBindProgramNV, first_glBindProgramNV, hook_glBindProgramNV, (target: u32, id: u32) -> (), {
+export! { 582, glBindProgramNV, first_glBindProgramNV, hook_glBindProgramNV, (target: u32, id: u32) -> (), {
     hooks::touch(Touch::FIXED);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBindProgramNV(target, id) };
 } }
-export! { 577, glUseProgramStages, first_glUseProgramStages, hook_glUseProgramStages, (pipeline: u32, stages: u32, program: u32) -> (), {
+export! { 583, glUseProgramStages, first_glUseProgramStages, hook_glUseProgramStages, (pipeline: u32, stages: u32, program: u32) -> (), {
     hooks::touch(Touch::FIXED);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUseProgramStages(pipeline, stages, program) };
 } }
-export! { 578, glClampColor, first_glClampColor, hook_glClampColor, (target: u32, clamp: u32) -> (), {
+export! { 584, glClampColor, first_glClampColor, hook_glClampColor, (target: u32, clamp: u32) -> (), {
     hooks::touch(Touch::FIXED);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glClampColor(target, clamp) };
 } }
-export! { 579, glClampColorARB, first_glClampColorARB, hook_glClampColorARB, (target: u32, clamp: u32) -> (), {
+export! { 585, glClampColorARB, first_glClampColorARB, hook_glClampColorARB, (target: u32, clamp: u32) -> (), {
     hooks::touch(Touch::FIXED);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glClampColorARB(target, clamp) };
 } }
-export! { 580, glUseProgram, first_glUseProgram, hook_glUseProgram, (program: u32) -> (), {
-    hooks::touch(Touch::OBJECTS | Touch::FIXED);
+export! { 586, glUseProgram, first_glUseProgram, hook_glUseProgram, (program: u32) -> (), {
+    hooks::touch(Touch::OBJECTS | Touch::FIXED | Touch::TEXTURE);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUseProgram(program) };
 } }
-export! { 581, glUseProgramObjectARB, first_glUseProgramObjectARB, hook_glUseProgramObjectARB, (programObj: u32) -> (), {
-    hooks::touch(Touch::OBJECTS | Touch::FIXED);
+export! { 587, glUseProgramObjectARB, first_glUseProgramObjectARB, hook_glUseProgramObjectARB, (programObj: u32) -> (), {
+    hooks::touch(Touch::OBJECTS | Touch::FIXED | Touch::TEXTURE);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUseProgramObjectARB(programObj) };
 } }
-export! { 582, glBindProgramPipeline, first_glBindProgramPipeline, hook_glBindProgramPipeline, (pipeline: u32) -> (), {
-    hooks::touch(Touch::OBJECTS | Touch::FIXED);
+export! { 588, glBindProgramPipeline, first_glBindProgramPipeline, hook_glBindProgramPipeline, (pipeline: u32) -> (), {
+    hooks::touch(Touch::OBJECTS | Touch::FIXED | Touch::TEXTURE);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBindProgramPipeline(pipeline) };
 } }
-export! { 583, glPushAttrib, first_glPushAttrib, hook_glPushAttrib, (mask: u32) -> (), {
+export! { 589, glPushAttrib, first_glPushAttrib, hook_glPushAttrib, (mask: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glPushAttrib(mask) }
 } }
-export! { 584, glPopAttrib, first_glPopAttrib, hook_glPopAttrib, () -> (), {
+export! { 590, glPopAttrib, first_glPopAttrib, hook_glPopAttrib, () -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glPopAttrib() }
 } }
-export! { 585, glRasterPos2d, first_glRasterPos2d, hook_glRasterPos2d, (x: f64, y: f64) -> (), {
+export! { 591, glRasterPos2d, first_glRasterPos2d, hook_glRasterPos2d, (x: f64, y: f64) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Scene, &mut |gl| unsafe { gl.glRasterPos2d(x, y) })
 } }
-export! { 586, glRasterPos2dv, first_glRasterPos2dv, hook_glRasterPos2dv, (v: Ptr) -> (), {
+export! { 592, glRasterPos2dv, first_glRasterPos2dv, hook_glRasterPos2dv, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Scene, &mut |gl| unsafe { gl.glRasterPos2dv(v) })
 } }
-export! { 587, glRasterPos2f, first_glRasterPos2f, hook_glRasterPos2f, (x: f32, y: f32) -> (), {
+export! { 593, glRasterPos2f, first_glRasterPos2f, hook_glRasterPos2f, (x: f32, y: f32) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Scene, &mut |gl| unsafe { gl.glRasterPos2f(x, y) })
 } }
-export! { 588, glRasterPos2fv, first_glRasterPos2fv, hook_glRasterPos2fv, (v: Ptr) -> (), {
+export! { 594, glRasterPos2fv, first_glRasterPos2fv, hook_glRasterPos2fv, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Scene, &mut |gl| unsafe { gl.glRasterPos2fv(v) })
 } }
-export! { 589, glRasterPos2i, first_glRasterPos2i, hook_glRasterPos2i, (x: i32, y: i32) -> (), {
+export! { 595, glRasterPos2i, first_glRasterPos2i, hook_glRasterPos2i, (x: i32, y: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Scene, &mut |gl| unsafe { gl.glRasterPos2i(x, y) })
 } }
-export! { 590, glRasterPos2iv, first_glRasterPos2iv, hook_glRasterPos2iv, (v: Ptr) -> (), {
+export! { 596, glRasterPos2iv, first_glRasterPos2iv, hook_glRasterPos2iv, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Scene, &mut |gl| unsafe { gl.glRasterPos2iv(v) })
 } }
-export! { 591, glRasterPos2s, first_glRasterPos2s, hook_glRasterPos2s, (x: i16, y: i16) -> (), {
+export! { 597, glRasterPos2s, first_glRasterPos2s, hook_glRasterPos2s, (x: i16, y: i16) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Scene, &mut |gl| unsafe { gl.glRasterPos2s(x, y) })
 } }
-export! { 592, glRasterPos2sv, first_glRasterPos2sv, hook_glRasterPos2sv, (v: Ptr) -> (), {
+export! { 598, glRasterPos2sv, first_glRasterPos2sv, hook_glRasterPos2sv, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Scene, &mut |gl| unsafe { gl.glRasterPos2sv(v) })
 } }
-export! { 593, glRasterPos3d, first_glRasterPos3d, hook_glRasterPos3d, (x: f64, y: f64, z: f64) -> (), {
+export! { 599, glRasterPos3d, first_glRasterPos3d, hook_glRasterPos3d, (x: f64, y: f64, z: f64) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Scene, &mut |gl| unsafe { gl.glRasterPos3d(x, y, z) })
 } }
-export! { 594, glRasterPos3dv, first_glRasterPos3dv, hook_glRasterPos3dv, (v: Ptr) -> (), {
+export! { 600, glRasterPos3dv, first_glRasterPos3dv, hook_glRasterPos3dv, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Scene, &mut |gl| unsafe { gl.glRasterPos3dv(v) })
 } }
-export! { 595, glRasterPos3f, first_glRasterPos3f, hook_glRasterPos3f, (x: f32, y: f32, z: f32) -> (), {
+export! { 601, glRasterPos3f, first_glRasterPos3f, hook_glRasterPos3f, (x: f32, y: f32, z: f32) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Scene, &mut |gl| unsafe { gl.glRasterPos3f(x, y, z) })
 } }
-export! { 596, glRasterPos3fv, first_glRasterPos3fv, hook_glRasterPos3fv, (v: Ptr) -> (), {
+export! { 602, glRasterPos3fv, first_glRasterPos3fv, hook_glRasterPos3fv, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Scene, &mut |gl| unsafe { gl.glRasterPos3fv(v) })
 } }
-export! { 597, glRasterPos3i, first_glRasterPos3i, hook_glRasterPos3i, (x: i32, y: i32, z: i32) -> (), {
+export! { 603, glRasterPos3i, first_glRasterPos3i, hook_glRasterPos3i, (x: i32, y: i32, z: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Scene, &mut |gl| unsafe { gl.glRasterPos3i(x, y, z) })
 } }
-export! { 598, glRasterPos3iv, first_glRasterPos3iv, hook_glRasterPos3iv, (v: Ptr) -> (), {
+export! { 604, glRasterPos3iv, first_glRasterPos3iv, hook_glRasterPos3iv, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Scene, &mut |gl| unsafe { gl.glRasterPos3iv(v) })
 } }
-export! { 599, glRasterPos3s, first_glRasterPos3s, hook_glRasterPos3s, (x: i16, y: i16, z: i16) -> (), {
+export! { 605, glRasterPos3s, first_glRasterPos3s, hook_glRasterPos3s, (x: i16, y: i16, z: i16) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Scene, &mut |gl| unsafe { gl.glRasterPos3s(x, y, z) })
 } }
-export! { 600, glRasterPos3sv, first_glRasterPos3sv, hook_glRasterPos3sv, (v: Ptr) -> (), {
+export! { 606, glRasterPos3sv, first_glRasterPos3sv, hook_glRasterPos3sv, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Scene, &mut |gl| unsafe { gl.glRasterPos3sv(v) })
 } }
-export! { 601, glRasterPos4d, first_glRasterPos4d, hook_glRasterPos4d, (x: f64, y: f64, z: f64, w: f64) -> (), {
+export! { 607, glRasterPos4d, first_glRasterPos4d, hook_glRasterPos4d, (x: f64, y: f64, z: f64, w: f64) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Scene, &mut |gl| unsafe { gl.glRasterPos4d(x, y, z, w) })
 } }
-export! { 602, glRasterPos4dv, first_glRasterPos4dv, hook_glRasterPos4dv, (v: Ptr) -> (), {
+export! { 608, glRasterPos4dv, first_glRasterPos4dv, hook_glRasterPos4dv, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Scene, &mut |gl| unsafe { gl.glRasterPos4dv(v) })
 } }
-export! { 603, glRasterPos4f, first_glRasterPos4f, hook_glRasterPos4f, (x: f32, y: f32, z: f32, w: f32) -> (), {
+export! { 609, glRasterPos4f, first_glRasterPos4f, hook_glRasterPos4f, (x: f32, y: f32, z: f32, w: f32) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Scene, &mut |gl| unsafe { gl.glRasterPos4f(x, y, z, w) })
 } }
-export! { 604, glRasterPos4fv, first_glRasterPos4fv, hook_glRasterPos4fv, (v: Ptr) -> (), {
+export! { 610, glRasterPos4fv, first_glRasterPos4fv, hook_glRasterPos4fv, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Scene, &mut |gl| unsafe { gl.glRasterPos4fv(v) })
 } }
-export! { 605, glRasterPos4i, first_glRasterPos4i, hook_glRasterPos4i, (x: i32, y: i32, z: i32, w: i32) -> (), {
+export! { 611, glRasterPos4i, first_glRasterPos4i, hook_glRasterPos4i, (x: i32, y: i32, z: i32, w: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Scene, &mut |gl| unsafe { gl.glRasterPos4i(x, y, z, w) })
 } }
-export! { 606, glRasterPos4iv, first_glRasterPos4iv, hook_glRasterPos4iv, (v: Ptr) -> (), {
+export! { 612, glRasterPos4iv, first_glRasterPos4iv, hook_glRasterPos4iv, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Scene, &mut |gl| unsafe { gl.glRasterPos4iv(v) })
 } }
-export! { 607, glRasterPos4s, first_glRasterPos4s, hook_glRasterPos4s, (x: i16, y: i16, z: i16, w: i16) -> (), {
+export! { 613, glRasterPos4s, first_glRasterPos4s, hook_glRasterPos4s, (x: i16, y: i16, z: i16, w: i16) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Scene, &mut |gl| unsafe { gl.glRasterPos4s(x, y, z, w) })
 } }
-export! { 608, glRasterPos4sv, first_glRasterPos4sv, hook_glRasterPos4sv, (v: Ptr) -> (), {
+export! { 614, glRasterPos4sv, first_glRasterPos4sv, hook_glRasterPos4sv, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Scene, &mut |gl| unsafe { gl.glRasterPos4sv(v) })
 } }
-export! { 609, glWindowPos2d, first_glWindowPos2d, hook_glWindowPos2d, (x: f64, y: f64) -> (), {
+export! { 615, glWindowPos2d, first_glWindowPos2d, hook_glWindowPos2d, (x: f64, y: f64) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos2d(x, y) })
 } }
-export! { 610, glWindowPos2dARB, first_glWindowPos2dARB, hook_glWindowPos2dARB, (x: f64, y: f64) -> (), {
+export! { 616, glWindowPos2dARB, first_glWindowPos2dARB, hook_glWindowPos2dARB, (x: f64, y: f64) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos2dARB(x, y) })
 } }
-export! { 611, glWindowPos2dMESA, first_glWindowPos2dMESA, hook_glWindowPos2dMESA, (x: f64, y: f64) -> (), {
+export! { 617, glWindowPos2dMESA, first_glWindowPos2dMESA, hook_glWindowPos2dMESA, (x: f64, y: f64) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos2dMESA(x, y) })
 } }
-export! { 612, glWindowPos2dv, first_glWindowPos2dv, hook_glWindowPos2dv, (v: Ptr) -> (), {
+export! { 618, glWindowPos2dv, first_glWindowPos2dv, hook_glWindowPos2dv, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos2dv(v) })
 } }
-export! { 613, glWindowPos2dvARB, first_glWindowPos2dvARB, hook_glWindowPos2dvARB, (v: Ptr) -> (), {
+export! { 619, glWindowPos2dvARB, first_glWindowPos2dvARB, hook_glWindowPos2dvARB, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos2dvARB(v) })
 } }
-export! { 614, glWindowPos2dvMESA, first_glWindowPos2dvMESA, hook_glWindowPos2dvMESA, (v: Ptr) -> (), {
+export! { 620, glWindowPos2dvMESA, first_glWindowPos2dvMESA, hook_glWindowPos2dvMESA, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos2dvMESA(v) })
 } }
-export! { 615, glWindowPos2f, first_glWindowPos2f, hook_glWindowPos2f, (x: f32, y: f32) -> (), {
+export! { 621, glWindowPos2f, first_glWindowPos2f, hook_glWindowPos2f, (x: f32, y: f32) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos2f(x, y) })
 } }
-export! { 616, glWindowPos2fARB, first_glWindowPos2fARB, hook_glWindowPos2fARB, (x: f32, y: f32) -> (), {
+export! { 622, glWindowPos2fARB, first_glWindowPos2fARB, hook_glWindowPos2fARB, (x: f32, y: f32) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos2fARB(x, y) })
 } }
-export! { 617, glWindowPos2fMESA, first_glWindowPos2fMESA, hook_glWindowPos2fMESA, (x: f32, y: f32) -> (), {
+export! { 623, glWindowPos2fMESA, first_glWindowPos2fMESA, hook_glWindowPos2fMESA, (x: f32, y: f32) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos2fMESA(x, y) })
 } }
-export! { 618, glWindowPos2fv, first_glWindowPos2fv, hook_glWindowPos2fv, (v: Ptr) -> (), {
+export! { 624, glWindowPos2fv, first_glWindowPos2fv, hook_glWindowPos2fv, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos2fv(v) })
 } }
-export! { 619, glWindowPos2fvARB, first_glWindowPos2fvARB, hook_glWindowPos2fvARB, (v: Ptr) -> (), {
+export! { 625, glWindowPos2fvARB, first_glWindowPos2fvARB, hook_glWindowPos2fvARB, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos2fvARB(v) })
 } }
-export! { 620, glWindowPos2fvMESA, first_glWindowPos2fvMESA, hook_glWindowPos2fvMESA, (v: Ptr) -> (), {
+export! { 626, glWindowPos2fvMESA, first_glWindowPos2fvMESA, hook_glWindowPos2fvMESA, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos2fvMESA(v) })
 } }
-export! { 621, glWindowPos2i, first_glWindowPos2i, hook_glWindowPos2i, (x: i32, y: i32) -> (), {
+export! { 627, glWindowPos2i, first_glWindowPos2i, hook_glWindowPos2i, (x: i32, y: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos2i(x, y) })
 } }
-export! { 622, glWindowPos2iARB, first_glWindowPos2iARB, hook_glWindowPos2iARB, (x: i32, y: i32) -> (), {
+export! { 628, glWindowPos2iARB, first_glWindowPos2iARB, hook_glWindowPos2iARB, (x: i32, y: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos2iARB(x, y) })
 } }
-export! { 623, glWindowPos2iMESA, first_glWindowPos2iMESA, hook_glWindowPos2iMESA, (x: i32, y: i32) -> (), {
+export! { 629, glWindowPos2iMESA, first_glWindowPos2iMESA, hook_glWindowPos2iMESA, (x: i32, y: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos2iMESA(x, y) })
 } }
-export! { 624, glWindowPos2iv, first_glWindowPos2iv, hook_glWindowPos2iv, (v: Ptr) -> (), {
+export! { 630, glWindowPos2iv, first_glWindowPos2iv, hook_glWindowPos2iv, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos2iv(v) })
 } }
-export! { 625, glWindowPos2ivARB, first_glWindowPos2ivARB, hook_glWindowPos2ivARB, (v: Ptr) -> (), {
+export! { 631, glWindowPos2ivARB, first_glWindowPos2ivARB, hook_glWindowPos2ivARB, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos2ivARB(v) })
 } }
-export! { 626, glWindowPos2ivMESA, first_glWindowPos2ivMESA, hook_glWindowPos2ivMESA, (v: Ptr) -> (), {
+export! { 632, glWindowPos2ivMESA, first_glWindowPos2ivMESA, hook_glWindowPos2ivMESA, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos2ivMESA(v) })
 } }
-export! { 627, glWindowPos2s, first_glWindowPos2s, hook_glWindowPos2s, (x: i16, y: i16) -> (), {
+export! { 633, glWindowPos2s, first_glWindowPos2s, hook_glWindowPos2s, (x: i16, y: i16) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos2s(x, y) })
 } }
-export! { 628, glWindowPos2sARB, first_glWindowPos2sARB, hook_glWindowPos2sARB, (x: i16, y: i16) -> (), {
+export! { 634, glWindowPos2sARB, first_glWindowPos2sARB, hook_glWindowPos2sARB, (x: i16, y: i16) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos2sARB(x, y) })
 } }
-export! { 629, glWindowPos2sMESA, first_glWindowPos2sMESA, hook_glWindowPos2sMESA, (x: i16, y: i16) -> (), {
+export! { 635, glWindowPos2sMESA, first_glWindowPos2sMESA, hook_glWindowPos2sMESA, (x: i16, y: i16) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos2sMESA(x, y) })
 } }
-export! { 630, glWindowPos2sv, first_glWindowPos2sv, hook_glWindowPos2sv, (v: Ptr) -> (), {
+export! { 636, glWindowPos2sv, first_glWindowPos2sv, hook_glWindowPos2sv, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos2sv(v) })
 } }
-export! { 631, glWindowPos2svARB, first_glWindowPos2svARB, hook_glWindowPos2svARB, (v: Ptr) -> (), {
+export! { 637, glWindowPos2svARB, first_glWindowPos2svARB, hook_glWindowPos2svARB, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos2svARB(v) })
 } }
-export! { 632, glWindowPos2svMESA, first_glWindowPos2svMESA, hook_glWindowPos2svMESA, (v: Ptr) -> (), {
+export! { 638, glWindowPos2svMESA, first_glWindowPos2svMESA, hook_glWindowPos2svMESA, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos2svMESA(v) })
 } }
-export! { 633, glWindowPos3d, first_glWindowPos3d, hook_glWindowPos3d, (x: f64, y: f64, z: f64) -> (), {
+export! { 639, glWindowPos3d, first_glWindowPos3d, hook_glWindowPos3d, (x: f64, y: f64, z: f64) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos3d(x, y, z) })
 } }
-export! { 634, glWindowPos3dARB, first_glWindowPos3dARB, hook_glWindowPos3dARB, (x: f64, y: f64, z: f64) -> (), {
+export! { 640, glWindowPos3dARB, first_glWindowPos3dARB, hook_glWindowPos3dARB, (x: f64, y: f64, z: f64) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos3dARB(x, y, z) })
 } }
-export! { 635, glWindowPos3dMESA, first_glWindowPos3dMESA, hook_glWindowPos3dMESA, (x: f64, y: f64, z: f64) -> (), {
+export! { 641, glWindowPos3dMESA, first_glWindowPos3dMESA, hook_glWindowPos3dMESA, (x: f64, y: f64, z: f64) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos3dMESA(x, y, z) })
 } }
-export! { 636, glWindowPos3dv, first_glWindowPos3dv, hook_glWindowPos3dv, (v: Ptr) -> (), {
+export! { 642, glWindowPos3dv, first_glWindowPos3dv, hook_glWindowPos3dv, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos3dv(v) })
 } }
-export! { 637, glWindowPos3dvARB, first_glWindowPos3dvARB, hook_glWindowPos3dvARB, (v: Ptr) -> (), {
+export! { 643, glWindowPos3dvARB, first_glWindowPos3dvARB, hook_glWindowPos3dvARB, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos3dvARB(v) })
 } }
-export! { 638, glWindowPos3dvMESA, first_glWindowPos3dvMESA, hook_glWindowPos3dvMESA, (v: Ptr) -> (), {
+export! { 644, glWindowPos3dvMESA, first_glWindowPos3dvMESA, hook_glWindowPos3dvMESA, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos3dvMESA(v) })
 } }
-export! { 639, glWindowPos3f, first_glWindowPos3f, hook_glWindowPos3f, (x: f32, y: f32, z: f32) -> (), {
+export! { 645, glWindowPos3f, first_glWindowPos3f, hook_glWindowPos3f, (x: f32, y: f32, z: f32) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos3f(x, y, z) })
 } }
-export! { 640, glWindowPos3fARB, first_glWindowPos3fARB, hook_glWindowPos3fARB, (x: f32, y: f32, z: f32) -> (), {
+export! { 646, glWindowPos3fARB, first_glWindowPos3fARB, hook_glWindowPos3fARB, (x: f32, y: f32, z: f32) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos3fARB(x, y, z) })
 } }
-export! { 641, glWindowPos3fMESA, first_glWindowPos3fMESA, hook_glWindowPos3fMESA, (x: f32, y: f32, z: f32) -> (), {
+export! { 647, glWindowPos3fMESA, first_glWindowPos3fMESA, hook_glWindowPos3fMESA, (x: f32, y: f32, z: f32) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos3fMESA(x, y, z) })
 } }
-export! { 642, glWindowPos3fv, first_glWindowPos3fv, hook_glWindowPos3fv, (v: Ptr) -> (), {
+export! { 648, glWindowPos3fv, first_glWindowPos3fv, hook_glWindowPos3fv, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos3fv(v) })
 } }
-export! { 643, glWindowPos3fvARB, first_glWindowPos3fvARB, hook_glWindowPos3fvARB, (v: Ptr) -> (), {
+export! { 649, glWindowPos3fvARB, first_glWindowPos3fvARB, hook_glWindowPos3fvARB, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos3fvARB(v) })
 } }
-export! { 644, glWindowPos3fvMESA, first_glWindowPos3fvMESA, hook_glWindowPos3fvMESA, (v: Ptr) -> (), {
+export! { 650, glWindowPos3fvMESA, first_glWindowPos3fvMESA, hook_glWindowPos3fvMESA, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos3fvMESA(v) })
 } }
-export! { 645, glWindowPos3i, first_glWindowPos3i, hook_glWindowPos3i, (x: i32, y: i32, z: i32) -> (), {
+export! { 651, glWindowPos3i, first_glWindowPos3i, hook_glWindowPos3i, (x: i32, y: i32, z: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos3i(x, y, z) })
 } }
-export! { 646, glWindowPos3iARB, first_glWindowPos3iARB, hook_glWindowPos3iARB, (x: i32, y: i32, z: i32) -> (), {
+export! { 652, glWindowPos3iARB, first_glWindowPos3iARB, hook_glWindowPos3iARB, (x: i32, y: i32, z: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos3iARB(x, y, z) })
 } }
-export! { 647, glWindowPos3iMESA, first_glWindowPos3iMESA, hook_glWindowPos3iMESA, (x: i32, y: i32, z: i32) -> (), {
+export! { 653, glWindowPos3iMESA, first_glWindowPos3iMESA, hook_glWindowPos3iMESA, (x: i32, y: i32, z: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos3iMESA(x, y, z) })
 } }
-export! { 648, glWindowPos3iv, first_glWindowPos3iv, hook_glWindowPos3iv, (v: Ptr) -> (), {
+export! { 654, glWindowPos3iv, first_glWindowPos3iv, hook_glWindowPos3iv, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos3iv(v) })
 } }
-export! { 649, glWindowPos3ivARB, first_glWindowPos3ivARB, hook_glWindowPos3ivARB, (v: Ptr) -> (), {
+export! { 655, glWindowPos3ivARB, first_glWindowPos3ivARB, hook_glWindowPos3ivARB, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos3ivARB(v) })
 } }
-export! { 650, glWindowPos3ivMESA, first_glWindowPos3ivMESA, hook_glWindowPos3ivMESA, (v: Ptr) -> (), {
+export! { 656, glWindowPos3ivMESA, first_glWindowPos3ivMESA, hook_glWindowPos3ivMESA, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos3ivMESA(v) })
 } }
-export! { 651, glWindowPos3s, first_glWindowPos3s, hook_glWindowPos3s, (x: i16, y: i16, z: i16) -> (), {
+export! { 657, glWindowPos3s, first_glWindowPos3s, hook_glWindowPos3s, (x: i16, y: i16, z: i16) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos3s(x, y, z) })
 } }
-export! { 652, glWindowPos3sARB, first_glWindowPos3sARB, hook_glWindowPos3sARB, (x: i16, y: i16, z: i16) -> (), {
+export! { 658, glWindowPos3sARB, first_glWindowPos3sARB, hook_glWindowPos3sARB, (x: i16, y: i16, z: i16) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos3sARB(x, y, z) })
 } }
-export! { 653, glWindowPos3sMESA, first_glWindowPos3sMESA, hook_glWindowPos3sMESA, (x: i16, y: i16, z: i16) -> (), {
+export! { 659, glWindowPos3sMESA, first_glWindowPos3sMESA, hook_glWindowPos3sMESA, (x: i16, y: i16, z: i16) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos3sMESA(x, y, z) })
 } }
-export! { 654, glWindowPos3sv, first_glWindowPos3sv, hook_glWindowPos3sv, (v: Ptr) -> (), {
+export! { 660, glWindowPos3sv, first_glWindowPos3sv, hook_glWindowPos3sv, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos3sv(v) })
 } }
-export! { 655, glWindowPos3svARB, first_glWindowPos3svARB, hook_glWindowPos3svARB, (v: Ptr) -> (), {
+export! { 661, glWindowPos3svARB, first_glWindowPos3svARB, hook_glWindowPos3svARB, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos3svARB(v) })
 } }
-export! { 656, glWindowPos3svMESA, first_glWindowPos3svMESA, hook_glWindowPos3svMESA, (v: Ptr) -> (), {
+export! { 662, glWindowPos3svMESA, first_glWindowPos3svMESA, hook_glWindowPos3svMESA, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos3svMESA(v) })
 } }
-export! { 657, glRenderMode, first_glRenderMode, hook_glRenderMode, (mode: u32) -> i32, {
+export! { 663, glRenderMode, first_glRenderMode, hook_glRenderMode, (mode: u32) -> i32, {
     // SAFETY: the program's own arguments.
     unsafe { special::glRenderMode(mode) }
 } }
-export! { 658, glBeginTransformFeedback, first_glBeginTransformFeedback, hook_glBeginTransformFeedback, (primitiveMode: u32) -> (), {
+export! { 664, glBeginTransformFeedback, first_glBeginTransformFeedback, hook_glBeginTransformFeedback, (primitiveMode: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBeginTransformFeedback(primitiveMode) }
 } }
-export! { 659, glBeginTransformFeedbackEXT, first_glBeginTransformFeedbackEXT, hook_glBeginTransformFeedbackEXT, (primitiveMode: u32) -> (), {
+export! { 665, glBeginTransformFeedbackEXT, first_glBeginTransformFeedbackEXT, hook_glBeginTransformFeedbackEXT, (primitiveMode: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBeginTransformFeedback(primitiveMode) }
 } }
-export! { 660, glBeginTransformFeedbackNV, first_glBeginTransformFeedbackNV, hook_glBeginTransformFeedbackNV, (primitiveMode: u32) -> (), {
+export! { 666, glBeginTransformFeedbackNV, first_glBeginTransformFeedbackNV, hook_glBeginTransformFeedbackNV, (primitiveMode: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBeginTransformFeedback(primitiveMode) }
 } }
-export! { 661, glEndTransformFeedback, first_glEndTransformFeedback, hook_glEndTransformFeedback, () -> (), {
+export! { 667, glEndTransformFeedback, first_glEndTransformFeedback, hook_glEndTransformFeedback, () -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glEndTransformFeedback() }
 } }
-export! { 662, glEndTransformFeedbackEXT, first_glEndTransformFeedbackEXT, hook_glEndTransformFeedbackEXT, () -> (), {
+export! { 668, glEndTransformFeedbackEXT, first_glEndTransformFeedbackEXT, hook_glEndTransformFeedbackEXT, () -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glEndTransformFeedback() }
 } }
-export! { 663, glEndTransformFeedbackNV, first_glEndTransformFeedbackNV, hook_glEndTransformFeedbackNV, () -> (), {
+export! { 669, glEndTransformFeedbackNV, first_glEndTransformFeedbackNV, hook_glEndTransformFeedbackNV, () -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glEndTransformFeedback() }
 } }
-export! { 664, glAlphaFunc, first_glAlphaFunc, hook_glAlphaFunc, (func: u32, ref_: f32) -> (), {
+export! { 670, glAlphaFunc, first_glAlphaFunc, hook_glAlphaFunc, (func: u32, ref_: f32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glAlphaFunc(func, ref_) };
 } }
-export! { 665, glBlendFunc, first_glBlendFunc, hook_glBlendFunc, (sfactor: u32, dfactor: u32) -> (), {
+export! { 671, glBlendFunc, first_glBlendFunc, hook_glBlendFunc, (sfactor: u32, dfactor: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendFunc(sfactor, dfactor) };
 } }
-export! { 666, glBlendFuncSeparate, first_glBlendFuncSeparate, hook_glBlendFuncSeparate, (sfactorRGB: u32, dfactorRGB: u32, sfactorAlpha: u32, dfactorAlpha: u32) -> (), {
+export! { 672, glBlendFuncSeparate, first_glBlendFuncSeparate, hook_glBlendFuncSeparate, (sfactorRGB: u32, dfactorRGB: u32, sfactorAlpha: u32, dfactorAlpha: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendFuncSeparate(sfactorRGB, dfactorRGB, sfactorAlpha, dfactorAlpha) };
 } }
-export! { 667, glBlendFuncSeparateEXT, first_glBlendFuncSeparateEXT, hook_glBlendFuncSeparateEXT, (sfactorRGB: u32, dfactorRGB: u32, sfactorAlpha: u32, dfactorAlpha: u32) -> (), {
+export! { 673, glBlendFuncSeparateEXT, first_glBlendFuncSeparateEXT, hook_glBlendFuncSeparateEXT, (sfactorRGB: u32, dfactorRGB: u32, sfactorAlpha: u32, dfactorAlpha: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendFuncSeparateEXT(sfactorRGB, dfactorRGB, sfactorAlpha, dfactorAlpha) };
 } }
-export! { 668, glBlendFuncSeparateINGR, first_glBlendFuncSeparateINGR, hook_glBlendFuncSeparateINGR, (sfactorRGB: u32, dfactorRGB: u32, sfactorAlpha: u32, dfactorAlpha: u32) -> (), {
+export! { 674, glBlendFuncSeparateINGR, first_glBlendFuncSeparateINGR, hook_glBlendFuncSeparateINGR, (sfactorRGB: u32, dfactorRGB: u32, sfactorAlpha: u32, dfactorAlpha: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendFuncSeparateINGR(sfactorRGB, dfactorRGB, sfactorAlpha, dfactorAlpha) };
 } }
-export! { 669, glBlendFuncSeparatei, first_glBlendFuncSeparatei, hook_glBlendFuncSeparatei, (buf: u32, srcRGB: u32, dstRGB: u32, srcAlpha: u32, dstAlpha: u32) -> (), {
+export! { 675, glBlendFuncSeparatei, first_glBlendFuncSeparatei, hook_glBlendFuncSeparatei, (buf: u32, srcRGB: u32, dstRGB: u32, srcAlpha: u32, dstAlpha: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendFuncSeparatei(buf, srcRGB, dstRGB, srcAlpha, dstAlpha) };
 } }
-export! { 670, glBlendFuncSeparateIndexedAMD, first_glBlendFuncSeparateIndexedAMD, hook_glBlendFuncSeparateIndexedAMD, (buf: u32, srcRGB: u32, dstRGB: u32, srcAlpha: u32, dstAlpha: u32) -> (), {
+export! { 676, glBlendFuncSeparateIndexedAMD, first_glBlendFuncSeparateIndexedAMD, hook_glBlendFuncSeparateIndexedAMD, (buf: u32, srcRGB: u32, dstRGB: u32, srcAlpha: u32, dstAlpha: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendFuncSeparateIndexedAMD(buf, srcRGB, dstRGB, srcAlpha, dstAlpha) };
 } }
-export! { 671, glBlendFuncSeparateiARB, first_glBlendFuncSeparateiARB, hook_glBlendFuncSeparateiARB, (buf: u32, srcRGB: u32, dstRGB: u32, srcAlpha: u32, dstAlpha: u32) -> (), {
+export! { 677, glBlendFuncSeparateiARB, first_glBlendFuncSeparateiARB, hook_glBlendFuncSeparateiARB, (buf: u32, srcRGB: u32, dstRGB: u32, srcAlpha: u32, dstAlpha: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendFuncSeparateiARB(buf, srcRGB, dstRGB, srcAlpha, dstAlpha) };
 } }
-export! { 672, glBlendFuncSeparateiEXT, first_glBlendFuncSeparateiEXT, hook_glBlendFuncSeparateiEXT, (buf: u32, srcRGB: u32, dstRGB: u32, srcAlpha: u32, dstAlpha: u32) -> (), {
+export! { 678, glBlendFuncSeparateiEXT, first_glBlendFuncSeparateiEXT, hook_glBlendFuncSeparateiEXT, (buf: u32, srcRGB: u32, dstRGB: u32, srcAlpha: u32, dstAlpha: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendFuncSeparateiEXT(buf, srcRGB, dstRGB, srcAlpha, dstAlpha) };
 } }
-export! { 673, glBlendFuncSeparateiOES, first_glBlendFuncSeparateiOES, hook_glBlendFuncSeparateiOES, (buf: u32, srcRGB: u32, dstRGB: u32, srcAlpha: u32, dstAlpha: u32) -> (), {
+export! { 679, glBlendFuncSeparateiOES, first_glBlendFuncSeparateiOES, hook_glBlendFuncSeparateiOES, (buf: u32, srcRGB: u32, dstRGB: u32, srcAlpha: u32, dstAlpha: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendFuncSeparateiOES(buf, srcRGB, dstRGB, srcAlpha, dstAlpha) };
 } }
-export! { 674, glBlendFunci, first_glBlendFunci, hook_glBlendFunci, (buf: u32, src: u32, dst: u32) -> (), {
+export! { 680, glBlendFunci, first_glBlendFunci, hook_glBlendFunci, (buf: u32, src: u32, dst: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendFunci(buf, src, dst) };
 } }
-export! { 675, glBlendFuncIndexedAMD, first_glBlendFuncIndexedAMD, hook_glBlendFuncIndexedAMD, (buf: u32, src: u32, dst: u32) -> (), {
+export! { 681, glBlendFuncIndexedAMD, first_glBlendFuncIndexedAMD, hook_glBlendFuncIndexedAMD, (buf: u32, src: u32, dst: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendFuncIndexedAMD(buf, src, dst) };
 } }
-export! { 676, glBlendFunciARB, first_glBlendFunciARB, hook_glBlendFunciARB, (buf: u32, src: u32, dst: u32) -> (), {
+export! { 682, glBlendFunciARB, first_glBlendFunciARB, hook_glBlendFunciARB, (buf: u32, src: u32, dst: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendFunciARB(buf, src, dst) };
 } }
-export! { 677, glBlendFunciEXT, first_glBlendFunciEXT, hook_glBlendFunciEXT, (buf: u32, src: u32, dst: u32) -> (), {
+export! { 683, glBlendFunciEXT, first_glBlendFunciEXT, hook_glBlendFunciEXT, (buf: u32, src: u32, dst: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendFunciEXT(buf, src, dst) };
 } }
-export! { 678, glBlendFunciOES, first_glBlendFunciOES, hook_glBlendFunciOES, (buf: u32, src: u32, dst: u32) -> (), {
+export! { 684, glBlendFunciOES, first_glBlendFunciOES, hook_glBlendFunciOES, (buf: u32, src: u32, dst: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendFunciOES(buf, src, dst) };
 } }
-export! { 679, glBlendEquation, first_glBlendEquation, hook_glBlendEquation, (mode: u32) -> (), {
+export! { 685, glBlendEquation, first_glBlendEquation, hook_glBlendEquation, (mode: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendEquation(mode) };
 } }
-export! { 680, glBlendEquationEXT, first_glBlendEquationEXT, hook_glBlendEquationEXT, (mode: u32) -> (), {
+export! { 686, glBlendEquationEXT, first_glBlendEquationEXT, hook_glBlendEquationEXT, (mode: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendEquationEXT(mode) };
 } }
-export! { 681, glBlendEquationSeparate, first_glBlendEquationSeparate, hook_glBlendEquationSeparate, (modeRGB: u32, modeAlpha: u32) -> (), {
+export! { 687, glBlendEquationSeparate, first_glBlendEquationSeparate, hook_glBlendEquationSeparate, (modeRGB: u32, modeAlpha: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendEquationSeparate(modeRGB, modeAlpha) };
 } }
-export! { 682, glBlendEquationSeparateEXT, first_glBlendEquationSeparateEXT, hook_glBlendEquationSeparateEXT, (modeRGB: u32, modeAlpha: u32) -> (), {
+export! { 688, glBlendEquationSeparateEXT, first_glBlendEquationSeparateEXT, hook_glBlendEquationSeparateEXT, (modeRGB: u32, modeAlpha: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendEquationSeparateEXT(modeRGB, modeAlpha) };
 } }
-export! { 683, glBlendEquationSeparatei, first_glBlendEquationSeparatei, hook_glBlendEquationSeparatei, (buf: u32, modeRGB: u32, modeAlpha: u32) -> (), {
+export! { 689, glBlendEquationSeparatei, first_glBlendEquationSeparatei, hook_glBlendEquationSeparatei, (buf: u32, modeRGB: u32, modeAlpha: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendEquationSeparatei(buf, modeRGB, modeAlpha) };
 } }
-export! { 684, glBlendEquationSeparateIndexedAMD, first_glBlendEquationSeparateIndexedAMD, hook_glBlendEquationSeparateIndexedAMD, (buf: u32, modeRGB: u32, modeAlpha: u32) -> (), {
+export! { 690, glBlendEquationSeparateIndexedAMD, first_glBlendEquationSeparateIndexedAMD, hook_glBlendEquationSeparateIndexedAMD, (buf: u32, modeRGB: u32, modeAlpha: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendEquationSeparateIndexedAMD(buf, modeRGB, modeAlpha) };
 } }
-export! { 685, glBlendEquationSeparateiARB, first_glBlendEquationSeparateiARB, hook_glBlendEquationSeparateiARB, (buf: u32, modeRGB: u32, modeAlpha: u32) -> (), {
+export! { 691, glBlendEquationSeparateiARB, first_glBlendEquationSeparateiARB, hook_glBlendEquationSeparateiARB, (buf: u32, modeRGB: u32, modeAlpha: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendEquationSeparateiARB(buf, modeRGB, modeAlpha) };
 } }
-export! { 686, glBlendEquationSeparateiEXT, first_glBlendEquationSeparateiEXT, hook_glBlendEquationSeparateiEXT, (buf: u32, modeRGB: u32, modeAlpha: u32) -> (), {
+export! { 692, glBlendEquationSeparateiEXT, first_glBlendEquationSeparateiEXT, hook_glBlendEquationSeparateiEXT, (buf: u32, modeRGB: u32, modeAlpha: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendEquationSeparateiEXT(buf, modeRGB, modeAlpha) };
 } }
-export! { 687, glBlendEquationSeparateiOES, first_glBlendEquationSeparateiOES, hook_glBlendEquationSeparateiOES, (buf: u32, modeRGB: u32, modeAlpha: u32) -> (), {
+export! { 693, glBlendEquationSeparateiOES, first_glBlendEquationSeparateiOES, hook_glBlendEquationSeparateiOES, (buf: u32, modeRGB: u32, modeAlpha: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendEquationSeparateiOES(buf, modeRGB, modeAlpha) };
 } }
-export! { 688, glBlendEquationi, first_glBlendEquationi, hook_glBlendEquationi, (buf: u32, mode: u32) -> (), {
+export! { 694, glBlendEquationi, first_glBlendEquationi, hook_glBlendEquationi, (buf: u32, mode: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendEquationi(buf, mode) };
 } }
-export! { 689, glBlendEquationIndexedAMD, first_glBlendEquationIndexedAMD, hook_glBlendEquationIndexedAMD, (buf: u32, mode: u32) -> (), {
+export! { 695, glBlendEquationIndexedAMD, first_glBlendEquationIndexedAMD, hook_glBlendEquationIndexedAMD, (buf: u32, mode: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendEquationIndexedAMD(buf, mode) };
 } }
-export! { 690, glBlendEquationiARB, first_glBlendEquationiARB, hook_glBlendEquationiARB, (buf: u32, mode: u32) -> (), {
+export! { 696, glBlendEquationiARB, first_glBlendEquationiARB, hook_glBlendEquationiARB, (buf: u32, mode: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendEquationiARB(buf, mode) };
 } }
-export! { 691, glBlendEquationiEXT, first_glBlendEquationiEXT, hook_glBlendEquationiEXT, (buf: u32, mode: u32) -> (), {
+export! { 697, glBlendEquationiEXT, first_glBlendEquationiEXT, hook_glBlendEquationiEXT, (buf: u32, mode: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendEquationiEXT(buf, mode) };
 } }
-export! { 692, glBlendEquationiOES, first_glBlendEquationiOES, hook_glBlendEquationiOES, (buf: u32, mode: u32) -> (), {
+export! { 698, glBlendEquationiOES, first_glBlendEquationiOES, hook_glBlendEquationiOES, (buf: u32, mode: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendEquationiOES(buf, mode) };
 } }
-export! { 693, glBlendColor, first_glBlendColor, hook_glBlendColor, (red: f32, green: f32, blue: f32, alpha: f32) -> (), {
+export! { 699, glBlendColor, first_glBlendColor, hook_glBlendColor, (red: f32, green: f32, blue: f32, alpha: f32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendColor(red, green, blue, alpha) };
 } }
-export! { 694, glBlendColorEXT, first_glBlendColorEXT, hook_glBlendColorEXT, (red: f32, green: f32, blue: f32, alpha: f32) -> (), {
+export! { 700, glBlendColorEXT, first_glBlendColorEXT, hook_glBlendColorEXT, (red: f32, green: f32, blue: f32, alpha: f32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendColorEXT(red, green, blue, alpha) };
 } }
-export! { 695, glClearAccum, first_glClearAccum, hook_glClearAccum, (red: f32, green: f32, blue: f32, alpha: f32) -> (), {
+export! { 701, glClearAccum, first_glClearAccum, hook_glClearAccum, (red: f32, green: f32, blue: f32, alpha: f32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glClearAccum(red, green, blue, alpha) };
 } }
-export! { 696, glClearColor, first_glClearColor, hook_glClearColor, (red: f32, green: f32, blue: f32, alpha: f32) -> (), {
+export! { 702, glClearColor, first_glClearColor, hook_glClearColor, (red: f32, green: f32, blue: f32, alpha: f32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glClearColor(red, green, blue, alpha) };
 } }
-export! { 697, glClearDepth, first_glClearDepth, hook_glClearDepth, (depth: f64) -> (), {
+export! { 703, glClearDepth, first_glClearDepth, hook_glClearDepth, (depth: f64) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glClearDepth(depth) };
 } }
-export! { 698, glClearDepthf, first_glClearDepthf, hook_glClearDepthf, (d: f32) -> (), {
+export! { 704, glClearDepthf, first_glClearDepthf, hook_glClearDepthf, (d: f32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glClearDepthf(d) };
 } }
-export! { 699, glClearDepthfOES, first_glClearDepthfOES, hook_glClearDepthfOES, (depth: f32) -> (), {
+export! { 705, glClearDepthfOES, first_glClearDepthfOES, hook_glClearDepthfOES, (depth: f32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glClearDepthfOES(depth) };
 } }
-export! { 700, glClearIndex, first_glClearIndex, hook_glClearIndex, (c: f32) -> (), {
+export! { 706, glClearIndex, first_glClearIndex, hook_glClearIndex, (c: f32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glClearIndex(c) };
 } }
-export! { 701, glClearStencil, first_glClearStencil, hook_glClearStencil, (s: i32) -> (), {
+export! { 707, glClearStencil, first_glClearStencil, hook_glClearStencil, (s: i32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glClearStencil(s) };
 } }
-export! { 702, glClipPlane, first_glClipPlane, hook_glClipPlane, (plane: u32, equation: Ptr) -> (), {
+export! { 708, glClipPlane, first_glClipPlane, hook_glClipPlane, (plane: u32, equation: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glClipPlane(plane, equation) };
 } }
-export! { 703, glColorMask, first_glColorMask, hook_glColorMask, (red: u8, green: u8, blue: u8, alpha: u8) -> (), {
+export! { 709, glColorMask, first_glColorMask, hook_glColorMask, (red: u8, green: u8, blue: u8, alpha: u8) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glColorMask(red, green, blue, alpha) };
 } }
-export! { 704, glColorMaski, first_glColorMaski, hook_glColorMaski, (index: u32, r: u8, g: u8, b: u8, a: u8) -> (), {
+export! { 710, glColorMaski, first_glColorMaski, hook_glColorMaski, (index: u32, r: u8, g: u8, b: u8, a: u8) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glColorMaski(index, r, g, b, a) };
 } }
-export! { 705, glColorMaskIndexedEXT, first_glColorMaskIndexedEXT, hook_glColorMaskIndexedEXT, (index: u32, r: u8, g: u8, b: u8, a: u8) -> (), {
+export! { 711, glColorMaskIndexedEXT, first_glColorMaskIndexedEXT, hook_glColorMaskIndexedEXT, (index: u32, r: u8, g: u8, b: u8, a: u8) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glColorMaskIndexedEXT(index, r, g, b, a) };
 } }
-export! { 706, glColorMaskiEXT, first_glColorMaskiEXT, hook_glColorMaskiEXT, (index: u32, r: u8, g: u8, b: u8, a: u8) -> (), {
+export! { 712, glColorMaskiEXT, first_glColorMaskiEXT, hook_glColorMaskiEXT, (index: u32, r: u8, g: u8, b: u8, a: u8) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glColorMaskiEXT(index, r, g, b, a) };
 } }
-export! { 707, glColorMaskiOES, first_glColorMaskiOES, hook_glColorMaskiOES, (index: u32, r: u8, g: u8, b: u8, a: u8) -> (), {
+export! { 713, glColorMaskiOES, first_glColorMaskiOES, hook_glColorMaskiOES, (index: u32, r: u8, g: u8, b: u8, a: u8) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glColorMaskiOES(index, r, g, b, a) };
 } }
-export! { 708, glCullFace, first_glCullFace, hook_glCullFace, (mode: u32) -> (), {
+export! { 714, glCullFace, first_glCullFace, hook_glCullFace, (mode: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glCullFace(mode) };
 } }
-export! { 709, glDepthFunc, first_glDepthFunc, hook_glDepthFunc, (func: u32) -> (), {
+export! { 715, glDepthFunc, first_glDepthFunc, hook_glDepthFunc, (func: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glDepthFunc(func) };
 } }
-export! { 710, glDepthMask, first_glDepthMask, hook_glDepthMask, (flag: u8) -> (), {
-    hooks::any();
-    let gl = hooks::real();
-    // SAFETY: the program's own call.
-    unsafe { gl.glDepthMask(flag) };
-} }
-export! { 711, glDepthRange, first_glDepthRange, hook_glDepthRange, (n: f64, f: f64) -> (), {
+export! { 716, glDepthRange, first_glDepthRange, hook_glDepthRange, (n: f64, f: f64) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glDepthRange(n, f) };
 } }
-export! { 712, glDepthRangef, first_glDepthRangef, hook_glDepthRangef, (n: f32, f: f32) -> (), {
+export! { 717, glDepthRangef, first_glDepthRangef, hook_glDepthRangef, (n: f32, f: f32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glDepthRangef(n, f) };
 } }
-export! { 713, glDepthRangefOES, first_glDepthRangefOES, hook_glDepthRangefOES, (n: f32, f: f32) -> (), {
+export! { 718, glDepthRangefOES, first_glDepthRangefOES, hook_glDepthRangefOES, (n: f32, f: f32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glDepthRangefOES(n, f) };
 } }
-export! { 714, glDepthRangeIndexed, first_glDepthRangeIndexed, hook_glDepthRangeIndexed, (index: u32, n: f64, f: f64) -> (), {
+export! { 719, glDepthRangeIndexed, first_glDepthRangeIndexed, hook_glDepthRangeIndexed, (index: u32, n: f64, f: f64) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glDepthRangeIndexed(index, n, f) };
 } }
-export! { 715, glDepthRangeArrayv, first_glDepthRangeArrayv, hook_glDepthRangeArrayv, (first: u32, count: i32, v: Ptr) -> (), {
+export! { 720, glDepthRangeArrayv, first_glDepthRangeArrayv, hook_glDepthRangeArrayv, (first: u32, count: i32, v: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glDepthRangeArrayv(first, count, v) };
 } }
-export! { 716, glDepthBoundsEXT, first_glDepthBoundsEXT, hook_glDepthBoundsEXT, (zmin: f64, zmax: f64) -> (), {
+export! { 721, glDepthBoundsEXT, first_glDepthBoundsEXT, hook_glDepthBoundsEXT, (zmin: f64, zmax: f64) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glDepthBoundsEXT(zmin, zmax) };
 } }
-export! { 717, glFrontFace, first_glFrontFace, hook_glFrontFace, (mode: u32) -> (), {
+export! { 722, glFrontFace, first_glFrontFace, hook_glFrontFace, (mode: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glFrontFace(mode) };
 } }
-export! { 718, glIndexMask, first_glIndexMask, hook_glIndexMask, (mask: u32) -> (), {
+export! { 723, glIndexMask, first_glIndexMask, hook_glIndexMask, (mask: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glIndexMask(mask) };
 } }
-export! { 719, glInitNames, first_glInitNames, hook_glInitNames, () -> (), {
+export! { 724, glInitNames, first_glInitNames, hook_glInitNames, () -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glInitNames() };
 } }
-export! { 720, glLoadName, first_glLoadName, hook_glLoadName, (name: u32) -> (), {
+export! { 725, glLoadName, first_glLoadName, hook_glLoadName, (name: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glLoadName(name) };
 } }
-export! { 721, glPushName, first_glPushName, hook_glPushName, (name: u32) -> (), {
+export! { 726, glPushName, first_glPushName, hook_glPushName, (name: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPushName(name) };
 } }
-export! { 722, glPopName, first_glPopName, hook_glPopName, () -> (), {
+export! { 727, glPopName, first_glPopName, hook_glPopName, () -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPopName() };
 } }
-export! { 723, glPassThrough, first_glPassThrough, hook_glPassThrough, (token: f32) -> (), {
+export! { 728, glPassThrough, first_glPassThrough, hook_glPassThrough, (token: f32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPassThrough(token) };
 } }
-export! { 724, glLineStipple, first_glLineStipple, hook_glLineStipple, (factor: i32, pattern: u16) -> (), {
+export! { 729, glLineStipple, first_glLineStipple, hook_glLineStipple, (factor: i32, pattern: u16) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glLineStipple(factor, pattern) };
 } }
-export! { 725, glListBase, first_glListBase, hook_glListBase, (base: u32) -> (), {
+export! { 730, glListBase, first_glListBase, hook_glListBase, (base: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glListBase(base) };
 } }
-export! { 726, glLogicOp, first_glLogicOp, hook_glLogicOp, (opcode: u32) -> (), {
+export! { 731, glLogicOp, first_glLogicOp, hook_glLogicOp, (opcode: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glLogicOp(opcode) };
 } }
-export! { 727, glMap1d, first_glMap1d, hook_glMap1d, (target: u32, u1: f64, u2: f64, stride: i32, order: i32, points: Ptr) -> (), {
+export! { 732, glMap1d, first_glMap1d, hook_glMap1d, (target: u32, u1: f64, u2: f64, stride: i32, order: i32, points: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glMap1d(target, u1, u2, stride, order, points) };
 } }
-export! { 728, glMap1f, first_glMap1f, hook_glMap1f, (target: u32, u1: f32, u2: f32, stride: i32, order: i32, points: Ptr) -> (), {
+export! { 733, glMap1f, first_glMap1f, hook_glMap1f, (target: u32, u1: f32, u2: f32, stride: i32, order: i32, points: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glMap1f(target, u1, u2, stride, order, points) };
 } }
-export! { 729, glMap2d, first_glMap2d, hook_glMap2d, (target: u32, u1: f64, u2: f64, ustride: i32, uorder: i32, v1: f64, v2: f64, vstride: i32, vorder: i32, points: Ptr) -> (), {
+export! { 734, glMap2d, first_glMap2d, hook_glMap2d, (target: u32, u1: f64, u2: f64, ustride: i32, uorder: i32, v1: f64, v2: f64, vstride: i32, vorder: i32, points: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glMap2d(target, u1, u2, ustride, uorder, v1, v2, vstride, vorder, points) };
 } }
-export! { 730, glMap2f, first_glMap2f, hook_glMap2f, (target: u32, u1: f32, u2: f32, ustride: i32, uorder: i32, v1: f32, v2: f32, vstride: i32, vorder: i32, points: Ptr) -> (), {
+export! { 735, glMap2f, first_glMap2f, hook_glMap2f, (target: u32, u1: f32, u2: f32, ustride: i32, uorder: i32, v1: f32, v2: f32, vstride: i32, vorder: i32, points: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glMap2f(target, u1, u2, ustride, uorder, v1, v2, vstride, vorder, points) };
 } }
-export! { 731, glMapGrid1d, first_glMapGrid1d, hook_glMapGrid1d, (un: i32, u1: f64, u2: f64) -> (), {
+export! { 736, glMapGrid1d, first_glMapGrid1d, hook_glMapGrid1d, (un: i32, u1: f64, u2: f64) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glMapGrid1d(un, u1, u2) };
 } }
-export! { 732, glMapGrid1f, first_glMapGrid1f, hook_glMapGrid1f, (un: i32, u1: f32, u2: f32) -> (), {
+export! { 737, glMapGrid1f, first_glMapGrid1f, hook_glMapGrid1f, (un: i32, u1: f32, u2: f32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glMapGrid1f(un, u1, u2) };
 } }
-export! { 733, glMapGrid2d, first_glMapGrid2d, hook_glMapGrid2d, (un: i32, u1: f64, u2: f64, vn: i32, v1: f64, v2: f64) -> (), {
+export! { 738, glMapGrid2d, first_glMapGrid2d, hook_glMapGrid2d, (un: i32, u1: f64, u2: f64, vn: i32, v1: f64, v2: f64) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glMapGrid2d(un, u1, u2, vn, v1, v2) };
 } }
-export! { 734, glMapGrid2f, first_glMapGrid2f, hook_glMapGrid2f, (un: i32, u1: f32, u2: f32, vn: i32, v1: f32, v2: f32) -> (), {
+export! { 739, glMapGrid2f, first_glMapGrid2f, hook_glMapGrid2f, (un: i32, u1: f32, u2: f32, vn: i32, v1: f32, v2: f32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glMapGrid2f(un, u1, u2, vn, v1, v2) };
 } }
-export! { 735, glPixelMapfv, first_glPixelMapfv, hook_glPixelMapfv, (map: u32, mapsize: i32, values: Ptr) -> (), {
+export! { 740, glPixelMapfv, first_glPixelMapfv, hook_glPixelMapfv, (map: u32, mapsize: i32, values: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPixelMapfv(map, mapsize, values) };
 } }
-export! { 736, glPixelMapuiv, first_glPixelMapuiv, hook_glPixelMapuiv, (map: u32, mapsize: i32, values: Ptr) -> (), {
+export! { 741, glPixelMapuiv, first_glPixelMapuiv, hook_glPixelMapuiv, (map: u32, mapsize: i32, values: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPixelMapuiv(map, mapsize, values) };
 } }
-export! { 737, glPixelMapusv, first_glPixelMapusv, hook_glPixelMapusv, (map: u32, mapsize: i32, values: Ptr) -> (), {
+export! { 742, glPixelMapusv, first_glPixelMapusv, hook_glPixelMapusv, (map: u32, mapsize: i32, values: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPixelMapusv(map, mapsize, values) };
 } }
-export! { 738, glPixelTransferf, first_glPixelTransferf, hook_glPixelTransferf, (pname: u32, param: f32) -> (), {
+export! { 743, glPixelTransferf, first_glPixelTransferf, hook_glPixelTransferf, (pname: u32, param: f32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPixelTransferf(pname, param) };
 } }
-export! { 739, glPixelTransferi, first_glPixelTransferi, hook_glPixelTransferi, (pname: u32, param: i32) -> (), {
+export! { 744, glPixelTransferi, first_glPixelTransferi, hook_glPixelTransferi, (pname: u32, param: i32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPixelTransferi(pname, param) };
 } }
-export! { 740, glPixelZoom, first_glPixelZoom, hook_glPixelZoom, (xfactor: f32, yfactor: f32) -> (), {
+export! { 745, glPixelZoom, first_glPixelZoom, hook_glPixelZoom, (xfactor: f32, yfactor: f32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPixelZoom(xfactor, yfactor) };
 } }
-export! { 741, glPolygonOffset, first_glPolygonOffset, hook_glPolygonOffset, (factor: f32, units: f32) -> (), {
+export! { 746, glPolygonOffset, first_glPolygonOffset, hook_glPolygonOffset, (factor: f32, units: f32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPolygonOffset(factor, units) };
 } }
-export! { 742, glPolygonOffsetClamp, first_glPolygonOffsetClamp, hook_glPolygonOffsetClamp, (factor: f32, units: f32, clamp: f32) -> (), {
+export! { 747, glPolygonOffsetClamp, first_glPolygonOffsetClamp, hook_glPolygonOffsetClamp, (factor: f32, units: f32, clamp: f32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPolygonOffsetClamp(factor, units, clamp) };
 } }
-export! { 743, glPolygonOffsetClampEXT, first_glPolygonOffsetClampEXT, hook_glPolygonOffsetClampEXT, (factor: f32, units: f32, clamp: f32) -> (), {
+export! { 748, glPolygonOffsetClampEXT, first_glPolygonOffsetClampEXT, hook_glPolygonOffsetClampEXT, (factor: f32, units: f32, clamp: f32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPolygonOffsetClampEXT(factor, units, clamp) };
 } }
-export! { 744, glPolygonStipple, first_glPolygonStipple, hook_glPolygonStipple, (mask: Ptr) -> (), {
+export! { 749, glPolygonStipple, first_glPolygonStipple, hook_glPolygonStipple, (mask: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPolygonStipple(mask) };
 } }
-export! { 745, glPrioritizeTextures, first_glPrioritizeTextures, hook_glPrioritizeTextures, (n: i32, textures: Ptr, priorities: Ptr) -> (), {
+export! { 750, glPrioritizeTextures, first_glPrioritizeTextures, hook_glPrioritizeTextures, (n: i32, textures: Ptr, priorities: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPrioritizeTextures(n, textures, priorities) };
 } }
-export! { 746, glPrioritizeTexturesEXT, first_glPrioritizeTexturesEXT, hook_glPrioritizeTexturesEXT, (n: i32, textures: Ptr, priorities: Ptr) -> (), {
+export! { 751, glPrioritizeTexturesEXT, first_glPrioritizeTexturesEXT, hook_glPrioritizeTexturesEXT, (n: i32, textures: Ptr, priorities: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPrioritizeTexturesEXT(n, textures, priorities) };
 } }
-export! { 747, glSampleCoverage, first_glSampleCoverage, hook_glSampleCoverage, (value: f32, invert: u8) -> (), {
+export! { 752, glSampleCoverage, first_glSampleCoverage, hook_glSampleCoverage, (value: f32, invert: u8) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glSampleCoverage(value, invert) };
 } }
-export! { 748, glSampleCoverageARB, first_glSampleCoverageARB, hook_glSampleCoverageARB, (value: f32, invert: u8) -> (), {
+export! { 753, glSampleCoverageARB, first_glSampleCoverageARB, hook_glSampleCoverageARB, (value: f32, invert: u8) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glSampleCoverageARB(value, invert) };
 } }
-export! { 749, glMinSampleShading, first_glMinSampleShading, hook_glMinSampleShading, (value: f32) -> (), {
+export! { 754, glMinSampleShading, first_glMinSampleShading, hook_glMinSampleShading, (value: f32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glMinSampleShading(value) };
 } }
-export! { 750, glMinSampleShadingARB, first_glMinSampleShadingARB, hook_glMinSampleShadingARB, (value: f32) -> (), {
+export! { 755, glMinSampleShadingARB, first_glMinSampleShadingARB, hook_glMinSampleShadingARB, (value: f32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glMinSampleShadingARB(value) };
 } }
-export! { 751, glMinSampleShadingOES, first_glMinSampleShadingOES, hook_glMinSampleShadingOES, (value: f32) -> (), {
+export! { 756, glMinSampleShadingOES, first_glMinSampleShadingOES, hook_glMinSampleShadingOES, (value: f32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glMinSampleShadingOES(value) };
 } }
-export! { 752, glStencilFunc, first_glStencilFunc, hook_glStencilFunc, (func: u32, ref_: i32, mask: u32) -> (), {
+export! { 757, glStencilFunc, first_glStencilFunc, hook_glStencilFunc, (func: u32, ref_: i32, mask: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glStencilFunc(func, ref_, mask) };
 } }
-export! { 753, glStencilFuncSeparate, first_glStencilFuncSeparate, hook_glStencilFuncSeparate, (face: u32, func: u32, ref_: i32, mask: u32) -> (), {
+export! { 758, glStencilFuncSeparate, first_glStencilFuncSeparate, hook_glStencilFuncSeparate, (face: u32, func: u32, ref_: i32, mask: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glStencilFuncSeparate(face, func, ref_, mask) };
 } }
-export! { 754, glStencilMask, first_glStencilMask, hook_glStencilMask, (mask: u32) -> (), {
+export! { 759, glStencilMask, first_glStencilMask, hook_glStencilMask, (mask: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glStencilMask(mask) };
 } }
-export! { 755, glStencilMaskSeparate, first_glStencilMaskSeparate, hook_glStencilMaskSeparate, (face: u32, mask: u32) -> (), {
+export! { 760, glStencilMaskSeparate, first_glStencilMaskSeparate, hook_glStencilMaskSeparate, (face: u32, mask: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glStencilMaskSeparate(face, mask) };
 } }
-export! { 756, glStencilOp, first_glStencilOp, hook_glStencilOp, (fail: u32, zfail: u32, zpass: u32) -> (), {
+export! { 761, glStencilOp, first_glStencilOp, hook_glStencilOp, (fail: u32, zfail: u32, zpass: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glStencilOp(fail, zfail, zpass) };
 } }
-export! { 757, glStencilOpSeparate, first_glStencilOpSeparate, hook_glStencilOpSeparate, (face: u32, sfail: u32, dpfail: u32, dppass: u32) -> (), {
+export! { 762, glStencilOpSeparate, first_glStencilOpSeparate, hook_glStencilOpSeparate, (face: u32, sfail: u32, dpfail: u32, dppass: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glStencilOpSeparate(face, sfail, dpfail, dppass) };
 } }
-export! { 758, glStencilOpSeparateATI, first_glStencilOpSeparateATI, hook_glStencilOpSeparateATI, (face: u32, sfail: u32, dpfail: u32, dppass: u32) -> (), {
+export! { 763, glStencilOpSeparateATI, first_glStencilOpSeparateATI, hook_glStencilOpSeparateATI, (face: u32, sfail: u32, dpfail: u32, dppass: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glStencilOpSeparateATI(face, sfail, dpfail, dppass) };
 } }
-export! { 759, glPrimitiveRestartIndex, first_glPrimitiveRestartIndex, hook_glPrimitiveRestartIndex, (index: u32) -> (), {
+export! { 764, glPrimitiveRestartIndex, first_glPrimitiveRestartIndex, hook_glPrimitiveRestartIndex, (index: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPrimitiveRestartIndex(index) };
 } }
-export! { 760, glTexImage1D, first_glTexImage1D, hook_glTexImage1D, (target: u32, level: i32, internalformat: i32, width: i32, border: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
+export! { 765, glTexImage1D, first_glTexImage1D, hook_glTexImage1D, (target: u32, level: i32, internalformat: i32, width: i32, border: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
     hooks::texture(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexImage1D(target, level, internalformat, width, border, format, type_, pixels) };
 } }
-export! { 761, glTexImage2D, first_glTexImage2D, hook_glTexImage2D, (target: u32, level: i32, internalformat: i32, width: i32, height: i32, border: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
+export! { 766, glTexImage2D, first_glTexImage2D, hook_glTexImage2D, (target: u32, level: i32, internalformat: i32, width: i32, height: i32, border: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
     hooks::texture(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexImage2D(target, level, internalformat, width, height, border, format, type_, pixels) };
 } }
-export! { 762, glTexImage3D, first_glTexImage3D, hook_glTexImage3D, (target: u32, level: i32, internalformat: i32, width: i32, height: i32, depth: i32, border: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
+export! { 767, glTexImage3D, first_glTexImage3D, hook_glTexImage3D, (target: u32, level: i32, internalformat: i32, width: i32, height: i32, depth: i32, border: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
     hooks::texture(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexImage3D(target, level, internalformat, width, height, depth, border, format, type_, pixels) };
 } }
-export! { 763, glTexImage3DEXT, first_glTexImage3DEXT, hook_glTexImage3DEXT, (target: u32, level: i32, internalformat: u32, width: i32, height: i32, depth: i32, border: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
+export! { 768, glTexImage3DEXT, first_glTexImage3DEXT, hook_glTexImage3DEXT, (target: u32, level: i32, internalformat: u32, width: i32, height: i32, depth: i32, border: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
     hooks::texture(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexImage3DEXT(target, level, internalformat, width, height, depth, border, format, type_, pixels) };
 } }
-export! { 764, glTexSubImage1D, first_glTexSubImage1D, hook_glTexSubImage1D, (target: u32, level: i32, xoffset: i32, width: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
+export! { 769, glTexSubImage1D, first_glTexSubImage1D, hook_glTexSubImage1D, (target: u32, level: i32, xoffset: i32, width: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
     hooks::texture(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexSubImage1D(target, level, xoffset, width, format, type_, pixels) };
 } }
-export! { 765, glTexSubImage1DEXT, first_glTexSubImage1DEXT, hook_glTexSubImage1DEXT, (target: u32, level: i32, xoffset: i32, width: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
+export! { 770, glTexSubImage1DEXT, first_glTexSubImage1DEXT, hook_glTexSubImage1DEXT, (target: u32, level: i32, xoffset: i32, width: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
     hooks::texture(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexSubImage1DEXT(target, level, xoffset, width, format, type_, pixels) };
 } }
-export! { 766, glTexSubImage2D, first_glTexSubImage2D, hook_glTexSubImage2D, (target: u32, level: i32, xoffset: i32, yoffset: i32, width: i32, height: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
+export! { 771, glTexSubImage2D, first_glTexSubImage2D, hook_glTexSubImage2D, (target: u32, level: i32, xoffset: i32, yoffset: i32, width: i32, height: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
     hooks::texture(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexSubImage2D(target, level, xoffset, yoffset, width, height, format, type_, pixels) };
 } }
-export! { 767, glTexSubImage2DEXT, first_glTexSubImage2DEXT, hook_glTexSubImage2DEXT, (target: u32, level: i32, xoffset: i32, yoffset: i32, width: i32, height: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
+export! { 772, glTexSubImage2DEXT, first_glTexSubImage2DEXT, hook_glTexSubImage2DEXT, (target: u32, level: i32, xoffset: i32, yoffset: i32, width: i32, height: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
     hooks::texture(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexSubImage2DEXT(target, level, xoffset, yoffset, width, height, format, type_, pixels) };
 } }
-export! { 768, glTexSubImage3D, first_glTexSubImage3D, hook_glTexSubImage3D, (target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
+export! { 773, glTexSubImage3D, first_glTexSubImage3D, hook_glTexSubImage3D, (target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
     hooks::texture(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexSubImage3D(target, level, xoffset, yoffset, zoffset, width, height, depth, format, type_, pixels) };
 } }
-export! { 769, glTexSubImage3DEXT, first_glTexSubImage3DEXT, hook_glTexSubImage3DEXT, (target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
+export! { 774, glTexSubImage3DEXT, first_glTexSubImage3DEXT, hook_glTexSubImage3DEXT, (target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
     hooks::texture(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexSubImage3DEXT(target, level, xoffset, yoffset, zoffset, width, height, depth, format, type_, pixels) };
 } }
-export! { 770, glCompressedTexImage1D, first_glCompressedTexImage1D, hook_glCompressedTexImage1D, (target: u32, level: i32, internalformat: u32, width: i32, border: i32, imageSize: i32, data: Ptr) -> (), {
+export! { 775, glCompressedTexImage1D, first_glCompressedTexImage1D, hook_glCompressedTexImage1D, (target: u32, level: i32, internalformat: u32, width: i32, border: i32, imageSize: i32, data: Ptr) -> (), {
     hooks::texture(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glCompressedTexImage1D(target, level, internalformat, width, border, imageSize, data) };
 } }
-export! { 771, glCompressedTexImage1DARB, first_glCompressedTexImage1DARB, hook_glCompressedTexImage1DARB, (target: u32, level: i32, internalformat: u32, width: i32, border: i32, imageSize: i32, data: Ptr) -> (), {
+export! { 776, glCompressedTexImage1DARB, first_glCompressedTexImage1DARB, hook_glCompressedTexImage1DARB, (target: u32, level: i32, internalformat: u32, width: i32, border: i32, imageSize: i32, data: Ptr) -> (), {
     hooks::texture(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glCompressedTexImage1DARB(target, level, internalformat, width, border, imageSize, data) };
 } }
-export! { 772, glCompressedTexImage2D, first_glCompressedTexImage2D, hook_glCompressedTexImage2D, (target: u32, level: i32, internalformat: u32, width: i32, height: i32, border: i32, imageSize: i32, data: Ptr) -> (), {
+export! { 777, glCompressedTexImage2D, first_glCompressedTexImage2D, hook_glCompressedTexImage2D, (target: u32, level: i32, internalformat: u32, width: i32, height: i32, border: i32, imageSize: i32, data: Ptr) -> (), {
     hooks::texture(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glCompressedTexImage2D(target, level, internalformat, width, height, border, imageSize, data) };
 } }
-export! { 773, glCompressedTexImage2DARB, first_glCompressedTexImage2DARB, hook_glCompressedTexImage2DARB, (target: u32, level: i32, internalformat: u32, width: i32, height: i32, border: i32, imageSize: i32, data: Ptr) -> (), {
+export! { 778, glCompressedTexImage2DARB, first_glCompressedTexImage2DARB, hook_glCompressedTexImage2DARB, (target: u32, level: i32, internalformat: u32, width: i32, height: i32, border: i32, imageSize: i32, data: Ptr) -> (), {
     hooks::texture(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glCompressedTexImage2DARB(target, level, internalformat, width, height, border, imageSize, data) };
 } }
-export! { 774, glCompressedTexImage3D, first_glCompressedTexImage3D, hook_glCompressedTexImage3D, (target: u32, level: i32, internalformat: u32, width: i32, height: i32, depth: i32, border: i32, imageSize: i32, data: Ptr) -> (), {
+export! { 779, glCompressedTexImage3D, first_glCompressedTexImage3D, hook_glCompressedTexImage3D, (target: u32, level: i32, internalformat: u32, width: i32, height: i32, depth: i32, border: i32, imageSize: i32, data: Ptr) -> (), {
     hooks::texture(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glCompressedTexImage3D(target, level, internalformat, width, height, depth, border, imageSize, data) };
 } }
-export! { 775, glCompressedTexImage3DARB, first_glCompressedTexImage3DARB, hook_glCompressedTexImage3DARB, (target: u32, level: i32, internalformat: u32, width: i32, height: i32, depth: i32, border: i32, imageSize: i32, data: Ptr) -> (), {
+export! { 780, glCompressedTexImage3DARB, first_glCompressedTexImage3DARB, hook_glCompressedTexImage3DARB, (target: u32, level: i32, internalformat: u32, width: i32, height: i32, depth: i32, border: i32, imageSize: i32, data: Ptr) -> (), {
     hooks::texture(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glCompressedTexImage3DARB(target, level, internalformat, width, height, depth, border, imageSize, data) };
 } }
-export! { 776, glCompressedTexSubImage1D, first_glCompressedTexSubImage1D, hook_glCompressedTexSubImage1D, (target: u32, level: i32, xoffset: i32, width: i32, format: u32, imageSize: i32, data: Ptr) -> (), {
+export! { 781, glCompressedTexSubImage1D, first_glCompressedTexSubImage1D, hook_glCompressedTexSubImage1D, (target: u32, level: i32, xoffset: i32, width: i32, format: u32, imageSize: i32, data: Ptr) -> (), {
     hooks::texture(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glCompressedTexSubImage1D(target, level, xoffset, width, format, imageSize, data) };
 } }
-export! { 777, glCompressedTexSubImage1DARB, first_glCompressedTexSubImage1DARB, hook_glCompressedTexSubImage1DARB, (target: u32, level: i32, xoffset: i32, width: i32, format: u32, imageSize: i32, data: Ptr) -> (), {
+export! { 782, glCompressedTexSubImage1DARB, first_glCompressedTexSubImage1DARB, hook_glCompressedTexSubImage1DARB, (target: u32, level: i32, xoffset: i32, width: i32, format: u32, imageSize: i32, data: Ptr) -> (), {
     hooks::texture(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glCompressedTexSubImage1DARB(target, level, xoffset, width, format, imageSize, data) };
 } }
-export! { 778, glCompressedTexSubImage2D, first_glCompressedTexSubImage2D, hook_glCompressedTexSubImage2D, (target: u32, level: i32, xoffset: i32, yoffset: i32, width: i32, height: i32, format: u32, imageSize: i32, data: Ptr) -> (), {
+export! { 783, glCompressedTexSubImage2D, first_glCompressedTexSubImage2D, hook_glCompressedTexSubImage2D, (target: u32, level: i32, xoffset: i32, yoffset: i32, width: i32, height: i32, format: u32, imageSize: i32, data: Ptr) -> (), {
     hooks::texture(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glCompressedTexSubImage2D(target, level, xoffset, yoffset, width, height, format, imageSize, data) };
 } }
-export! { 779, glCompressedTexSubImage2DARB, first_glCompressedTexSubImage2DARB, hook_glCompressedTexSubImage2DARB, (target: u32, level: i32, xoffset: i32, yoffset: i32, width: i32, height: i32, format: u32, imageSize: i32, data: Ptr) -> (), {
+export! { 784, glCompressedTexSubImage2DARB, first_glCompressedTexSubImage2DARB, hook_glCompressedTexSubImage2DARB, (target: u32, level: i32, xoffset: i32, yoffset: i32, width: i32, height: i32, format: u32, imageSize: i32, data: Ptr) -> (), {
     hooks::texture(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glCompressedTexSubImage2DARB(target, level, xoffset, yoffset, width, height, format, imageSize, data) };
 } }
-export! { 780, glCompressedTexSubImage3D, first_glCompressedTexSubImage3D, hook_glCompressedTexSubImage3D, (target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, format: u32, imageSize: i32, data: Ptr) -> (), {
+export! { 785, glCompressedTexSubImage3D, first_glCompressedTexSubImage3D, hook_glCompressedTexSubImage3D, (target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, format: u32, imageSize: i32, data: Ptr) -> (), {
     hooks::texture(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glCompressedTexSubImage3D(target, level, xoffset, yoffset, zoffset, width, height, depth, format, imageSize, data) };
 } }
-export! { 781, glCompressedTexSubImage3DARB, first_glCompressedTexSubImage3DARB, hook_glCompressedTexSubImage3DARB, (target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, format: u32, imageSize: i32, data: Ptr) -> (), {
+export! { 786, glCompressedTexSubImage3DARB, first_glCompressedTexSubImage3DARB, hook_glCompressedTexSubImage3DARB, (target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, format: u32, imageSize: i32, data: Ptr) -> (), {
     hooks::texture(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glCompressedTexSubImage3DARB(target, level, xoffset, yoffset, zoffset, width, height, depth, format, imageSize, data) };
 } }
-export! { 782, glTexParameterf, first_glTexParameterf, hook_glTexParameterf, (target: u32, pname: u32, param: f32) -> (), {
+export! { 787, glTexParameterf, first_glTexParameterf, hook_glTexParameterf, (target: u32, pname: u32, param: f32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexParameterf(target, pname, param) };
 } }
-export! { 783, glTexParameterfv, first_glTexParameterfv, hook_glTexParameterfv, (target: u32, pname: u32, params: Ptr) -> (), {
+export! { 788, glTexParameterfv, first_glTexParameterfv, hook_glTexParameterfv, (target: u32, pname: u32, params: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexParameterfv(target, pname, params) };
 } }
-export! { 784, glTexParameteri, first_glTexParameteri, hook_glTexParameteri, (target: u32, pname: u32, param: i32) -> (), {
+export! { 789, glTexParameteri, first_glTexParameteri, hook_glTexParameteri, (target: u32, pname: u32, param: i32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexParameteri(target, pname, param) };
 } }
-export! { 785, glTexParameteriv, first_glTexParameteriv, hook_glTexParameteriv, (target: u32, pname: u32, params: Ptr) -> (), {
+export! { 790, glTexParameteriv, first_glTexParameteriv, hook_glTexParameteriv, (target: u32, pname: u32, params: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexParameteriv(target, pname, params) };
 } }
-export! { 786, glTexParameterIiv, first_glTexParameterIiv, hook_glTexParameterIiv, (target: u32, pname: u32, params: Ptr) -> (), {
+export! { 791, glTexParameterIiv, first_glTexParameterIiv, hook_glTexParameterIiv, (target: u32, pname: u32, params: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexParameterIiv(target, pname, params) };
 } }
-export! { 787, glTexParameterIivEXT, first_glTexParameterIivEXT, hook_glTexParameterIivEXT, (target: u32, pname: u32, params: Ptr) -> (), {
+export! { 792, glTexParameterIivEXT, first_glTexParameterIivEXT, hook_glTexParameterIivEXT, (target: u32, pname: u32, params: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexParameterIivEXT(target, pname, params) };
 } }
-export! { 788, glTexParameterIivOES, first_glTexParameterIivOES, hook_glTexParameterIivOES, (target: u32, pname: u32, params: Ptr) -> (), {
+export! { 793, glTexParameterIivOES, first_glTexParameterIivOES, hook_glTexParameterIivOES, (target: u32, pname: u32, params: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexParameterIivOES(target, pname, params) };
 } }
-export! { 789, glTexParameterIuiv, first_glTexParameterIuiv, hook_glTexParameterIuiv, (target: u32, pname: u32, params: Ptr) -> (), {
+export! { 794, glTexParameterIuiv, first_glTexParameterIuiv, hook_glTexParameterIuiv, (target: u32, pname: u32, params: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexParameterIuiv(target, pname, params) };
 } }
-export! { 790, glTexParameterIuivEXT, first_glTexParameterIuivEXT, hook_glTexParameterIuivEXT, (target: u32, pname: u32, params: Ptr) -> (), {
+export! { 795, glTexParameterIuivEXT, first_glTexParameterIuivEXT, hook_glTexParameterIuivEXT, (target: u32, pname: u32, params: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexParameterIuivEXT(target, pname, params) };
 } }
-export! { 791, glTexParameterIuivOES, first_glTexParameterIuivOES, hook_glTexParameterIuivOES, (target: u32, pname: u32, params: Ptr) -> (), {
+export! { 796, glTexParameterIuivOES, first_glTexParameterIuivOES, hook_glTexParameterIuivOES, (target: u32, pname: u32, params: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexParameterIuivOES(target, pname, params) };
 } }
-export! { 792, glActiveTexture, first_glActiveTexture, hook_glActiveTexture, (texture: u32) -> (), {
-    hooks::any();
-    let gl = hooks::real();
-    // SAFETY: the program's own call.
-    unsafe { gl.glActiveTexture(texture) };
-} }
-export! { 793, glActiveTextureARB, first_glActiveTextureARB, hook_glActiveTextureARB, (texture: u32) -> (), {
-    hooks::any();
-    let gl = hooks::real();
-    // SAFETY: the program's own call.
-    unsafe { gl.glActiveTextureARB(texture) };
-} }
-export! { 794, glProgramEnvParameter4dARB, first_glProgramEnvParameter4dARB, hook_glProgramEnvParameter4dARB, (target: u32, index: u32, x: f64, y: f64, z: f64, w: f64) -> (), {
+export! { 797, glProgramEnvParameter4dARB, first_glProgramEnvParameter4dARB, hook_glProgramEnvParameter4dARB, (target: u32, index: u32, x: f64, y: f64, z: f64, w: f64) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramEnvParameter4dARB(target, index, x, y, z, w) };
 } }
-export! { 795, glProgramEnvParameter4dvARB, first_glProgramEnvParameter4dvARB, hook_glProgramEnvParameter4dvARB, (target: u32, index: u32, params: Ptr) -> (), {
+export! { 798, glProgramEnvParameter4dvARB, first_glProgramEnvParameter4dvARB, hook_glProgramEnvParameter4dvARB, (target: u32, index: u32, params: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramEnvParameter4dvARB(target, index, params) };
 } }
-export! { 796, glProgramEnvParameter4fARB, first_glProgramEnvParameter4fARB, hook_glProgramEnvParameter4fARB, (target: u32, index: u32, x: f32, y: f32, z: f32, w: f32) -> (), {
+export! { 799, glProgramEnvParameter4fARB, first_glProgramEnvParameter4fARB, hook_glProgramEnvParameter4fARB, (target: u32, index: u32, x: f32, y: f32, z: f32, w: f32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramEnvParameter4fARB(target, index, x, y, z, w) };
 } }
-export! { 797, glProgramEnvParameter4fvARB, first_glProgramEnvParameter4fvARB, hook_glProgramEnvParameter4fvARB, (target: u32, index: u32, params: Ptr) -> (), {
+export! { 800, glProgramEnvParameter4fvARB, first_glProgramEnvParameter4fvARB, hook_glProgramEnvParameter4fvARB, (target: u32, index: u32, params: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramEnvParameter4fvARB(target, index, params) };
 } }
-export! { 798, glProgramLocalParameter4dARB, first_glProgramLocalParameter4dARB, hook_glProgramLocalParameter4dARB, (target: u32, index: u32, x: f64, y: f64, z: f64, w: f64) -> (), {
+export! { 801, glProgramLocalParameter4dARB, first_glProgramLocalParameter4dARB, hook_glProgramLocalParameter4dARB, (target: u32, index: u32, x: f64, y: f64, z: f64, w: f64) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramLocalParameter4dARB(target, index, x, y, z, w) };
 } }
-export! { 799, glProgramLocalParameter4dvARB, first_glProgramLocalParameter4dvARB, hook_glProgramLocalParameter4dvARB, (target: u32, index: u32, params: Ptr) -> (), {
+export! { 802, glProgramLocalParameter4dvARB, first_glProgramLocalParameter4dvARB, hook_glProgramLocalParameter4dvARB, (target: u32, index: u32, params: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramLocalParameter4dvARB(target, index, params) };
 } }
-export! { 800, glProgramLocalParameter4fARB, first_glProgramLocalParameter4fARB, hook_glProgramLocalParameter4fARB, (target: u32, index: u32, x: f32, y: f32, z: f32, w: f32) -> (), {
+export! { 803, glProgramLocalParameter4fARB, first_glProgramLocalParameter4fARB, hook_glProgramLocalParameter4fARB, (target: u32, index: u32, x: f32, y: f32, z: f32, w: f32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramLocalParameter4fARB(target, index, x, y, z, w) };
 } }
-export! { 801, glProgramLocalParameter4fvARB, first_glProgramLocalParameter4fvARB, hook_glProgramLocalParameter4fvARB, (target: u32, index: u32, params: Ptr) -> (), {
+export! { 804, glProgramLocalParameter4fvARB, first_glProgramLocalParameter4fvARB, hook_glProgramLocalParameter4fvARB, (target: u32, index: u32, params: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramLocalParameter4fvARB(target, index, params) };
 } }
-export! { 802, glUniform1d, first_glUniform1d, hook_glUniform1d, (location: i32, x: f64) -> (), {
+export! { 805, glUniform1d, first_glUniform1d, hook_glUniform1d, (location: i32, x: f64) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1d(location, x) };
 } }
-export! { 803, glUniform1dv, first_glUniform1dv, hook_glUniform1dv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 806, glUniform1dv, first_glUniform1dv, hook_glUniform1dv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1dv(location, count, value) };
 } }
-export! { 804, glUniform1f, first_glUniform1f, hook_glUniform1f, (location: i32, v0: f32) -> (), {
+export! { 807, glUniform1f, first_glUniform1f, hook_glUniform1f, (location: i32, v0: f32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1f(location, v0) };
 } }
-export! { 805, glUniform1fARB, first_glUniform1fARB, hook_glUniform1fARB, (location: i32, v0: f32) -> (), {
+export! { 808, glUniform1fARB, first_glUniform1fARB, hook_glUniform1fARB, (location: i32, v0: f32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1fARB(location, v0) };
 } }
-export! { 806, glUniform1fv, first_glUniform1fv, hook_glUniform1fv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 809, glUniform1fv, first_glUniform1fv, hook_glUniform1fv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1fv(location, count, value) };
 } }
-export! { 807, glUniform1fvARB, first_glUniform1fvARB, hook_glUniform1fvARB, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 810, glUniform1fvARB, first_glUniform1fvARB, hook_glUniform1fvARB, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1fvARB(location, count, value) };
 } }
-export! { 808, glUniform1i, first_glUniform1i, hook_glUniform1i, (location: i32, v0: i32) -> (), {
+export! { 811, glUniform1i, first_glUniform1i, hook_glUniform1i, (location: i32, v0: i32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1i(location, v0) };
 } }
-export! { 809, glUniform1iARB, first_glUniform1iARB, hook_glUniform1iARB, (location: i32, v0: i32) -> (), {
+export! { 812, glUniform1iARB, first_glUniform1iARB, hook_glUniform1iARB, (location: i32, v0: i32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1iARB(location, v0) };
 } }
-export! { 810, glUniform1iv, first_glUniform1iv, hook_glUniform1iv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 813, glUniform1iv, first_glUniform1iv, hook_glUniform1iv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1iv(location, count, value) };
 } }
-export! { 811, glUniform1ivARB, first_glUniform1ivARB, hook_glUniform1ivARB, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 814, glUniform1ivARB, first_glUniform1ivARB, hook_glUniform1ivARB, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1ivARB(location, count, value) };
 } }
-export! { 812, glUniform1ui, first_glUniform1ui, hook_glUniform1ui, (location: i32, v0: u32) -> (), {
+export! { 815, glUniform1ui, first_glUniform1ui, hook_glUniform1ui, (location: i32, v0: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1ui(location, v0) };
 } }
-export! { 813, glUniform1uiEXT, first_glUniform1uiEXT, hook_glUniform1uiEXT, (location: i32, v0: u32) -> (), {
+export! { 816, glUniform1uiEXT, first_glUniform1uiEXT, hook_glUniform1uiEXT, (location: i32, v0: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1uiEXT(location, v0) };
 } }
-export! { 814, glUniform1uiv, first_glUniform1uiv, hook_glUniform1uiv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 817, glUniform1uiv, first_glUniform1uiv, hook_glUniform1uiv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1uiv(location, count, value) };
 } }
-export! { 815, glUniform1uivEXT, first_glUniform1uivEXT, hook_glUniform1uivEXT, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 818, glUniform1uivEXT, first_glUniform1uivEXT, hook_glUniform1uivEXT, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1uivEXT(location, count, value) };
 } }
-export! { 816, glUniform2d, first_glUniform2d, hook_glUniform2d, (location: i32, x: f64, y: f64) -> (), {
+export! { 819, glUniform2d, first_glUniform2d, hook_glUniform2d, (location: i32, x: f64, y: f64) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2d(location, x, y) };
 } }
-export! { 817, glUniform2dv, first_glUniform2dv, hook_glUniform2dv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 820, glUniform2dv, first_glUniform2dv, hook_glUniform2dv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2dv(location, count, value) };
 } }
-export! { 818, glUniform2f, first_glUniform2f, hook_glUniform2f, (location: i32, v0: f32, v1: f32) -> (), {
+export! { 821, glUniform2f, first_glUniform2f, hook_glUniform2f, (location: i32, v0: f32, v1: f32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2f(location, v0, v1) };
 } }
-export! { 819, glUniform2fARB, first_glUniform2fARB, hook_glUniform2fARB, (location: i32, v0: f32, v1: f32) -> (), {
+export! { 822, glUniform2fARB, first_glUniform2fARB, hook_glUniform2fARB, (location: i32, v0: f32, v1: f32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2fARB(location, v0, v1) };
 } }
-export! { 820, glUniform2fv, first_glUniform2fv, hook_glUniform2fv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 823, glUniform2fv, first_glUniform2fv, hook_glUniform2fv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2fv(location, count, value) };
 } }
-export! { 821, glUniform2fvARB, first_glUniform2fvARB, hook_glUniform2fvARB, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 824, glUniform2fvARB, first_glUniform2fvARB, hook_glUniform2fvARB, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2fvARB(location, count, value) };
 } }
-export! { 822, glUniform2i, first_glUniform2i, hook_glUniform2i, (location: i32, v0: i32, v1: i32) -> (), {
+export! { 825, glUniform2i, first_glUniform2i, hook_glUniform2i, (location: i32, v0: i32, v1: i32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2i(location, v0, v1) };
 } }
-export! { 823, glUniform2iARB, first_glUniform2iARB, hook_glUniform2iARB, (location: i32, v0: i32, v1: i32) -> (), {
+export! { 826, glUniform2iARB, first_glUniform2iARB, hook_glUniform2iARB, (location: i32, v0: i32, v1: i32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2iARB(location, v0, v1) };
 } }
-export! { 824, glUniform2iv, first_glUniform2iv, hook_glUniform2iv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 827, glUniform2iv, first_glUniform2iv, hook_glUniform2iv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2iv(location, count, value) };
 } }
-export! { 825, glUniform2ivARB, first_glUniform2ivARB, hook_glUniform2ivARB, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 828, glUniform2ivARB, first_glUniform2ivARB, hook_glUniform2ivARB, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2ivARB(location, count, value) };
 } }
-export! { 826, glUniform2ui, first_glUniform2ui, hook_glUniform2ui, (location: i32, v0: u32, v1: u32) -> (), {
+export! { 829, glUniform2ui, first_glUniform2ui, hook_glUniform2ui, (location: i32, v0: u32, v1: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2ui(location, v0, v1) };
 } }
-export! { 827, glUniform2uiEXT, first_glUniform2uiEXT, hook_glUniform2uiEXT, (location: i32, v0: u32, v1: u32) -> (), {
+export! { 830, glUniform2uiEXT, first_glUniform2uiEXT, hook_glUniform2uiEXT, (location: i32, v0: u32, v1: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2uiEXT(location, v0, v1) };
 } }
-export! { 828, glUniform2uiv, first_glUniform2uiv, hook_glUniform2uiv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 831, glUniform2uiv, first_glUniform2uiv, hook_glUniform2uiv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2uiv(location, count, value) };
 } }
-export! { 829, glUniform2uivEXT, first_glUniform2uivEXT, hook_glUniform2uivEXT, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 832, glUniform2uivEXT, first_glUniform2uivEXT, hook_glUniform2uivEXT, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2uivEXT(location, count, value) };
 } }
-export! { 830, glUniform3d, first_glUniform3d, hook_glUniform3d, (location: i32, x: f64, y: f64, z: f64) -> (), {
+export! { 833, glUniform3d, first_glUniform3d, hook_glUniform3d, (location: i32, x: f64, y: f64, z: f64) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3d(location, x, y, z) };
 } }
-export! { 831, glUniform3dv, first_glUniform3dv, hook_glUniform3dv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 834, glUniform3dv, first_glUniform3dv, hook_glUniform3dv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3dv(location, count, value) };
 } }
-export! { 832, glUniform3f, first_glUniform3f, hook_glUniform3f, (location: i32, v0: f32, v1: f32, v2: f32) -> (), {
+export! { 835, glUniform3f, first_glUniform3f, hook_glUniform3f, (location: i32, v0: f32, v1: f32, v2: f32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3f(location, v0, v1, v2) };
 } }
-export! { 833, glUniform3fARB, first_glUniform3fARB, hook_glUniform3fARB, (location: i32, v0: f32, v1: f32, v2: f32) -> (), {
+export! { 836, glUniform3fARB, first_glUniform3fARB, hook_glUniform3fARB, (location: i32, v0: f32, v1: f32, v2: f32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3fARB(location, v0, v1, v2) };
 } }
-export! { 834, glUniform3fv, first_glUniform3fv, hook_glUniform3fv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 837, glUniform3fv, first_glUniform3fv, hook_glUniform3fv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3fv(location, count, value) };
 } }
-export! { 835, glUniform3fvARB, first_glUniform3fvARB, hook_glUniform3fvARB, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 838, glUniform3fvARB, first_glUniform3fvARB, hook_glUniform3fvARB, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3fvARB(location, count, value) };
 } }
-export! { 836, glUniform3i, first_glUniform3i, hook_glUniform3i, (location: i32, v0: i32, v1: i32, v2: i32) -> (), {
+export! { 839, glUniform3i, first_glUniform3i, hook_glUniform3i, (location: i32, v0: i32, v1: i32, v2: i32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3i(location, v0, v1, v2) };
 } }
-export! { 837, glUniform3iARB, first_glUniform3iARB, hook_glUniform3iARB, (location: i32, v0: i32, v1: i32, v2: i32) -> (), {
+export! { 840, glUniform3iARB, first_glUniform3iARB, hook_glUniform3iARB, (location: i32, v0: i32, v1: i32, v2: i32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3iARB(location, v0, v1, v2) };
 } }
-export! { 838, glUniform3iv, first_glUniform3iv, hook_glUniform3iv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 841, glUniform3iv, first_glUniform3iv, hook_glUniform3iv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3iv(location, count, value) };
 } }
-export! { 839, glUniform3ivARB, first_glUniform3ivARB, hook_glUniform3ivARB, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 842, glUniform3ivARB, first_glUniform3ivARB, hook_glUniform3ivARB, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3ivARB(location, count, value) };
 } }
-export! { 840, glUniform3ui, first_glUniform3ui, hook_glUniform3ui, (location: i32, v0: u32, v1: u32, v2: u32) -> (), {
+export! { 843, glUniform3ui, first_glUniform3ui, hook_glUniform3ui, (location: i32, v0: u32, v1: u32, v2: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3ui(location, v0, v1, v2) };
 } }
-export! { 841, glUniform3uiEXT, first_glUniform3uiEXT, hook_glUniform3uiEXT, (location: i32, v0: u32, v1: u32, v2: u32) -> (), {
+export! { 844, glUniform3uiEXT, first_glUniform3uiEXT, hook_glUniform3uiEXT, (location: i32, v0: u32, v1: u32, v2: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3uiEXT(location, v0, v1, v2) };
 } }
-export! { 842, glUniform3uiv, first_glUniform3uiv, hook_glUniform3uiv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 845, glUniform3uiv, first_glUniform3uiv, hook_glUniform3uiv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3uiv(location, count, value) };
 } }
-export! { 843, glUniform3uivEXT, first_glUniform3uivEXT, hook_glUniform3uivEXT, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 846, glUniform3uivEXT, first_glUniform3uivEXT, hook_glUniform3uivEXT, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3uivEXT(location, count, value) };
 } }
-export! { 844, glUniform4d, first_glUniform4d, hook_glUniform4d, (location: i32, x: f64, y: f64, z: f64, w: f64) -> (), {
+export! { 847, glUniform4d, first_glUniform4d, hook_glUniform4d, (location: i32, x: f64, y: f64, z: f64, w: f64) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4d(location, x, y, z, w) };
 } }
-export! { 845, glUniform4dv, first_glUniform4dv, hook_glUniform4dv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 848, glUniform4dv, first_glUniform4dv, hook_glUniform4dv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4dv(location, count, value) };
 } }
-export! { 846, glUniform4f, first_glUniform4f, hook_glUniform4f, (location: i32, v0: f32, v1: f32, v2: f32, v3: f32) -> (), {
+export! { 849, glUniform4f, first_glUniform4f, hook_glUniform4f, (location: i32, v0: f32, v1: f32, v2: f32, v3: f32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4f(location, v0, v1, v2, v3) };
 } }
-export! { 847, glUniform4fARB, first_glUniform4fARB, hook_glUniform4fARB, (location: i32, v0: f32, v1: f32, v2: f32, v3: f32) -> (), {
+export! { 850, glUniform4fARB, first_glUniform4fARB, hook_glUniform4fARB, (location: i32, v0: f32, v1: f32, v2: f32, v3: f32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4fARB(location, v0, v1, v2, v3) };
 } }
-export! { 848, glUniform4fv, first_glUniform4fv, hook_glUniform4fv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 851, glUniform4fv, first_glUniform4fv, hook_glUniform4fv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4fv(location, count, value) };
 } }
-export! { 849, glUniform4fvARB, first_glUniform4fvARB, hook_glUniform4fvARB, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 852, glUniform4fvARB, first_glUniform4fvARB, hook_glUniform4fvARB, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4fvARB(location, count, value) };
 } }
-export! { 850, glUniform4i, first_glUniform4i, hook_glUniform4i, (location: i32, v0: i32, v1: i32, v2: i32, v3: i32) -> (), {
+export! { 853, glUniform4i, first_glUniform4i, hook_glUniform4i, (location: i32, v0: i32, v1: i32, v2: i32, v3: i32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4i(location, v0, v1, v2, v3) };
 } }
-export! { 851, glUniform4iARB, first_glUniform4iARB, hook_glUniform4iARB, (location: i32, v0: i32, v1: i32, v2: i32, v3: i32) -> (), {
+export! { 854, glUniform4iARB, first_glUniform4iARB, hook_glUniform4iARB, (location: i32, v0: i32, v1: i32, v2: i32, v3: i32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4iARB(location, v0, v1, v2, v3) };
 } }
-export! { 852, glUniform4iv, first_glUniform4iv, hook_glUniform4iv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 855, glUniform4iv, first_glUniform4iv, hook_glUniform4iv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4iv(location, count, value) };
 } }
-export! { 853, glUniform4ivARB, first_glUniform4ivARB, hook_glUniform4ivARB, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 856, glUniform4ivARB, first_glUniform4ivARB, hook_glUniform4ivARB, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4ivARB(location, count, value) };
 } }
-export! { 854, glUniform4ui, first_glUniform4ui, hook_glUniform4ui, (location: i32, v0: u32, v1: u32, v2: u32, v3: u32) -> (), {
+export! { 857, glUniform4ui, first_glUniform4ui, hook_glUniform4ui, (location: i32, v0: u32, v1: u32, v2: u32, v3: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4ui(location, v0, v1, v2, v3) };
 } }
-export! { 855, glUniform4uiEXT, first_glUniform4uiEXT, hook_glUniform4uiEXT, (location: i32, v0: u32, v1: u32, v2: u32, v3: u32) -> (), {
+export! { 858, glUniform4uiEXT, first_glUniform4uiEXT, hook_glUniform4uiEXT, (location: i32, v0: u32, v1: u32, v2: u32, v3: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4uiEXT(location, v0, v1, v2, v3) };
 } }
-export! { 856, glUniform4uiv, first_glUniform4uiv, hook_glUniform4uiv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 859, glUniform4uiv, first_glUniform4uiv, hook_glUniform4uiv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4uiv(location, count, value) };
 } }
-export! { 857, glUniform4uivEXT, first_glUniform4uivEXT, hook_glUniform4uivEXT, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 860, glUniform4uivEXT, first_glUniform4uivEXT, hook_glUniform4uivEXT, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4uivEXT(location, count, value) };
 } }
-export! { 858, glUniformMatrix2dv, first_glUniformMatrix2dv, hook_glUniformMatrix2dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 861, glUniformMatrix2dv, first_glUniformMatrix2dv, hook_glUniformMatrix2dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix2dv(location, count, transpose, value) };
 } }
-export! { 859, glUniformMatrix2fv, first_glUniformMatrix2fv, hook_glUniformMatrix2fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 862, glUniformMatrix2fv, first_glUniformMatrix2fv, hook_glUniformMatrix2fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix2fv(location, count, transpose, value) };
 } }
-export! { 860, glUniformMatrix2fvARB, first_glUniformMatrix2fvARB, hook_glUniformMatrix2fvARB, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 863, glUniformMatrix2fvARB, first_glUniformMatrix2fvARB, hook_glUniformMatrix2fvARB, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix2fvARB(location, count, transpose, value) };
 } }
-export! { 861, glUniformMatrix2x3dv, first_glUniformMatrix2x3dv, hook_glUniformMatrix2x3dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 864, glUniformMatrix2x3dv, first_glUniformMatrix2x3dv, hook_glUniformMatrix2x3dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix2x3dv(location, count, transpose, value) };
 } }
-export! { 862, glUniformMatrix2x3fv, first_glUniformMatrix2x3fv, hook_glUniformMatrix2x3fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 865, glUniformMatrix2x3fv, first_glUniformMatrix2x3fv, hook_glUniformMatrix2x3fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix2x3fv(location, count, transpose, value) };
 } }
-export! { 863, glUniformMatrix2x3fvNV, first_glUniformMatrix2x3fvNV, hook_glUniformMatrix2x3fvNV, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 866, glUniformMatrix2x3fvNV, first_glUniformMatrix2x3fvNV, hook_glUniformMatrix2x3fvNV, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix2x3fvNV(location, count, transpose, value) };
 } }
-export! { 864, glUniformMatrix2x4dv, first_glUniformMatrix2x4dv, hook_glUniformMatrix2x4dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 867, glUniformMatrix2x4dv, first_glUniformMatrix2x4dv, hook_glUniformMatrix2x4dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix2x4dv(location, count, transpose, value) };
 } }
-export! { 865, glUniformMatrix2x4fv, first_glUniformMatrix2x4fv, hook_glUniformMatrix2x4fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 868, glUniformMatrix2x4fv, first_glUniformMatrix2x4fv, hook_glUniformMatrix2x4fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix2x4fv(location, count, transpose, value) };
 } }
-export! { 866, glUniformMatrix2x4fvNV, first_glUniformMatrix2x4fvNV, hook_glUniformMatrix2x4fvNV, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 869, glUniformMatrix2x4fvNV, first_glUniformMatrix2x4fvNV, hook_glUniformMatrix2x4fvNV, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix2x4fvNV(location, count, transpose, value) };
 } }
-export! { 867, glUniformMatrix3dv, first_glUniformMatrix3dv, hook_glUniformMatrix3dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 870, glUniformMatrix3dv, first_glUniformMatrix3dv, hook_glUniformMatrix3dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix3dv(location, count, transpose, value) };
 } }
-export! { 868, glUniformMatrix3fv, first_glUniformMatrix3fv, hook_glUniformMatrix3fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 871, glUniformMatrix3fv, first_glUniformMatrix3fv, hook_glUniformMatrix3fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix3fv(location, count, transpose, value) };
 } }
-export! { 869, glUniformMatrix3fvARB, first_glUniformMatrix3fvARB, hook_glUniformMatrix3fvARB, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 872, glUniformMatrix3fvARB, first_glUniformMatrix3fvARB, hook_glUniformMatrix3fvARB, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix3fvARB(location, count, transpose, value) };
 } }
-export! { 870, glUniformMatrix3x2dv, first_glUniformMatrix3x2dv, hook_glUniformMatrix3x2dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 873, glUniformMatrix3x2dv, first_glUniformMatrix3x2dv, hook_glUniformMatrix3x2dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix3x2dv(location, count, transpose, value) };
 } }
-export! { 871, glUniformMatrix3x2fv, first_glUniformMatrix3x2fv, hook_glUniformMatrix3x2fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 874, glUniformMatrix3x2fv, first_glUniformMatrix3x2fv, hook_glUniformMatrix3x2fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix3x2fv(location, count, transpose, value) };
 } }
-export! { 872, glUniformMatrix3x2fvNV, first_glUniformMatrix3x2fvNV, hook_glUniformMatrix3x2fvNV, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 875, glUniformMatrix3x2fvNV, first_glUniformMatrix3x2fvNV, hook_glUniformMatrix3x2fvNV, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix3x2fvNV(location, count, transpose, value) };
 } }
-export! { 873, glUniformMatrix3x4dv, first_glUniformMatrix3x4dv, hook_glUniformMatrix3x4dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 876, glUniformMatrix3x4dv, first_glUniformMatrix3x4dv, hook_glUniformMatrix3x4dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix3x4dv(location, count, transpose, value) };
 } }
-export! { 874, glUniformMatrix3x4fv, first_glUniformMatrix3x4fv, hook_glUniformMatrix3x4fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 877, glUniformMatrix3x4fv, first_glUniformMatrix3x4fv, hook_glUniformMatrix3x4fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix3x4fv(location, count, transpose, value) };
 } }
-export! { 875, glUniformMatrix3x4fvNV, first_glUniformMatrix3x4fvNV, hook_glUniformMatrix3x4fvNV, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 878, glUniformMatrix3x4fvNV, first_glUniformMatrix3x4fvNV, hook_glUniformMatrix3x4fvNV, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix3x4fvNV(location, count, transpose, value) };
 } }
-export! { 876, glUniformMatrix4dv, first_glUniformMatrix4dv, hook_glUniformMatrix4dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 879, glUniformMatrix4dv, first_glUniformMatrix4dv, hook_glUniformMatrix4dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix4dv(location, count, transpose, value) };
 } }
-export! { 877, glUniformMatrix4fv, first_glUniformMatrix4fv, hook_glUniformMatrix4fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 880, glUniformMatrix4fv, first_glUniformMatrix4fv, hook_glUniformMatrix4fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix4fv(location, count, transpose, value) };
 } }
-export! { 878, glUniformMatrix4fvARB, first_glUniformMatrix4fvARB, hook_glUniformMatrix4fvARB, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 881, glUniformMatrix4fvARB, first_glUniformMatrix4fvARB, hook_glUniformMatrix4fvARB, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix4fvARB(location, count, transpose, value) };
 } }
-export! { 879, glUniformMatrix4x2dv, first_glUniformMatrix4x2dv, hook_glUniformMatrix4x2dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 882, glUniformMatrix4x2dv, first_glUniformMatrix4x2dv, hook_glUniformMatrix4x2dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix4x2dv(location, count, transpose, value) };
 } }
-export! { 880, glUniformMatrix4x2fv, first_glUniformMatrix4x2fv, hook_glUniformMatrix4x2fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 883, glUniformMatrix4x2fv, first_glUniformMatrix4x2fv, hook_glUniformMatrix4x2fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix4x2fv(location, count, transpose, value) };
 } }
-export! { 881, glUniformMatrix4x2fvNV, first_glUniformMatrix4x2fvNV, hook_glUniformMatrix4x2fvNV, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 884, glUniformMatrix4x2fvNV, first_glUniformMatrix4x2fvNV, hook_glUniformMatrix4x2fvNV, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix4x2fvNV(location, count, transpose, value) };
 } }
-export! { 882, glUniformMatrix4x3dv, first_glUniformMatrix4x3dv, hook_glUniformMatrix4x3dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 885, glUniformMatrix4x3dv, first_glUniformMatrix4x3dv, hook_glUniformMatrix4x3dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix4x3dv(location, count, transpose, value) };
 } }
-export! { 883, glUniformMatrix4x3fv, first_glUniformMatrix4x3fv, hook_glUniformMatrix4x3fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 886, glUniformMatrix4x3fv, first_glUniformMatrix4x3fv, hook_glUniformMatrix4x3fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix4x3fv(location, count, transpose, value) };
 } }
-export! { 884, glUniformMatrix4x3fvNV, first_glUniformMatrix4x3fvNV, hook_glUniformMatrix4x3fvNV, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 887, glUniformMatrix4x3fvNV, first_glUniformMatrix4x3fvNV, hook_glUniformMatrix4x3fvNV, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix4x3fvNV(location, count, transpose, value) };
 } }
-export! { 885, glGenerateMipmap, first_glGenerateMipmap, hook_glGenerateMipmap, (target: u32) -> (), {
+export! { 888, glGenerateMipmap, first_glGenerateMipmap, hook_glGenerateMipmap, (target: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGenerateMipmap(target) };
 } }
-export! { 886, glGenerateMipmapEXT, first_glGenerateMipmapEXT, hook_glGenerateMipmapEXT, (target: u32) -> (), {
+export! { 889, glGenerateMipmapEXT, first_glGenerateMipmapEXT, hook_glGenerateMipmapEXT, (target: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGenerateMipmapEXT(target) };
 } }
-export! { 887, glClear, first_glClear, hook_glClear, (mask: u32) -> (), {
+export! { 890, glClear, first_glClear, hook_glClear, (mask: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::CLEAR, &mut |gl| unsafe { gl.glClear(mask) })
 } }
-export! { 888, glClearBufferfi, first_glClearBufferfi, hook_glClearBufferfi, (buffer: u32, drawbuffer: i32, depth: f32, stencil: i32) -> (), {
+export! { 891, glClearBufferfi, first_glClearBufferfi, hook_glClearBufferfi, (buffer: u32, drawbuffer: i32, depth: f32, stencil: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::CLEAR, &mut |gl| unsafe { gl.glClearBufferfi(buffer, drawbuffer, depth, stencil) })
 } }
-export! { 889, glClearBufferfv, first_glClearBufferfv, hook_glClearBufferfv, (buffer: u32, drawbuffer: i32, value: Ptr) -> (), {
+export! { 892, glClearBufferfv, first_glClearBufferfv, hook_glClearBufferfv, (buffer: u32, drawbuffer: i32, value: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::CLEAR, &mut |gl| unsafe { gl.glClearBufferfv(buffer, drawbuffer, value) })
 } }
-export! { 890, glClearBufferiv, first_glClearBufferiv, hook_glClearBufferiv, (buffer: u32, drawbuffer: i32, value: Ptr) -> (), {
+export! { 893, glClearBufferiv, first_glClearBufferiv, hook_glClearBufferiv, (buffer: u32, drawbuffer: i32, value: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::CLEAR, &mut |gl| unsafe { gl.glClearBufferiv(buffer, drawbuffer, value) })
 } }
-export! { 891, glClearBufferuiv, first_glClearBufferuiv, hook_glClearBufferuiv, (buffer: u32, drawbuffer: i32, value: Ptr) -> (), {
+export! { 894, glClearBufferuiv, first_glClearBufferuiv, hook_glClearBufferuiv, (buffer: u32, drawbuffer: i32, value: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::CLEAR, &mut |gl| unsafe { gl.glClearBufferuiv(buffer, drawbuffer, value) })
 } }
-export! { 892, glDrawArrays, first_glDrawArrays, hook_glDrawArrays, (mode: u32, first: i32, count: i32) -> (), {
+export! { 895, glDrawArrays, first_glDrawArrays, hook_glDrawArrays, (mode: u32, first: i32, count: i32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDrawArrays(mode, first, count) }
 } }
-export! { 893, glDrawArraysEXT, first_glDrawArraysEXT, hook_glDrawArraysEXT, (mode: u32, first: i32, count: i32) -> (), {
+export! { 896, glDrawArraysEXT, first_glDrawArraysEXT, hook_glDrawArraysEXT, (mode: u32, first: i32, count: i32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDrawArrays(mode, first, count) }
 } }
-export! { 894, glDrawElements, first_glDrawElements, hook_glDrawElements, (mode: u32, count: i32, type_: u32, indices: Ptr) -> (), {
+export! { 897, glDrawElements, first_glDrawElements, hook_glDrawElements, (mode: u32, count: i32, type_: u32, indices: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDrawElements(mode, count, type_, indices) }
 } }
-export! { 895, glDrawRangeElements, first_glDrawRangeElements, hook_glDrawRangeElements, (mode: u32, start: u32, end: u32, count: i32, type_: u32, indices: Ptr) -> (), {
+export! { 898, glDrawRangeElements, first_glDrawRangeElements, hook_glDrawRangeElements, (mode: u32, start: u32, end: u32, count: i32, type_: u32, indices: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDrawRangeElements(mode, start, end, count, type_, indices) }
 } }
-export! { 896, glDrawRangeElementsEXT, first_glDrawRangeElementsEXT, hook_glDrawRangeElementsEXT, (mode: u32, start: u32, end: u32, count: i32, type_: u32, indices: Ptr) -> (), {
+export! { 899, glDrawRangeElementsEXT, first_glDrawRangeElementsEXT, hook_glDrawRangeElementsEXT, (mode: u32, start: u32, end: u32, count: i32, type_: u32, indices: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDrawRangeElements(mode, start, end, count, type_, indices) }
 } }
-export! { 897, glMultiDrawArrays, first_glMultiDrawArrays, hook_glMultiDrawArrays, (mode: u32, first: Ptr, count: Ptr, drawcount: i32) -> (), {
+export! { 900, glMultiDrawArrays, first_glMultiDrawArrays, hook_glMultiDrawArrays, (mode: u32, first: Ptr, count: Ptr, drawcount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawArrays(mode, first, count, drawcount) })
 } }
-export! { 898, glMultiDrawArraysEXT, first_glMultiDrawArraysEXT, hook_glMultiDrawArraysEXT, (mode: u32, first: Ptr, count: Ptr, primcount: i32) -> (), {
+export! { 901, glMultiDrawArraysEXT, first_glMultiDrawArraysEXT, hook_glMultiDrawArraysEXT, (mode: u32, first: Ptr, count: Ptr, primcount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawArraysEXT(mode, first, count, primcount) })
 } }
-export! { 899, glMultiDrawElements, first_glMultiDrawElements, hook_glMultiDrawElements, (mode: u32, count: Ptr, type_: u32, indices: Ptr, drawcount: i32) -> (), {
+export! { 902, glMultiDrawElements, first_glMultiDrawElements, hook_glMultiDrawElements, (mode: u32, count: Ptr, type_: u32, indices: Ptr, drawcount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawElements(mode, count, type_, indices, drawcount) })
 } }
-export! { 900, glMultiDrawElementsEXT, first_glMultiDrawElementsEXT, hook_glMultiDrawElementsEXT, (mode: u32, count: Ptr, type_: u32, indices: Ptr, primcount: i32) -> (), {
+export! { 903, glMultiDrawElementsEXT, first_glMultiDrawElementsEXT, hook_glMultiDrawElementsEXT, (mode: u32, count: Ptr, type_: u32, indices: Ptr, primcount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawElementsEXT(mode, count, type_, indices, primcount) })
 } }
-export! { 901, glDrawElementsBaseVertex, first_glDrawElementsBaseVertex, hook_glDrawElementsBaseVertex, (mode: u32, count: i32, type_: u32, indices: Ptr, basevertex: i32) -> (), {
+export! { 904, glDrawElementsBaseVertex, first_glDrawElementsBaseVertex, hook_glDrawElementsBaseVertex, (mode: u32, count: i32, type_: u32, indices: Ptr, basevertex: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsBaseVertex(mode, count, type_, indices, basevertex) })
 } }
-export! { 902, glDrawElementsBaseVertexEXT, first_glDrawElementsBaseVertexEXT, hook_glDrawElementsBaseVertexEXT, (mode: u32, count: i32, type_: u32, indices: Ptr, basevertex: i32) -> (), {
+export! { 905, glDrawElementsBaseVertexEXT, first_glDrawElementsBaseVertexEXT, hook_glDrawElementsBaseVertexEXT, (mode: u32, count: i32, type_: u32, indices: Ptr, basevertex: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsBaseVertexEXT(mode, count, type_, indices, basevertex) })
 } }
-export! { 903, glDrawElementsBaseVertexOES, first_glDrawElementsBaseVertexOES, hook_glDrawElementsBaseVertexOES, (mode: u32, count: i32, type_: u32, indices: Ptr, basevertex: i32) -> (), {
+export! { 906, glDrawElementsBaseVertexOES, first_glDrawElementsBaseVertexOES, hook_glDrawElementsBaseVertexOES, (mode: u32, count: i32, type_: u32, indices: Ptr, basevertex: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsBaseVertexOES(mode, count, type_, indices, basevertex) })
 } }
-export! { 904, glDrawRangeElementsBaseVertex, first_glDrawRangeElementsBaseVertex, hook_glDrawRangeElementsBaseVertex, (mode: u32, start: u32, end: u32, count: i32, type_: u32, indices: Ptr, basevertex: i32) -> (), {
+export! { 907, glDrawRangeElementsBaseVertex, first_glDrawRangeElementsBaseVertex, hook_glDrawRangeElementsBaseVertex, (mode: u32, start: u32, end: u32, count: i32, type_: u32, indices: Ptr, basevertex: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawRangeElementsBaseVertex(mode, start, end, count, type_, indices, basevertex) })
 } }
-export! { 905, glDrawRangeElementsBaseVertexEXT, first_glDrawRangeElementsBaseVertexEXT, hook_glDrawRangeElementsBaseVertexEXT, (mode: u32, start: u32, end: u32, count: i32, type_: u32, indices: Ptr, basevertex: i32) -> (), {
+export! { 908, glDrawRangeElementsBaseVertexEXT, first_glDrawRangeElementsBaseVertexEXT, hook_glDrawRangeElementsBaseVertexEXT, (mode: u32, start: u32, end: u32, count: i32, type_: u32, indices: Ptr, basevertex: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawRangeElementsBaseVertexEXT(mode, start, end, count, type_, indices, basevertex) })
 } }
-export! { 906, glDrawRangeElementsBaseVertexOES, first_glDrawRangeElementsBaseVertexOES, hook_glDrawRangeElementsBaseVertexOES, (mode: u32, start: u32, end: u32, count: i32, type_: u32, indices: Ptr, basevertex: i32) -> (), {
+export! { 909, glDrawRangeElementsBaseVertexOES, first_glDrawRangeElementsBaseVertexOES, hook_glDrawRangeElementsBaseVertexOES, (mode: u32, start: u32, end: u32, count: i32, type_: u32, indices: Ptr, basevertex: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawRangeElementsBaseVertexOES(mode, start, end, count, type_, indices, basevertex) })
 } }
-export! { 907, glMultiDrawElementsBaseVertex, first_glMultiDrawElementsBaseVertex, hook_glMultiDrawElementsBaseVertex, (mode: u32, count: Ptr, type_: u32, indices: Ptr, drawcount: i32, basevertex: Ptr) -> (), {
+export! { 910, glMultiDrawElementsBaseVertex, first_glMultiDrawElementsBaseVertex, hook_glMultiDrawElementsBaseVertex, (mode: u32, count: Ptr, type_: u32, indices: Ptr, drawcount: i32, basevertex: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawElementsBaseVertex(mode, count, type_, indices, drawcount, basevertex) })
 } }
-export! { 908, glMultiDrawElementsBaseVertexEXT, first_glMultiDrawElementsBaseVertexEXT, hook_glMultiDrawElementsBaseVertexEXT, (mode: u32, count: Ptr, type_: u32, indices: Ptr, drawcount: i32, basevertex: Ptr) -> (), {
+export! { 911, glMultiDrawElementsBaseVertexEXT, first_glMultiDrawElementsBaseVertexEXT, hook_glMultiDrawElementsBaseVertexEXT, (mode: u32, count: Ptr, type_: u32, indices: Ptr, drawcount: i32, basevertex: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawElementsBaseVertexEXT(mode, count, type_, indices, drawcount, basevertex) })
 } }
-export! { 909, glDrawArraysInstanced, first_glDrawArraysInstanced, hook_glDrawArraysInstanced, (mode: u32, first: i32, count: i32, instancecount: i32) -> (), {
+export! { 912, glDrawArraysInstanced, first_glDrawArraysInstanced, hook_glDrawArraysInstanced, (mode: u32, first: i32, count: i32, instancecount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawArraysInstanced(mode, first, count, instancecount) })
 } }
-export! { 910, glDrawArraysInstancedANGLE, first_glDrawArraysInstancedANGLE, hook_glDrawArraysInstancedANGLE, (mode: u32, first: i32, count: i32, primcount: i32) -> (), {
+export! { 913, glDrawArraysInstancedANGLE, first_glDrawArraysInstancedANGLE, hook_glDrawArraysInstancedANGLE, (mode: u32, first: i32, count: i32, primcount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawArraysInstancedANGLE(mode, first, count, primcount) })
 } }
-export! { 911, glDrawArraysInstancedARB, first_glDrawArraysInstancedARB, hook_glDrawArraysInstancedARB, (mode: u32, first: i32, count: i32, primcount: i32) -> (), {
+export! { 914, glDrawArraysInstancedARB, first_glDrawArraysInstancedARB, hook_glDrawArraysInstancedARB, (mode: u32, first: i32, count: i32, primcount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawArraysInstancedARB(mode, first, count, primcount) })
 } }
-export! { 912, glDrawArraysInstancedEXT, first_glDrawArraysInstancedEXT, hook_glDrawArraysInstancedEXT, (mode: u32, start: i32, count: i32, primcount: i32) -> (), {
+export! { 915, glDrawArraysInstancedEXT, first_glDrawArraysInstancedEXT, hook_glDrawArraysInstancedEXT, (mode: u32, start: i32, count: i32, primcount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawArraysInstancedEXT(mode, start, count, primcount) })
 } }
-export! { 913, glDrawArraysInstancedNV, first_glDrawArraysInstancedNV, hook_glDrawArraysInstancedNV, (mode: u32, first: i32, count: i32, primcount: i32) -> (), {
+export! { 916, glDrawArraysInstancedNV, first_glDrawArraysInstancedNV, hook_glDrawArraysInstancedNV, (mode: u32, first: i32, count: i32, primcount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawArraysInstancedNV(mode, first, count, primcount) })
 } }
-export! { 914, glDrawElementsInstanced, first_glDrawElementsInstanced, hook_glDrawElementsInstanced, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32) -> (), {
+export! { 917, glDrawElementsInstanced, first_glDrawElementsInstanced, hook_glDrawElementsInstanced, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsInstanced(mode, count, type_, indices, instancecount) })
 } }
-export! { 915, glDrawElementsInstancedANGLE, first_glDrawElementsInstancedANGLE, hook_glDrawElementsInstancedANGLE, (mode: u32, count: i32, type_: u32, indices: Ptr, primcount: i32) -> (), {
+export! { 918, glDrawElementsInstancedANGLE, first_glDrawElementsInstancedANGLE, hook_glDrawElementsInstancedANGLE, (mode: u32, count: i32, type_: u32, indices: Ptr, primcount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsInstancedANGLE(mode, count, type_, indices, primcount) })
 } }
-export! { 916, glDrawElementsInstancedARB, first_glDrawElementsInstancedARB, hook_glDrawElementsInstancedARB, (mode: u32, count: i32, type_: u32, indices: Ptr, primcount: i32) -> (), {
+export! { 919, glDrawElementsInstancedARB, first_glDrawElementsInstancedARB, hook_glDrawElementsInstancedARB, (mode: u32, count: i32, type_: u32, indices: Ptr, primcount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsInstancedARB(mode, count, type_, indices, primcount) })
 } }
-export! { 917, glDrawElementsInstancedEXT, first_glDrawElementsInstancedEXT, hook_glDrawElementsInstancedEXT, (mode: u32, count: i32, type_: u32, indices: Ptr, primcount: i32) -> (), {
+export! { 920, glDrawElementsInstancedEXT, first_glDrawElementsInstancedEXT, hook_glDrawElementsInstancedEXT, (mode: u32, count: i32, type_: u32, indices: Ptr, primcount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsInstancedEXT(mode, count, type_, indices, primcount) })
 } }
-export! { 918, glDrawElementsInstancedNV, first_glDrawElementsInstancedNV, hook_glDrawElementsInstancedNV, (mode: u32, count: i32, type_: u32, indices: Ptr, primcount: i32) -> (), {
+export! { 921, glDrawElementsInstancedNV, first_glDrawElementsInstancedNV, hook_glDrawElementsInstancedNV, (mode: u32, count: i32, type_: u32, indices: Ptr, primcount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsInstancedNV(mode, count, type_, indices, primcount) })
 } }
-export! { 919, glDrawElementsInstancedBaseVertex, first_glDrawElementsInstancedBaseVertex, hook_glDrawElementsInstancedBaseVertex, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32, basevertex: i32) -> (), {
+export! { 922, glDrawElementsInstancedBaseVertex, first_glDrawElementsInstancedBaseVertex, hook_glDrawElementsInstancedBaseVertex, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32, basevertex: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsInstancedBaseVertex(mode, count, type_, indices, instancecount, basevertex) })
 } }
-export! { 920, glDrawElementsInstancedBaseVertexEXT, first_glDrawElementsInstancedBaseVertexEXT, hook_glDrawElementsInstancedBaseVertexEXT, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32, basevertex: i32) -> (), {
+export! { 923, glDrawElementsInstancedBaseVertexEXT, first_glDrawElementsInstancedBaseVertexEXT, hook_glDrawElementsInstancedBaseVertexEXT, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32, basevertex: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsInstancedBaseVertexEXT(mode, count, type_, indices, instancecount, basevertex) })
 } }
-export! { 921, glDrawElementsInstancedBaseVertexOES, first_glDrawElementsInstancedBaseVertexOES, hook_glDrawElementsInstancedBaseVertexOES, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32, basevertex: i32) -> (), {
+export! { 924, glDrawElementsInstancedBaseVertexOES, first_glDrawElementsInstancedBaseVertexOES, hook_glDrawElementsInstancedBaseVertexOES, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32, basevertex: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsInstancedBaseVertexOES(mode, count, type_, indices, instancecount, basevertex) })
 } }
-export! { 922, glDrawArraysInstancedBaseInstance, first_glDrawArraysInstancedBaseInstance, hook_glDrawArraysInstancedBaseInstance, (mode: u32, first: i32, count: i32, instancecount: i32, baseinstance: u32) -> (), {
+export! { 925, glDrawArraysInstancedBaseInstance, first_glDrawArraysInstancedBaseInstance, hook_glDrawArraysInstancedBaseInstance, (mode: u32, first: i32, count: i32, instancecount: i32, baseinstance: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawArraysInstancedBaseInstance(mode, first, count, instancecount, baseinstance) })
 } }
-export! { 923, glDrawArraysInstancedBaseInstanceEXT, first_glDrawArraysInstancedBaseInstanceEXT, hook_glDrawArraysInstancedBaseInstanceEXT, (mode: u32, first: i32, count: i32, instancecount: i32, baseinstance: u32) -> (), {
+export! { 926, glDrawArraysInstancedBaseInstanceEXT, first_glDrawArraysInstancedBaseInstanceEXT, hook_glDrawArraysInstancedBaseInstanceEXT, (mode: u32, first: i32, count: i32, instancecount: i32, baseinstance: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawArraysInstancedBaseInstanceEXT(mode, first, count, instancecount, baseinstance) })
 } }
-export! { 924, glDrawElementsInstancedBaseInstance, first_glDrawElementsInstancedBaseInstance, hook_glDrawElementsInstancedBaseInstance, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32, baseinstance: u32) -> (), {
+export! { 927, glDrawElementsInstancedBaseInstance, first_glDrawElementsInstancedBaseInstance, hook_glDrawElementsInstancedBaseInstance, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32, baseinstance: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsInstancedBaseInstance(mode, count, type_, indices, instancecount, baseinstance) })
 } }
-export! { 925, glDrawElementsInstancedBaseInstanceEXT, first_glDrawElementsInstancedBaseInstanceEXT, hook_glDrawElementsInstancedBaseInstanceEXT, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32, baseinstance: u32) -> (), {
+export! { 928, glDrawElementsInstancedBaseInstanceEXT, first_glDrawElementsInstancedBaseInstanceEXT, hook_glDrawElementsInstancedBaseInstanceEXT, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32, baseinstance: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsInstancedBaseInstanceEXT(mode, count, type_, indices, instancecount, baseinstance) })
 } }
-export! { 926, glDrawElementsInstancedBaseVertexBaseInstance, first_glDrawElementsInstancedBaseVertexBaseInstance, hook_glDrawElementsInstancedBaseVertexBaseInstance, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32, basevertex: i32, baseinstance: u32) -> (), {
+export! { 929, glDrawElementsInstancedBaseVertexBaseInstance, first_glDrawElementsInstancedBaseVertexBaseInstance, hook_glDrawElementsInstancedBaseVertexBaseInstance, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32, basevertex: i32, baseinstance: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsInstancedBaseVertexBaseInstance(mode, count, type_, indices, instancecount, basevertex, baseinstance) })
 } }
-export! { 927, glDrawElementsInstancedBaseVertexBaseInstanceEXT, first_glDrawElementsInstancedBaseVertexBaseInstanceEXT, hook_glDrawElementsInstancedBaseVertexBaseInstanceEXT, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32, basevertex: i32, baseinstance: u32) -> (), {
+export! { 930, glDrawElementsInstancedBaseVertexBaseInstanceEXT, first_glDrawElementsInstancedBaseVertexBaseInstanceEXT, hook_glDrawElementsInstancedBaseVertexBaseInstanceEXT, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32, basevertex: i32, baseinstance: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsInstancedBaseVertexBaseInstanceEXT(mode, count, type_, indices, instancecount, basevertex, baseinstance) })
 } }
-export! { 928, glDrawArraysIndirect, first_glDrawArraysIndirect, hook_glDrawArraysIndirect, (mode: u32, indirect: Ptr) -> (), {
+export! { 931, glDrawArraysIndirect, first_glDrawArraysIndirect, hook_glDrawArraysIndirect, (mode: u32, indirect: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawArraysIndirect(mode, indirect) })
 } }
-export! { 929, glDrawElementsIndirect, first_glDrawElementsIndirect, hook_glDrawElementsIndirect, (mode: u32, type_: u32, indirect: Ptr) -> (), {
+export! { 932, glDrawElementsIndirect, first_glDrawElementsIndirect, hook_glDrawElementsIndirect, (mode: u32, type_: u32, indirect: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsIndirect(mode, type_, indirect) })
 } }
-export! { 930, glMultiDrawArraysIndirect, first_glMultiDrawArraysIndirect, hook_glMultiDrawArraysIndirect, (mode: u32, indirect: Ptr, drawcount: i32, stride: i32) -> (), {
+export! { 933, glMultiDrawArraysIndirect, first_glMultiDrawArraysIndirect, hook_glMultiDrawArraysIndirect, (mode: u32, indirect: Ptr, drawcount: i32, stride: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawArraysIndirect(mode, indirect, drawcount, stride) })
 } }
-export! { 931, glMultiDrawArraysIndirectAMD, first_glMultiDrawArraysIndirectAMD, hook_glMultiDrawArraysIndirectAMD, (mode: u32, indirect: Ptr, primcount: i32, stride: i32) -> (), {
+export! { 934, glMultiDrawArraysIndirectAMD, first_glMultiDrawArraysIndirectAMD, hook_glMultiDrawArraysIndirectAMD, (mode: u32, indirect: Ptr, primcount: i32, stride: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawArraysIndirectAMD(mode, indirect, primcount, stride) })
 } }
-export! { 932, glMultiDrawArraysIndirectEXT, first_glMultiDrawArraysIndirectEXT, hook_glMultiDrawArraysIndirectEXT, (mode: u32, indirect: Ptr, drawcount: i32, stride: i32) -> (), {
+export! { 935, glMultiDrawArraysIndirectEXT, first_glMultiDrawArraysIndirectEXT, hook_glMultiDrawArraysIndirectEXT, (mode: u32, indirect: Ptr, drawcount: i32, stride: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawArraysIndirectEXT(mode, indirect, drawcount, stride) })
 } }
-export! { 933, glMultiDrawElementsIndirect, first_glMultiDrawElementsIndirect, hook_glMultiDrawElementsIndirect, (mode: u32, type_: u32, indirect: Ptr, drawcount: i32, stride: i32) -> (), {
+export! { 936, glMultiDrawElementsIndirect, first_glMultiDrawElementsIndirect, hook_glMultiDrawElementsIndirect, (mode: u32, type_: u32, indirect: Ptr, drawcount: i32, stride: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawElementsIndirect(mode, type_, indirect, drawcount, stride) })
 } }
-export! { 934, glMultiDrawElementsIndirectAMD, first_glMultiDrawElementsIndirectAMD, hook_glMultiDrawElementsIndirectAMD, (mode: u32, type_: u32, indirect: Ptr, primcount: i32, stride: i32) -> (), {
+export! { 937, glMultiDrawElementsIndirectAMD, first_glMultiDrawElementsIndirectAMD, hook_glMultiDrawElementsIndirectAMD, (mode: u32, type_: u32, indirect: Ptr, primcount: i32, stride: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawElementsIndirectAMD(mode, type_, indirect, primcount, stride) })
 } }
-export! { 935, glMultiDrawElementsIndirectEXT, first_glMultiDrawElementsIndirectEXT, hook_glMultiDrawElementsIndirectEXT, (mode: u32, type_: u32, indirect: Ptr, drawcount: i32, stride: i32) -> (), {
+export! { 938, glMultiDrawElementsIndirectEXT, first_glMultiDrawElementsIndirectEXT, hook_glMultiDrawElementsIndirectEXT, (mode: u32, type_: u32, indirect: Ptr, drawcount: i32, stride: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawElementsIndirectEXT(mode, type_, indirect, drawcount, stride) })
 } }
-export! { 936, glDrawTransformFeedback, first_glDrawTransformFeedback, hook_glDrawTransformFeedback, (mode: u32, id: u32) -> (), {
+export! { 939, glDrawTransformFeedback, first_glDrawTransformFeedback, hook_glDrawTransformFeedback, (mode: u32, id: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawTransformFeedback(mode, id) })
 } }
-export! { 937, glDrawTransformFeedbackEXT, first_glDrawTransformFeedbackEXT, hook_glDrawTransformFeedbackEXT, (mode: u32, id: u32) -> (), {
+export! { 940, glDrawTransformFeedbackEXT, first_glDrawTransformFeedbackEXT, hook_glDrawTransformFeedbackEXT, (mode: u32, id: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawTransformFeedbackEXT(mode, id) })
 } }
-export! { 938, glDrawTransformFeedbackNV, first_glDrawTransformFeedbackNV, hook_glDrawTransformFeedbackNV, (mode: u32, id: u32) -> (), {
+export! { 941, glDrawTransformFeedbackNV, first_glDrawTransformFeedbackNV, hook_glDrawTransformFeedbackNV, (mode: u32, id: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawTransformFeedbackNV(mode, id) })
 } }
-export! { 939, glDrawTransformFeedbackInstanced, first_glDrawTransformFeedbackInstanced, hook_glDrawTransformFeedbackInstanced, (mode: u32, id: u32, instancecount: i32) -> (), {
+export! { 942, glDrawTransformFeedbackInstanced, first_glDrawTransformFeedbackInstanced, hook_glDrawTransformFeedbackInstanced, (mode: u32, id: u32, instancecount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawTransformFeedbackInstanced(mode, id, instancecount) })
 } }
-export! { 940, glDrawTransformFeedbackInstancedEXT, first_glDrawTransformFeedbackInstancedEXT, hook_glDrawTransformFeedbackInstancedEXT, (mode: u32, id: u32, instancecount: i32) -> (), {
+export! { 943, glDrawTransformFeedbackInstancedEXT, first_glDrawTransformFeedbackInstancedEXT, hook_glDrawTransformFeedbackInstancedEXT, (mode: u32, id: u32, instancecount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawTransformFeedbackInstancedEXT(mode, id, instancecount) })
 } }
-export! { 941, glDrawTransformFeedbackStream, first_glDrawTransformFeedbackStream, hook_glDrawTransformFeedbackStream, (mode: u32, id: u32, stream: u32) -> (), {
+export! { 944, glDrawTransformFeedbackStream, first_glDrawTransformFeedbackStream, hook_glDrawTransformFeedbackStream, (mode: u32, id: u32, stream: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawTransformFeedbackStream(mode, id, stream) })
 } }
-export! { 942, glDrawTransformFeedbackStreamInstanced, first_glDrawTransformFeedbackStreamInstanced, hook_glDrawTransformFeedbackStreamInstanced, (mode: u32, id: u32, stream: u32, instancecount: i32) -> (), {
+export! { 945, glDrawTransformFeedbackStreamInstanced, first_glDrawTransformFeedbackStreamInstanced, hook_glDrawTransformFeedbackStreamInstanced, (mode: u32, id: u32, stream: u32, instancecount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawTransformFeedbackStreamInstanced(mode, id, stream, instancecount) })
 } }
-export! { 943, glRectd, first_glRectd, hook_glRectd, (x1: f64, y1: f64, x2: f64, y2: f64) -> (), {
+export! { 946, glRectd, first_glRectd, hook_glRectd, (x1: f64, y1: f64, x2: f64, y2: f64) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glRectd(x1, y1, x2, y2) })
 } }
-export! { 944, glRectdv, first_glRectdv, hook_glRectdv, (v1: Ptr, v2: Ptr) -> (), {
+export! { 947, glRectdv, first_glRectdv, hook_glRectdv, (v1: Ptr, v2: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glRectdv(v1, v2) })
 } }
-export! { 945, glRectf, first_glRectf, hook_glRectf, (x1: f32, y1: f32, x2: f32, y2: f32) -> (), {
+export! { 948, glRectf, first_glRectf, hook_glRectf, (x1: f32, y1: f32, x2: f32, y2: f32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glRectf(x1, y1, x2, y2) })
 } }
-export! { 946, glRectfv, first_glRectfv, hook_glRectfv, (v1: Ptr, v2: Ptr) -> (), {
+export! { 949, glRectfv, first_glRectfv, hook_glRectfv, (v1: Ptr, v2: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glRectfv(v1, v2) })
 } }
-export! { 947, glRecti, first_glRecti, hook_glRecti, (x1: i32, y1: i32, x2: i32, y2: i32) -> (), {
+export! { 950, glRecti, first_glRecti, hook_glRecti, (x1: i32, y1: i32, x2: i32, y2: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glRecti(x1, y1, x2, y2) })
 } }
-export! { 948, glRectiv, first_glRectiv, hook_glRectiv, (v1: Ptr, v2: Ptr) -> (), {
+export! { 951, glRectiv, first_glRectiv, hook_glRectiv, (v1: Ptr, v2: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glRectiv(v1, v2) })
 } }
-export! { 949, glRects, first_glRects, hook_glRects, (x1: i16, y1: i16, x2: i16, y2: i16) -> (), {
+export! { 952, glRects, first_glRects, hook_glRects, (x1: i16, y1: i16, x2: i16, y2: i16) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glRects(x1, y1, x2, y2) })
 } }
-export! { 950, glRectsv, first_glRectsv, hook_glRectsv, (v1: Ptr, v2: Ptr) -> (), {
+export! { 953, glRectsv, first_glRectsv, hook_glRectsv, (v1: Ptr, v2: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glRectsv(v1, v2) })
 } }
-export! { 951, glEvalMesh1, first_glEvalMesh1, hook_glEvalMesh1, (mode: u32, i1: i32, i2: i32) -> (), {
+export! { 954, glEvalMesh1, first_glEvalMesh1, hook_glEvalMesh1, (mode: u32, i1: i32, i2: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glEvalMesh1(mode, i1, i2) })
 } }
-export! { 952, glEvalMesh2, first_glEvalMesh2, hook_glEvalMesh2, (mode: u32, i1: i32, i2: i32, j1: i32, j2: i32) -> (), {
+export! { 955, glEvalMesh2, first_glEvalMesh2, hook_glEvalMesh2, (mode: u32, i1: i32, i2: i32, j1: i32, j2: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glEvalMesh2(mode, i1, i2, j1, j2) })
 } }
-export! { 953, glAccum, first_glAccum, hook_glAccum, (op: u32, value: f32) -> (), {
+export! { 956, glAccum, first_glAccum, hook_glAccum, (op: u32, value: f32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ACCUM, &mut |gl| unsafe { gl.glAccum(op, value) })
 } }
-export! { 954, glBitmap, first_glBitmap, hook_glBitmap, (width: i32, height: i32, xorig: f32, yorig: f32, xmove: f32, ymove: f32, bitmap: Ptr) -> (), {
+export! { 957, glBitmap, first_glBitmap, hook_glBitmap, (width: i32, height: i32, xorig: f32, yorig: f32, xmove: f32, ymove: f32, bitmap: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBitmap(width, height, xorig, yorig, xmove, ymove, bitmap) }
 } }
-export! { 955, glDrawPixels, first_glDrawPixels, hook_glDrawPixels, (width: i32, height: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
+export! { 958, glDrawPixels, first_glDrawPixels, hook_glDrawPixels, (width: i32, height: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDrawPixels(width, height, format, type_, pixels) }
 } }
-export! { 956, glCopyPixels, first_glCopyPixels, hook_glCopyPixels, (x: i32, y: i32, width: i32, height: i32, type_: u32) -> (), {
+export! { 959, glCopyPixels, first_glCopyPixels, hook_glCopyPixels, (x: i32, y: i32, width: i32, height: i32, type_: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glCopyPixels(x, y, width, height, type_) }
 } }
-export! { 957, glNewList, first_glNewList, hook_glNewList, (list: u32, mode: u32) -> (), {
+export! { 960, glNewList, first_glNewList, hook_glNewList, (list: u32, mode: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glNewList(list, mode) }
 } }
-export! { 958, glEndList, first_glEndList, hook_glEndList, () -> (), {
+export! { 961, glEndList, first_glEndList, hook_glEndList, () -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glEndList() }
 } }
-export! { 959, glCallList, first_glCallList, hook_glCallList, (list: u32) -> (), {
+export! { 962, glCallList, first_glCallList, hook_glCallList, (list: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glCallList(list) }
 } }
-export! { 960, glCallLists, first_glCallLists, hook_glCallLists, (n: i32, type_: u32, lists: Ptr) -> (), {
+export! { 963, glCallLists, first_glCallLists, hook_glCallLists, (n: i32, type_: u32, lists: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glCallLists(n, type_, lists) }
 } }
-export! { 961, glDeleteLists, first_glDeleteLists, hook_glDeleteLists, (list: u32, range: i32) -> (), {
+export! { 964, glDeleteLists, first_glDeleteLists, hook_glDeleteLists, (list: u32, range: i32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDeleteLists(list, range) }
 } }
-export! { 962, glBindTexture, first_glBindTexture, hook_glBindTexture, (target: u32, texture: u32) -> (), {
+export! { 965, glBindTexture, first_glBindTexture, hook_glBindTexture, (target: u32, texture: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBindTexture(target, texture) }
 } }
-export! { 963, glBindTextureEXT, first_glBindTextureEXT, hook_glBindTextureEXT, (target: u32, texture: u32) -> (), {
+export! { 966, glBindTextureEXT, first_glBindTextureEXT, hook_glBindTextureEXT, (target: u32, texture: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBindTexture(target, texture) }
 } }
-export! { 964, glDeleteTextures, first_glDeleteTextures, hook_glDeleteTextures, (n: i32, textures: Ptr) -> (), {
+export! { 967, glDeleteTextures, first_glDeleteTextures, hook_glDeleteTextures, (n: i32, textures: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDeleteTextures(n, textures) }
 } }
-export! { 965, glIsTexture, first_glIsTexture, hook_glIsTexture, (texture: u32) -> u8, {
+export! { 968, glIsTexture, first_glIsTexture, hook_glIsTexture, (texture: u32) -> u8, {
     // SAFETY: the program's own arguments.
     unsafe { special::glIsTexture(texture) }
 } }
-export! { 966, glIsFramebuffer, first_glIsFramebuffer, hook_glIsFramebuffer, (framebuffer: u32) -> u8, {
+export! { 969, glIsFramebuffer, first_glIsFramebuffer, hook_glIsFramebuffer, (framebuffer: u32) -> u8, {
     // SAFETY: the program's own arguments.
     unsafe { special::glIsFramebuffer(framebuffer) }
 } }
-export! { 967, glIsFramebufferEXT, first_glIsFramebufferEXT, hook_glIsFramebufferEXT, (framebuffer: u32) -> u8, {
+export! { 970, glIsFramebufferEXT, first_glIsFramebufferEXT, hook_glIsFramebufferEXT, (framebuffer: u32) -> u8, {
     // SAFETY: the program's own arguments.
     unsafe { special::glIsFramebuffer(framebuffer) }
 } }
-export! { 968, glBindFramebuffer, first_glBindFramebuffer, hook_glBindFramebuffer, (target: u32, framebuffer: u32) -> (), {
+export! { 971, glBindFramebuffer, first_glBindFramebuffer, hook_glBindFramebuffer, (target: u32, framebuffer: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBindFramebuffer(target, framebuffer) }
 } }
-export! { 969, glBindFramebufferEXT, first_glBindFramebufferEXT, hook_glBindFramebufferEXT, (target: u32, framebuffer: u32) -> (), {
+export! { 972, glBindFramebufferEXT, first_glBindFramebufferEXT, hook_glBindFramebufferEXT, (target: u32, framebuffer: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBindFramebufferEXT(target, framebuffer) }
 } }
-export! { 970, glDeleteFramebuffers, first_glDeleteFramebuffers, hook_glDeleteFramebuffers, (n: i32, framebuffers: Ptr) -> (), {
+export! { 973, glDeleteFramebuffers, first_glDeleteFramebuffers, hook_glDeleteFramebuffers, (n: i32, framebuffers: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDeleteFramebuffers(n, framebuffers) }
 } }
-export! { 971, glDeleteFramebuffersEXT, first_glDeleteFramebuffersEXT, hook_glDeleteFramebuffersEXT, (n: i32, framebuffers: Ptr) -> (), {
+export! { 974, glDeleteFramebuffersEXT, first_glDeleteFramebuffersEXT, hook_glDeleteFramebuffersEXT, (n: i32, framebuffers: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDeleteFramebuffers(n, framebuffers) }
 } }
-export! { 972, glDrawBuffer, first_glDrawBuffer, hook_glDrawBuffer, (buf: u32) -> (), {
+export! { 975, glDrawBuffer, first_glDrawBuffer, hook_glDrawBuffer, (buf: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDrawBuffer(buf) }
 } }
-export! { 973, glDrawBuffers, first_glDrawBuffers, hook_glDrawBuffers, (n: i32, bufs: Ptr) -> (), {
+export! { 976, glDrawBuffers, first_glDrawBuffers, hook_glDrawBuffers, (n: i32, bufs: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDrawBuffers(n, bufs) }
 } }
-export! { 974, glDrawBuffersARB, first_glDrawBuffersARB, hook_glDrawBuffersARB, (n: i32, bufs: Ptr) -> (), {
+export! { 977, glDrawBuffersARB, first_glDrawBuffersARB, hook_glDrawBuffersARB, (n: i32, bufs: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDrawBuffers(n, bufs) }
 } }
-export! { 975, glDrawBuffersATI, first_glDrawBuffersATI, hook_glDrawBuffersATI, (n: i32, bufs: Ptr) -> (), {
+export! { 978, glDrawBuffersATI, first_glDrawBuffersATI, hook_glDrawBuffersATI, (n: i32, bufs: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDrawBuffers(n, bufs) }
 } }
-export! { 976, glDrawBuffersEXT, first_glDrawBuffersEXT, hook_glDrawBuffersEXT, (n: i32, bufs: Ptr) -> (), {
+export! { 979, glDrawBuffersEXT, first_glDrawBuffersEXT, hook_glDrawBuffersEXT, (n: i32, bufs: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDrawBuffers(n, bufs) }
 } }
-export! { 977, glReadBuffer, first_glReadBuffer, hook_glReadBuffer, (src: u32) -> (), {
+export! { 980, glReadBuffer, first_glReadBuffer, hook_glReadBuffer, (src: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glReadBuffer(src) }
 } }
-export! { 978, glNamedFramebufferDrawBuffer, first_glNamedFramebufferDrawBuffer, hook_glNamedFramebufferDrawBuffer, (framebuffer: u32, buf: u32) -> (), {
+export! { 981, glNamedFramebufferDrawBuffer, first_glNamedFramebufferDrawBuffer, hook_glNamedFramebufferDrawBuffer, (framebuffer: u32, buf: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glNamedFramebufferDrawBuffer(framebuffer, buf) }
 } }
-export! { 979, glNamedFramebufferDrawBuffers, first_glNamedFramebufferDrawBuffers, hook_glNamedFramebufferDrawBuffers, (framebuffer: u32, n: i32, bufs: Ptr) -> (), {
+export! { 982, glNamedFramebufferDrawBuffers, first_glNamedFramebufferDrawBuffers, hook_glNamedFramebufferDrawBuffers, (framebuffer: u32, n: i32, bufs: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glNamedFramebufferDrawBuffers(framebuffer, n, bufs) }
 } }
-export! { 980, glNamedFramebufferReadBuffer, first_glNamedFramebufferReadBuffer, hook_glNamedFramebufferReadBuffer, (framebuffer: u32, src: u32) -> (), {
+export! { 983, glNamedFramebufferReadBuffer, first_glNamedFramebufferReadBuffer, hook_glNamedFramebufferReadBuffer, (framebuffer: u32, src: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glNamedFramebufferReadBuffer(framebuffer, src) }
 } }
-export! { 981, glFramebufferDrawBufferEXT, first_glFramebufferDrawBufferEXT, hook_glFramebufferDrawBufferEXT, (framebuffer: u32, mode: u32) -> (), {
+export! { 984, glFramebufferDrawBufferEXT, first_glFramebufferDrawBufferEXT, hook_glFramebufferDrawBufferEXT, (framebuffer: u32, mode: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glFramebufferDrawBufferEXT(framebuffer, mode) }
 } }
-export! { 982, glFramebufferDrawBuffersEXT, first_glFramebufferDrawBuffersEXT, hook_glFramebufferDrawBuffersEXT, (framebuffer: u32, n: i32, bufs: Ptr) -> (), {
+export! { 985, glFramebufferDrawBuffersEXT, first_glFramebufferDrawBuffersEXT, hook_glFramebufferDrawBuffersEXT, (framebuffer: u32, n: i32, bufs: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glFramebufferDrawBuffersEXT(framebuffer, n, bufs) }
 } }
-export! { 983, glFramebufferReadBufferEXT, first_glFramebufferReadBufferEXT, hook_glFramebufferReadBufferEXT, (framebuffer: u32, mode: u32) -> (), {
+export! { 986, glFramebufferReadBufferEXT, first_glFramebufferReadBufferEXT, hook_glFramebufferReadBufferEXT, (framebuffer: u32, mode: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glFramebufferReadBufferEXT(framebuffer, mode) }
 } }
-export! { 984, glBlitFramebuffer, first_glBlitFramebuffer, hook_glBlitFramebuffer, (srcX0: i32, srcY0: i32, srcX1: i32, srcY1: i32, dstX0: i32, dstY0: i32, dstX1: i32, dstY1: i32, mask: u32, filter: u32) -> (), {
+export! { 987, glBlitFramebuffer, first_glBlitFramebuffer, hook_glBlitFramebuffer, (srcX0: i32, srcY0: i32, srcX1: i32, srcY1: i32, dstX0: i32, dstY0: i32, dstX1: i32, dstY1: i32, mask: u32, filter: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBlitFramebuffer(srcX0, srcY0, srcX1, srcY1, dstX0, dstY0, dstX1, dstY1, mask, filter) }
 } }
-export! { 985, glBlitFramebufferEXT, first_glBlitFramebufferEXT, hook_glBlitFramebufferEXT, (srcX0: i32, srcY0: i32, srcX1: i32, srcY1: i32, dstX0: i32, dstY0: i32, dstX1: i32, dstY1: i32, mask: u32, filter: u32) -> (), {
+export! { 988, glBlitFramebufferEXT, first_glBlitFramebufferEXT, hook_glBlitFramebufferEXT, (srcX0: i32, srcY0: i32, srcX1: i32, srcY1: i32, dstX0: i32, dstY0: i32, dstX1: i32, dstY1: i32, mask: u32, filter: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBlitFramebuffer(srcX0, srcY0, srcX1, srcY1, dstX0, dstY0, dstX1, dstY1, mask, filter) }
 } }
-export! { 986, glBlitFramebufferNV, first_glBlitFramebufferNV, hook_glBlitFramebufferNV, (srcX0: i32, srcY0: i32, srcX1: i32, srcY1: i32, dstX0: i32, dstY0: i32, dstX1: i32, dstY1: i32, mask: u32, filter: u32) -> (), {
+export! { 989, glBlitFramebufferNV, first_glBlitFramebufferNV, hook_glBlitFramebufferNV, (srcX0: i32, srcY0: i32, srcX1: i32, srcY1: i32, dstX0: i32, dstY0: i32, dstX1: i32, dstY1: i32, mask: u32, filter: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBlitFramebuffer(srcX0, srcY0, srcX1, srcY1, dstX0, dstY0, dstX1, dstY1, mask, filter) }
 } }
-export! { 987, glBlitNamedFramebuffer, first_glBlitNamedFramebuffer, hook_glBlitNamedFramebuffer, (readFramebuffer: u32, drawFramebuffer: u32, srcX0: i32, srcY0: i32, srcX1: i32, srcY1: i32, dstX0: i32, dstY0: i32, dstX1: i32, dstY1: i32, mask: u32, filter: u32) -> (), {
+export! { 990, glBlitNamedFramebuffer, first_glBlitNamedFramebuffer, hook_glBlitNamedFramebuffer, (readFramebuffer: u32, drawFramebuffer: u32, srcX0: i32, srcY0: i32, srcX1: i32, srcY1: i32, dstX0: i32, dstY0: i32, dstX1: i32, dstY1: i32, mask: u32, filter: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBlitNamedFramebuffer(readFramebuffer, drawFramebuffer, srcX0, srcY0, srcX1, srcY1, dstX0, dstY0, dstX1, dstY1, mask, filter) }
 } }
-export! { 988, glClearNamedFramebufferfv, first_glClearNamedFramebufferfv, hook_glClearNamedFramebufferfv, (framebuffer: u32, buffer: u32, drawbuffer: i32, value: Ptr) -> (), {
+export! { 991, glClearNamedFramebufferfv, first_glClearNamedFramebufferfv, hook_glClearNamedFramebufferfv, (framebuffer: u32, buffer: u32, drawbuffer: i32, value: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glClearNamedFramebufferfv(framebuffer, buffer, drawbuffer, value) }
 } }
-export! { 989, glClearNamedFramebufferiv, first_glClearNamedFramebufferiv, hook_glClearNamedFramebufferiv, (framebuffer: u32, buffer: u32, drawbuffer: i32, value: Ptr) -> (), {
+export! { 992, glClearNamedFramebufferiv, first_glClearNamedFramebufferiv, hook_glClearNamedFramebufferiv, (framebuffer: u32, buffer: u32, drawbuffer: i32, value: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glClearNamedFramebufferiv(framebuffer, buffer, drawbuffer, value) }
 } }
-export! { 990, glClearNamedFramebufferuiv, first_glClearNamedFramebufferuiv, hook_glClearNamedFramebufferuiv, (framebuffer: u32, buffer: u32, drawbuffer: i32, value: Ptr) -> (), {
+export! { 993, glClearNamedFramebufferuiv, first_glClearNamedFramebufferuiv, hook_glClearNamedFramebufferuiv, (framebuffer: u32, buffer: u32, drawbuffer: i32, value: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glClearNamedFramebufferuiv(framebuffer, buffer, drawbuffer, value) }
 } }
-export! { 991, glClearNamedFramebufferfi, first_glClearNamedFramebufferfi, hook_glClearNamedFramebufferfi, (framebuffer: u32, buffer: u32, drawbuffer: i32, depth: f32, stencil: i32) -> (), {
+export! { 994, glClearNamedFramebufferfi, first_glClearNamedFramebufferfi, hook_glClearNamedFramebufferfi, (framebuffer: u32, buffer: u32, drawbuffer: i32, depth: f32, stencil: i32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glClearNamedFramebufferfi(framebuffer, buffer, drawbuffer, depth, stencil) }
 } }
-export! { 992, glGetIntegerv, first_glGetIntegerv, hook_glGetIntegerv, (pname: u32, data: Ptr) -> (), {
+export! { 995, glGetIntegerv, first_glGetIntegerv, hook_glGetIntegerv, (pname: u32, data: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetIntegerv(pname, data) }
 } }
-export! { 993, glGetBooleanv, first_glGetBooleanv, hook_glGetBooleanv, (pname: u32, data: Ptr) -> (), {
+export! { 996, glGetBooleanv, first_glGetBooleanv, hook_glGetBooleanv, (pname: u32, data: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetBooleanv(pname, data) }
 } }
-export! { 994, glGetFloatv, first_glGetFloatv, hook_glGetFloatv, (pname: u32, data: Ptr) -> (), {
+export! { 997, glGetFloatv, first_glGetFloatv, hook_glGetFloatv, (pname: u32, data: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetFloatv(pname, data) }
 } }
-export! { 995, glGetDoublev, first_glGetDoublev, hook_glGetDoublev, (pname: u32, data: Ptr) -> (), {
+export! { 998, glGetDoublev, first_glGetDoublev, hook_glGetDoublev, (pname: u32, data: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetDoublev(pname, data) }
 } }
-export! { 996, glGetInteger64v, first_glGetInteger64v, hook_glGetInteger64v, (pname: u32, data: Ptr) -> (), {
+export! { 999, glGetInteger64v, first_glGetInteger64v, hook_glGetInteger64v, (pname: u32, data: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetInteger64v(pname, data) }
 } }
-export! { 997, glGetInteger64vAPPLE, first_glGetInteger64vAPPLE, hook_glGetInteger64vAPPLE, (pname: u32, params: Ptr) -> (), {
+export! { 1000, glGetInteger64vAPPLE, first_glGetInteger64vAPPLE, hook_glGetInteger64vAPPLE, (pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetInteger64v(pname, params) }
 } }
-export! { 998, glGetInteger64vEXT, first_glGetInteger64vEXT, hook_glGetInteger64vEXT, (pname: u32, data: Ptr) -> (), {
+export! { 1001, glGetInteger64vEXT, first_glGetInteger64vEXT, hook_glGetInteger64vEXT, (pname: u32, data: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetInteger64v(pname, data) }
 } }
-export! { 999, glFramebufferTexture, first_glFramebufferTexture, hook_glFramebufferTexture, (target: u32, attachment: u32, texture: u32, level: i32) -> (), {
+export! { 1002, glFramebufferTexture, first_glFramebufferTexture, hook_glFramebufferTexture, (target: u32, attachment: u32, texture: u32, level: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glFramebufferTexture(target, attachment, texture, level) })
 } }
-export! { 1000, glFramebufferTextureARB, first_glFramebufferTextureARB, hook_glFramebufferTextureARB, (target: u32, attachment: u32, texture: u32, level: i32) -> (), {
+export! { 1003, glFramebufferTextureARB, first_glFramebufferTextureARB, hook_glFramebufferTextureARB, (target: u32, attachment: u32, texture: u32, level: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glFramebufferTextureARB(target, attachment, texture, level) })
 } }
-export! { 1001, glFramebufferTextureEXT, first_glFramebufferTextureEXT, hook_glFramebufferTextureEXT, (target: u32, attachment: u32, texture: u32, level: i32) -> (), {
+export! { 1004, glFramebufferTextureEXT, first_glFramebufferTextureEXT, hook_glFramebufferTextureEXT, (target: u32, attachment: u32, texture: u32, level: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glFramebufferTextureEXT(target, attachment, texture, level) })
 } }
-export! { 1002, glFramebufferTextureOES, first_glFramebufferTextureOES, hook_glFramebufferTextureOES, (target: u32, attachment: u32, texture: u32, level: i32) -> (), {
+export! { 1005, glFramebufferTextureOES, first_glFramebufferTextureOES, hook_glFramebufferTextureOES, (target: u32, attachment: u32, texture: u32, level: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glFramebufferTextureOES(target, attachment, texture, level) })
 } }
-export! { 1003, glFramebufferTexture1D, first_glFramebufferTexture1D, hook_glFramebufferTexture1D, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32) -> (), {
+export! { 1006, glFramebufferTexture1D, first_glFramebufferTexture1D, hook_glFramebufferTexture1D, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glFramebufferTexture1D(target, attachment, textarget, texture, level) })
 } }
-export! { 1004, glFramebufferTexture1DEXT, first_glFramebufferTexture1DEXT, hook_glFramebufferTexture1DEXT, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32) -> (), {
+export! { 1007, glFramebufferTexture1DEXT, first_glFramebufferTexture1DEXT, hook_glFramebufferTexture1DEXT, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glFramebufferTexture1DEXT(target, attachment, textarget, texture, level) })
 } }
-export! { 1005, glFramebufferTexture2D, first_glFramebufferTexture2D, hook_glFramebufferTexture2D, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32) -> (), {
+export! { 1008, glFramebufferTexture2D, first_glFramebufferTexture2D, hook_glFramebufferTexture2D, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glFramebufferTexture2D(target, attachment, textarget, texture, level) })
 } }
-export! { 1006, glFramebufferTexture2DEXT, first_glFramebufferTexture2DEXT, hook_glFramebufferTexture2DEXT, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32) -> (), {
+export! { 1009, glFramebufferTexture2DEXT, first_glFramebufferTexture2DEXT, hook_glFramebufferTexture2DEXT, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glFramebufferTexture2DEXT(target, attachment, textarget, texture, level) })
 } }
-export! { 1007, glFramebufferTexture3D, first_glFramebufferTexture3D, hook_glFramebufferTexture3D, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32, zoffset: i32) -> (), {
+export! { 1010, glFramebufferTexture3D, first_glFramebufferTexture3D, hook_glFramebufferTexture3D, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32, zoffset: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glFramebufferTexture3D(target, attachment, textarget, texture, level, zoffset) })
 } }
-export! { 1008, glFramebufferTexture3DEXT, first_glFramebufferTexture3DEXT, hook_glFramebufferTexture3DEXT, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32, zoffset: i32) -> (), {
+export! { 1011, glFramebufferTexture3DEXT, first_glFramebufferTexture3DEXT, hook_glFramebufferTexture3DEXT, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32, zoffset: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glFramebufferTexture3DEXT(target, attachment, textarget, texture, level, zoffset) })
 } }
-export! { 1009, glFramebufferTextureLayer, first_glFramebufferTextureLayer, hook_glFramebufferTextureLayer, (target: u32, attachment: u32, texture: u32, level: i32, layer: i32) -> (), {
+export! { 1012, glFramebufferTextureLayer, first_glFramebufferTextureLayer, hook_glFramebufferTextureLayer, (target: u32, attachment: u32, texture: u32, level: i32, layer: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glFramebufferTextureLayer(target, attachment, texture, level, layer) })
 } }
-export! { 1010, glFramebufferTextureLayerARB, first_glFramebufferTextureLayerARB, hook_glFramebufferTextureLayerARB, (target: u32, attachment: u32, texture: u32, level: i32, layer: i32) -> (), {
+export! { 1013, glFramebufferTextureLayerARB, first_glFramebufferTextureLayerARB, hook_glFramebufferTextureLayerARB, (target: u32, attachment: u32, texture: u32, level: i32, layer: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glFramebufferTextureLayerARB(target, attachment, texture, level, layer) })
 } }
-export! { 1011, glFramebufferTextureLayerEXT, first_glFramebufferTextureLayerEXT, hook_glFramebufferTextureLayerEXT, (target: u32, attachment: u32, texture: u32, level: i32, layer: i32) -> (), {
+export! { 1014, glFramebufferTextureLayerEXT, first_glFramebufferTextureLayerEXT, hook_glFramebufferTextureLayerEXT, (target: u32, attachment: u32, texture: u32, level: i32, layer: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glFramebufferTextureLayerEXT(target, attachment, texture, level, layer) })
 } }
-export! { 1012, glFramebufferRenderbuffer, first_glFramebufferRenderbuffer, hook_glFramebufferRenderbuffer, (target: u32, attachment: u32, renderbuffertarget: u32, renderbuffer: u32) -> (), {
+export! { 1015, glFramebufferRenderbuffer, first_glFramebufferRenderbuffer, hook_glFramebufferRenderbuffer, (target: u32, attachment: u32, renderbuffertarget: u32, renderbuffer: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glFramebufferRenderbuffer(target, attachment, renderbuffertarget, renderbuffer) })
 } }
-export! { 1013, glFramebufferRenderbufferEXT, first_glFramebufferRenderbufferEXT, hook_glFramebufferRenderbufferEXT, (target: u32, attachment: u32, renderbuffertarget: u32, renderbuffer: u32) -> (), {
+export! { 1016, glFramebufferRenderbufferEXT, first_glFramebufferRenderbufferEXT, hook_glFramebufferRenderbufferEXT, (target: u32, attachment: u32, renderbuffertarget: u32, renderbuffer: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glFramebufferRenderbufferEXT(target, attachment, renderbuffertarget, renderbuffer) })
 } }
-export! { 1014, glGetFramebufferAttachmentParameteriv, first_glGetFramebufferAttachmentParameteriv, hook_glGetFramebufferAttachmentParameteriv, (target: u32, attachment: u32, pname: u32, params: Ptr) -> (), {
+export! { 1017, glGetFramebufferAttachmentParameteriv, first_glGetFramebufferAttachmentParameteriv, hook_glGetFramebufferAttachmentParameteriv, (target: u32, attachment: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glGetFramebufferAttachmentParameteriv(target, attachment, pname, params) })
 } }
-export! { 1015, glGetFramebufferAttachmentParameterivEXT, first_glGetFramebufferAttachmentParameterivEXT, hook_glGetFramebufferAttachmentParameterivEXT, (target: u32, attachment: u32, pname: u32, params: Ptr) -> (), {
+export! { 1018, glGetFramebufferAttachmentParameterivEXT, first_glGetFramebufferAttachmentParameterivEXT, hook_glGetFramebufferAttachmentParameterivEXT, (target: u32, attachment: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glGetFramebufferAttachmentParameterivEXT(target, attachment, pname, params) })
 } }
-export! { 1016, glCheckFramebufferStatus, first_glCheckFramebufferStatus, hook_glCheckFramebufferStatus, (target: u32) -> u32, {
+export! { 1019, glCheckFramebufferStatus, first_glCheckFramebufferStatus, hook_glCheckFramebufferStatus, (target: u32) -> u32, {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glCheckFramebufferStatus(target) })
 } }
-export! { 1017, glCheckFramebufferStatusEXT, first_glCheckFramebufferStatusEXT, hook_glCheckFramebufferStatusEXT, (target: u32) -> u32, {
+export! { 1020, glCheckFramebufferStatusEXT, first_glCheckFramebufferStatusEXT, hook_glCheckFramebufferStatusEXT, (target: u32) -> u32, {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glCheckFramebufferStatusEXT(target) })
 } }
-export! { 1018, glFramebufferParameteri, first_glFramebufferParameteri, hook_glFramebufferParameteri, (target: u32, pname: u32, param: i32) -> (), {
+export! { 1021, glFramebufferParameteri, first_glFramebufferParameteri, hook_glFramebufferParameteri, (target: u32, pname: u32, param: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glFramebufferParameteri(target, pname, param) })
 } }
-export! { 1019, glGetFramebufferParameteriv, first_glGetFramebufferParameteriv, hook_glGetFramebufferParameteriv, (target: u32, pname: u32, params: Ptr) -> (), {
+export! { 1022, glGetFramebufferParameteriv, first_glGetFramebufferParameteriv, hook_glGetFramebufferParameteriv, (target: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glGetFramebufferParameteriv(target, pname, params) })
 } }
-export! { 1020, glInvalidateFramebuffer, first_glInvalidateFramebuffer, hook_glInvalidateFramebuffer, (target: u32, numAttachments: i32, attachments: Ptr) -> (), {
+export! { 1023, glInvalidateFramebuffer, first_glInvalidateFramebuffer, hook_glInvalidateFramebuffer, (target: u32, numAttachments: i32, attachments: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glInvalidateFramebuffer(target, numAttachments, attachments) })
 } }
-export! { 1021, glInvalidateSubFramebuffer, first_glInvalidateSubFramebuffer, hook_glInvalidateSubFramebuffer, (target: u32, numAttachments: i32, attachments: Ptr, x: i32, y: i32, width: i32, height: i32) -> (), {
+export! { 1024, glInvalidateSubFramebuffer, first_glInvalidateSubFramebuffer, hook_glInvalidateSubFramebuffer, (target: u32, numAttachments: i32, attachments: Ptr, x: i32, y: i32, width: i32, height: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glInvalidateSubFramebuffer(target, numAttachments, attachments, x, y, width, height) })
 } }
-export! { 1022, glDiscardFramebufferEXT, first_glDiscardFramebufferEXT, hook_glDiscardFramebufferEXT, (target: u32, numAttachments: i32, attachments: Ptr) -> (), {
+export! { 1025, glDiscardFramebufferEXT, first_glDiscardFramebufferEXT, hook_glDiscardFramebufferEXT, (target: u32, numAttachments: i32, attachments: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glDiscardFramebufferEXT(target, numAttachments, attachments) })
 } }
-export! { 1023, glCopyTexImage1D, first_glCopyTexImage1D, hook_glCopyTexImage1D, (target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, border: i32) -> (), {
+export! { 1026, glCopyTexImage1D, first_glCopyTexImage1D, hook_glCopyTexImage1D, (target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, border: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::copy(target, x, width, &mut |gl| unsafe { gl.glCopyTexImage1D(target, level, internalformat, x, y, width, border) })
 } }
-export! { 1024, glCopyTexImage1DEXT, first_glCopyTexImage1DEXT, hook_glCopyTexImage1DEXT, (target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, border: i32) -> (), {
+export! { 1027, glCopyTexImage1DEXT, first_glCopyTexImage1DEXT, hook_glCopyTexImage1DEXT, (target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, border: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::copy(target, x, width, &mut |gl| unsafe { gl.glCopyTexImage1DEXT(target, level, internalformat, x, y, width, border) })
 } }
-export! { 1025, glCopyTexImage2D, first_glCopyTexImage2D, hook_glCopyTexImage2D, (target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, height: i32, border: i32) -> (), {
+export! { 1028, glCopyTexImage2D, first_glCopyTexImage2D, hook_glCopyTexImage2D, (target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, height: i32, border: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::copy(target, x, width, &mut |gl| unsafe { gl.glCopyTexImage2D(target, level, internalformat, x, y, width, height, border) })
 } }
-export! { 1026, glCopyTexImage2DEXT, first_glCopyTexImage2DEXT, hook_glCopyTexImage2DEXT, (target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, height: i32, border: i32) -> (), {
+export! { 1029, glCopyTexImage2DEXT, first_glCopyTexImage2DEXT, hook_glCopyTexImage2DEXT, (target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, height: i32, border: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::copy(target, x, width, &mut |gl| unsafe { gl.glCopyTexImage2DEXT(target, level, internalformat, x, y, width, height, border) })
 } }
-export! { 1027, glCopyTexSubImage1D, first_glCopyTexSubImage1D, hook_glCopyTexSubImage1D, (target: u32, level: i32, xoffset: i32, x: i32, y: i32, width: i32) -> (), {
+export! { 1030, glCopyTexSubImage1D, first_glCopyTexSubImage1D, hook_glCopyTexSubImage1D, (target: u32, level: i32, xoffset: i32, x: i32, y: i32, width: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::copy(target, x, width, &mut |gl| unsafe { gl.glCopyTexSubImage1D(target, level, xoffset, x, y, width) })
 } }
-export! { 1028, glCopyTexSubImage1DEXT, first_glCopyTexSubImage1DEXT, hook_glCopyTexSubImage1DEXT, (target: u32, level: i32, xoffset: i32, x: i32, y: i32, width: i32) -> (), {
+export! { 1031, glCopyTexSubImage1DEXT, first_glCopyTexSubImage1DEXT, hook_glCopyTexSubImage1DEXT, (target: u32, level: i32, xoffset: i32, x: i32, y: i32, width: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::copy(target, x, width, &mut |gl| unsafe { gl.glCopyTexSubImage1DEXT(target, level, xoffset, x, y, width) })
 } }
-export! { 1029, glCopyTexSubImage2D, first_glCopyTexSubImage2D, hook_glCopyTexSubImage2D, (target: u32, level: i32, xoffset: i32, yoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
+export! { 1032, glCopyTexSubImage2D, first_glCopyTexSubImage2D, hook_glCopyTexSubImage2D, (target: u32, level: i32, xoffset: i32, yoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::copy(target, x, width, &mut |gl| unsafe { gl.glCopyTexSubImage2D(target, level, xoffset, yoffset, x, y, width, height) })
 } }
-export! { 1030, glCopyTexSubImage2DEXT, first_glCopyTexSubImage2DEXT, hook_glCopyTexSubImage2DEXT, (target: u32, level: i32, xoffset: i32, yoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
+export! { 1033, glCopyTexSubImage2DEXT, first_glCopyTexSubImage2DEXT, hook_glCopyTexSubImage2DEXT, (target: u32, level: i32, xoffset: i32, yoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::copy(target, x, width, &mut |gl| unsafe { gl.glCopyTexSubImage2DEXT(target, level, xoffset, yoffset, x, y, width, height) })
 } }
-export! { 1031, glReadPixels, first_glReadPixels, hook_glReadPixels, (x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
+export! { 1034, glReadPixels, first_glReadPixels, hook_glReadPixels, (x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glReadPixels(x, y, width, height, format, type_, pixels) })
 } }
-export! { 1032, glReadnPixels, first_glReadnPixels, hook_glReadnPixels, (x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, bufSize: i32, data: Ptr) -> (), {
+export! { 1035, glReadnPixels, first_glReadnPixels, hook_glReadnPixels, (x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, bufSize: i32, data: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glReadnPixels(x, y, width, height, format, type_, bufSize, data) })
 } }
-export! { 1033, glReadnPixelsARB, first_glReadnPixelsARB, hook_glReadnPixelsARB, (x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, bufSize: i32, data: Ptr) -> (), {
+export! { 1036, glReadnPixelsARB, first_glReadnPixelsARB, hook_glReadnPixelsARB, (x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, bufSize: i32, data: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glReadnPixelsARB(x, y, width, height, format, type_, bufSize, data) })
 } }
-export! { 1034, glReadnPixelsEXT, first_glReadnPixelsEXT, hook_glReadnPixelsEXT, (x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, bufSize: i32, data: Ptr) -> (), {
+export! { 1037, glReadnPixelsEXT, first_glReadnPixelsEXT, hook_glReadnPixelsEXT, (x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, bufSize: i32, data: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glReadnPixelsEXT(x, y, width, height, format, type_, bufSize, data) })
 } }
-export! { 1035, glReadnPixelsKHR, first_glReadnPixelsKHR, hook_glReadnPixelsKHR, (x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, bufSize: i32, data: Ptr) -> (), {
+export! { 1038, glReadnPixelsKHR, first_glReadnPixelsKHR, hook_glReadnPixelsKHR, (x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, bufSize: i32, data: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glReadnPixelsKHR(x, y, width, height, format, type_, bufSize, data) })
 } }
-export! { 1036, glCopyTexSubImage3D, first_glCopyTexSubImage3D, hook_glCopyTexSubImage3D, (target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
+export! { 1039, glCopyTexSubImage3D, first_glCopyTexSubImage3D, hook_glCopyTexSubImage3D, (target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyTexSubImage3D(target, level, xoffset, yoffset, zoffset, x, y, width, height) })
 } }
-export! { 1037, glCopyTexSubImage3DEXT, first_glCopyTexSubImage3DEXT, hook_glCopyTexSubImage3DEXT, (target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
+export! { 1040, glCopyTexSubImage3DEXT, first_glCopyTexSubImage3DEXT, hook_glCopyTexSubImage3DEXT, (target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyTexSubImage3DEXT(target, level, xoffset, yoffset, zoffset, x, y, width, height) })
 } }
-export! { 1038, glCopyTextureSubImage1D, first_glCopyTextureSubImage1D, hook_glCopyTextureSubImage1D, (texture: u32, level: i32, xoffset: i32, x: i32, y: i32, width: i32) -> (), {
+export! { 1041, glCopyTextureSubImage1D, first_glCopyTextureSubImage1D, hook_glCopyTextureSubImage1D, (texture: u32, level: i32, xoffset: i32, x: i32, y: i32, width: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyTextureSubImage1D(texture, level, xoffset, x, y, width) })
 } }
-export! { 1039, glCopyTextureSubImage2D, first_glCopyTextureSubImage2D, hook_glCopyTextureSubImage2D, (texture: u32, level: i32, xoffset: i32, yoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
+export! { 1042, glCopyTextureSubImage2D, first_glCopyTextureSubImage2D, hook_glCopyTextureSubImage2D, (texture: u32, level: i32, xoffset: i32, yoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyTextureSubImage2D(texture, level, xoffset, yoffset, x, y, width, height) })
 } }
-export! { 1040, glCopyTextureSubImage3D, first_glCopyTextureSubImage3D, hook_glCopyTextureSubImage3D, (texture: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
+export! { 1043, glCopyTextureSubImage3D, first_glCopyTextureSubImage3D, hook_glCopyTextureSubImage3D, (texture: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyTextureSubImage3D(texture, level, xoffset, yoffset, zoffset, x, y, width, height) })
 } }
-export! { 1041, glCopyMultiTexImage1DEXT, first_glCopyMultiTexImage1DEXT, hook_glCopyMultiTexImage1DEXT, (texunit: u32, target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, border: i32) -> (), {
+export! { 1044, glCopyMultiTexImage1DEXT, first_glCopyMultiTexImage1DEXT, hook_glCopyMultiTexImage1DEXT, (texunit: u32, target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, border: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyMultiTexImage1DEXT(texunit, target, level, internalformat, x, y, width, border) })
 } }
-export! { 1042, glCopyMultiTexImage2DEXT, first_glCopyMultiTexImage2DEXT, hook_glCopyMultiTexImage2DEXT, (texunit: u32, target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, height: i32, border: i32) -> (), {
+export! { 1045, glCopyMultiTexImage2DEXT, first_glCopyMultiTexImage2DEXT, hook_glCopyMultiTexImage2DEXT, (texunit: u32, target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, height: i32, border: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyMultiTexImage2DEXT(texunit, target, level, internalformat, x, y, width, height, border) })
 } }
-export! { 1043, glCopyTextureImage1DEXT, first_glCopyTextureImage1DEXT, hook_glCopyTextureImage1DEXT, (texture: u32, target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, border: i32) -> (), {
+export! { 1046, glCopyTextureImage1DEXT, first_glCopyTextureImage1DEXT, hook_glCopyTextureImage1DEXT, (texture: u32, target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, border: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyTextureImage1DEXT(texture, target, level, internalformat, x, y, width, border) })
 } }
-export! { 1044, glCopyTextureImage2DEXT, first_glCopyTextureImage2DEXT, hook_glCopyTextureImage2DEXT, (texture: u32, target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, height: i32, border: i32) -> (), {
+export! { 1047, glCopyTextureImage2DEXT, first_glCopyTextureImage2DEXT, hook_glCopyTextureImage2DEXT, (texture: u32, target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, height: i32, border: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyTextureImage2DEXT(texture, target, level, internalformat, x, y, width, height, border) })
 } }
-export! { 1045, glCopyColorTable, first_glCopyColorTable, hook_glCopyColorTable, (target: u32, internalformat: u32, x: i32, y: i32, width: i32) -> (), {
+export! { 1048, glCopyColorTable, first_glCopyColorTable, hook_glCopyColorTable, (target: u32, internalformat: u32, x: i32, y: i32, width: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyColorTable(target, internalformat, x, y, width) })
 } }
-export! { 1046, glCopyColorTableSGI, first_glCopyColorTableSGI, hook_glCopyColorTableSGI, (target: u32, internalformat: u32, x: i32, y: i32, width: i32) -> (), {
+export! { 1049, glCopyColorTableSGI, first_glCopyColorTableSGI, hook_glCopyColorTableSGI, (target: u32, internalformat: u32, x: i32, y: i32, width: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyColorTableSGI(target, internalformat, x, y, width) })
 } }
-export! { 1047, glCopyConvolutionFilter1D, first_glCopyConvolutionFilter1D, hook_glCopyConvolutionFilter1D, (target: u32, internalformat: u32, x: i32, y: i32, width: i32) -> (), {
+export! { 1050, glCopyConvolutionFilter1D, first_glCopyConvolutionFilter1D, hook_glCopyConvolutionFilter1D, (target: u32, internalformat: u32, x: i32, y: i32, width: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyConvolutionFilter1D(target, internalformat, x, y, width) })
 } }
-export! { 1048, glCopyConvolutionFilter1DEXT, first_glCopyConvolutionFilter1DEXT, hook_glCopyConvolutionFilter1DEXT, (target: u32, internalformat: u32, x: i32, y: i32, width: i32) -> (), {
+export! { 1051, glCopyConvolutionFilter1DEXT, first_glCopyConvolutionFilter1DEXT, hook_glCopyConvolutionFilter1DEXT, (target: u32, internalformat: u32, x: i32, y: i32, width: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyConvolutionFilter1DEXT(target, internalformat, x, y, width) })
 } }
-export! { 1049, glCopyConvolutionFilter2D, first_glCopyConvolutionFilter2D, hook_glCopyConvolutionFilter2D, (target: u32, internalformat: u32, x: i32, y: i32, width: i32, height: i32) -> (), {
+export! { 1052, glCopyConvolutionFilter2D, first_glCopyConvolutionFilter2D, hook_glCopyConvolutionFilter2D, (target: u32, internalformat: u32, x: i32, y: i32, width: i32, height: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyConvolutionFilter2D(target, internalformat, x, y, width, height) })
 } }
-export! { 1050, glCopyConvolutionFilter2DEXT, first_glCopyConvolutionFilter2DEXT, hook_glCopyConvolutionFilter2DEXT, (target: u32, internalformat: u32, x: i32, y: i32, width: i32, height: i32) -> (), {
+export! { 1053, glCopyConvolutionFilter2DEXT, first_glCopyConvolutionFilter2DEXT, hook_glCopyConvolutionFilter2DEXT, (target: u32, internalformat: u32, x: i32, y: i32, width: i32, height: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyConvolutionFilter2DEXT(target, internalformat, x, y, width, height) })
 } }
-export! { 1051, glFinish, first_glFinish, hook_glFinish, () -> (), {
+export! { 1054, glFinish, first_glFinish, hook_glFinish, () -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glFinish() }
 } }
-export! { 1052, glFlush, first_glFlush, hook_glFlush, () -> (), {
+export! { 1055, glFlush, first_glFlush, hook_glFlush, () -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glFlush() }
 } }
-export! { 1053, glGetError, first_glGetError, hook_glGetError, () -> u32, {
+export! { 1056, glGetError, first_glGetError, hook_glGetError, () -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetError() }
 } }
-export! { 1054, glBeginQuery, first_glBeginQuery, hook_glBeginQuery, (target: u32, id: u32) -> (), {
+export! { 1057, glBeginQuery, first_glBeginQuery, hook_glBeginQuery, (target: u32, id: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBeginQuery(target, id) }
 } }
-export! { 1055, glBeginQueryARB, first_glBeginQueryARB, hook_glBeginQueryARB, (target: u32, id: u32) -> (), {
+export! { 1058, glBeginQueryARB, first_glBeginQueryARB, hook_glBeginQueryARB, (target: u32, id: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBeginQuery(target, id) }
 } }
-export! { 1056, glEndQuery, first_glEndQuery, hook_glEndQuery, (target: u32) -> (), {
+export! { 1059, glEndQuery, first_glEndQuery, hook_glEndQuery, (target: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glEndQuery(target) }
 } }
-export! { 1057, glEndQueryARB, first_glEndQueryARB, hook_glEndQueryARB, (target: u32) -> (), {
+export! { 1060, glEndQueryARB, first_glEndQueryARB, hook_glEndQueryARB, (target: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glEndQuery(target) }
 } }
-export! { 1058, glDeleteQueries, first_glDeleteQueries, hook_glDeleteQueries, (n: i32, ids: Ptr) -> (), {
+export! { 1061, glDeleteQueries, first_glDeleteQueries, hook_glDeleteQueries, (n: i32, ids: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDeleteQueries(n, ids) }
 } }
-export! { 1059, glDeleteQueriesARB, first_glDeleteQueriesARB, hook_glDeleteQueriesARB, (n: i32, ids: Ptr) -> (), {
+export! { 1062, glDeleteQueriesARB, first_glDeleteQueriesARB, hook_glDeleteQueriesARB, (n: i32, ids: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDeleteQueries(n, ids) }
 } }
-export! { 1060, glGetQueryiv, first_glGetQueryiv, hook_glGetQueryiv, (target: u32, pname: u32, params: Ptr) -> (), {
+export! { 1063, glGetQueryiv, first_glGetQueryiv, hook_glGetQueryiv, (target: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryiv(target, pname, params) }
 } }
-export! { 1061, glGetQueryivARB, first_glGetQueryivARB, hook_glGetQueryivARB, (target: u32, pname: u32, params: Ptr) -> (), {
+export! { 1064, glGetQueryivARB, first_glGetQueryivARB, hook_glGetQueryivARB, (target: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryiv(target, pname, params) }
 } }
-export! { 1062, glGetQueryObjectiv, first_glGetQueryObjectiv, hook_glGetQueryObjectiv, (id: u32, pname: u32, params: Ptr) -> (), {
+export! { 1065, glGetQueryObjectiv, first_glGetQueryObjectiv, hook_glGetQueryObjectiv, (id: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryObjectiv(id, pname, params) }
 } }
-export! { 1063, glGetQueryObjectivARB, first_glGetQueryObjectivARB, hook_glGetQueryObjectivARB, (id: u32, pname: u32, params: Ptr) -> (), {
+export! { 1066, glGetQueryObjectivARB, first_glGetQueryObjectivARB, hook_glGetQueryObjectivARB, (id: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryObjectiv(id, pname, params) }
 } }
-export! { 1064, glGetQueryObjectivEXT, first_glGetQueryObjectivEXT, hook_glGetQueryObjectivEXT, (id: u32, pname: u32, params: Ptr) -> (), {
+export! { 1067, glGetQueryObjectivEXT, first_glGetQueryObjectivEXT, hook_glGetQueryObjectivEXT, (id: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryObjectiv(id, pname, params) }
 } }
-export! { 1065, glGetQueryObjectuiv, first_glGetQueryObjectuiv, hook_glGetQueryObjectuiv, (id: u32, pname: u32, params: Ptr) -> (), {
+export! { 1068, glGetQueryObjectuiv, first_glGetQueryObjectuiv, hook_glGetQueryObjectuiv, (id: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryObjectuiv(id, pname, params) }
 } }
-export! { 1066, glGetQueryObjectuivARB, first_glGetQueryObjectuivARB, hook_glGetQueryObjectuivARB, (id: u32, pname: u32, params: Ptr) -> (), {
+export! { 1069, glGetQueryObjectuivARB, first_glGetQueryObjectuivARB, hook_glGetQueryObjectuivARB, (id: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryObjectuiv(id, pname, params) }
 } }
-export! { 1067, glGetQueryObjecti64v, first_glGetQueryObjecti64v, hook_glGetQueryObjecti64v, (id: u32, pname: u32, params: Ptr) -> (), {
+export! { 1070, glGetQueryObjecti64v, first_glGetQueryObjecti64v, hook_glGetQueryObjecti64v, (id: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryObjecti64v(id, pname, params) }
 } }
-export! { 1068, glGetQueryObjecti64vEXT, first_glGetQueryObjecti64vEXT, hook_glGetQueryObjecti64vEXT, (id: u32, pname: u32, params: Ptr) -> (), {
+export! { 1071, glGetQueryObjecti64vEXT, first_glGetQueryObjecti64vEXT, hook_glGetQueryObjecti64vEXT, (id: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryObjecti64v(id, pname, params) }
 } }
-export! { 1069, glGetQueryObjectui64v, first_glGetQueryObjectui64v, hook_glGetQueryObjectui64v, (id: u32, pname: u32, params: Ptr) -> (), {
+export! { 1072, glGetQueryObjectui64v, first_glGetQueryObjectui64v, hook_glGetQueryObjectui64v, (id: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryObjectui64v(id, pname, params) }
 } }
-export! { 1070, glGetQueryObjectui64vEXT, first_glGetQueryObjectui64vEXT, hook_glGetQueryObjectui64vEXT, (id: u32, pname: u32, params: Ptr) -> (), {
+export! { 1073, glGetQueryObjectui64vEXT, first_glGetQueryObjectui64vEXT, hook_glGetQueryObjectui64vEXT, (id: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryObjectui64v(id, pname, params) }
 } }
-export! { 1071, glXSwapBuffers, first_glXSwapBuffers, hook_glXSwapBuffers, (dpy: Ptr, drawable: c_ulong) -> (), {
+export! { 1074, glXSwapBuffers, first_glXSwapBuffers, hook_glXSwapBuffers, (dpy: Ptr, drawable: c_ulong) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glXSwapBuffers(dpy, drawable) }
 } }
-export! { 1072, glXSwapBuffersMscOML, first_glXSwapBuffersMscOML, hook_glXSwapBuffersMscOML, (dpy: Ptr, drawable: c_ulong, target_msc: i64, divisor: i64, remainder: i64) -> i64, {
+export! { 1075, glXSwapBuffersMscOML, first_glXSwapBuffersMscOML, hook_glXSwapBuffersMscOML, (dpy: Ptr, drawable: c_ulong, target_msc: i64, divisor: i64, remainder: i64) -> i64, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXSwapBuffersMscOML(dpy, drawable, target_msc, divisor, remainder) }
 } }
-export! { 1073, glXMakeCurrent, first_glXMakeCurrent, hook_glXMakeCurrent, (dpy: Ptr, drawable: c_ulong, ctx: Ptr) -> i32, {
+export! { 1076, glXMakeCurrent, first_glXMakeCurrent, hook_glXMakeCurrent, (dpy: Ptr, drawable: c_ulong, ctx: Ptr) -> i32, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXMakeCurrent(dpy, drawable, ctx) }
 } }
-export! { 1074, glXMakeContextCurrent, first_glXMakeContextCurrent, hook_glXMakeContextCurrent, (dpy: Ptr, draw: c_ulong, read: c_ulong, ctx: Ptr) -> i32, {
+export! { 1077, glXMakeContextCurrent, first_glXMakeContextCurrent, hook_glXMakeContextCurrent, (dpy: Ptr, draw: c_ulong, read: c_ulong, ctx: Ptr) -> i32, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXMakeContextCurrent(dpy, draw, read, ctx) }
 } }
-export! { 1075, glXMakeCurrentReadSGI, first_glXMakeCurrentReadSGI, hook_glXMakeCurrentReadSGI, (dpy: Ptr, draw: c_ulong, read: c_ulong, ctx: Ptr) -> i32, {
+export! { 1078, glXMakeCurrentReadSGI, first_glXMakeCurrentReadSGI, hook_glXMakeCurrentReadSGI, (dpy: Ptr, draw: c_ulong, read: c_ulong, ctx: Ptr) -> i32, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXMakeCurrentReadSGI(dpy, draw, read, ctx) }
 } }
-export! { 1076, glXCreateContext, first_glXCreateContext, hook_glXCreateContext, (dpy: Ptr, vis: Ptr, share: Ptr, direct: i32) -> Ptr, {
+export! { 1079, glXCreateContext, first_glXCreateContext, hook_glXCreateContext, (dpy: Ptr, vis: Ptr, share: Ptr, direct: i32) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXCreateContext(dpy, vis, share, direct) }
 } }
-export! { 1077, glXCreateNewContext, first_glXCreateNewContext, hook_glXCreateNewContext, (dpy: Ptr, config: Ptr, kind: i32, share: Ptr, direct: i32) -> Ptr, {
+export! { 1080, glXCreateNewContext, first_glXCreateNewContext, hook_glXCreateNewContext, (dpy: Ptr, config: Ptr, kind: i32, share: Ptr, direct: i32) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXCreateNewContext(dpy, config, kind, share, direct) }
 } }
-export! { 1078, glXCreateContextAttribsARB, first_glXCreateContextAttribsARB, hook_glXCreateContextAttribsARB, (dpy: Ptr, config: Ptr, share: Ptr, direct: i32, attribs: Ptr) -> Ptr, {
+export! { 1081, glXCreateContextAttribsARB, first_glXCreateContextAttribsARB, hook_glXCreateContextAttribsARB, (dpy: Ptr, config: Ptr, share: Ptr, direct: i32, attribs: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXCreateContextAttribsARB(dpy, config, share, direct, attribs) }
 } }
-export! { 1079, glXCreateContextWithConfigSGIX, first_glXCreateContextWithConfigSGIX, hook_glXCreateContextWithConfigSGIX, (dpy: Ptr, config: Ptr, kind: i32, share: Ptr, direct: i32) -> Ptr, {
+export! { 1082, glXCreateContextWithConfigSGIX, first_glXCreateContextWithConfigSGIX, hook_glXCreateContextWithConfigSGIX, (dpy: Ptr, config: Ptr, kind: i32, share: Ptr, direct: i32) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXCreateContextWithConfigSGIX(dpy, config, kind, share, direct) }
 } }
-export! { 1080, glXDestroyContext, first_glXDestroyContext, hook_glXDestroyContext, (dpy: Ptr, ctx: Ptr) -> (), {
+export! { 1083, glXDestroyContext, first_glXDestroyContext, hook_glXDestroyContext, (dpy: Ptr, ctx: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glXDestroyContext(dpy, ctx) }
 } }
-export! { 1081, glXGetProcAddress, first_glXGetProcAddress, hook_glXGetProcAddress, (name: Ptr) -> Ptr, {
+export! { 1084, glXGetProcAddress, first_glXGetProcAddress, hook_glXGetProcAddress, (name: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXGetProcAddress(name) }
 } }
-export! { 1082, glXGetProcAddressARB, first_glXGetProcAddressARB, hook_glXGetProcAddressARB, (name: Ptr) -> Ptr, {
+export! { 1085, glXGetProcAddressARB, first_glXGetProcAddressARB, hook_glXGetProcAddressARB, (name: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXGetProcAddressARB(name) }
 } }
-export! { 1084, eglSwapBuffers, first_eglSwapBuffers, hook_eglSwapBuffers, (dpy: Ptr, surface: Ptr) -> u32, {
+export! { 1087, eglSwapBuffers, first_eglSwapBuffers, hook_eglSwapBuffers, (dpy: Ptr, surface: Ptr) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglSwapBuffers(dpy, surface) }
 } }
-export! { 1085, eglSwapBuffersWithDamageKHR, first_eglSwapBuffersWithDamageKHR, hook_eglSwapBuffersWithDamageKHR, (dpy: Ptr, surface: Ptr, rects: Ptr, n: i32) -> u32, {
+export! { 1088, eglSwapBuffersWithDamageKHR, first_eglSwapBuffersWithDamageKHR, hook_eglSwapBuffersWithDamageKHR, (dpy: Ptr, surface: Ptr, rects: Ptr, n: i32) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglSwapBuffersWithDamageKHR(dpy, surface, rects, n) }
 } }
-export! { 1086, eglSwapBuffersWithDamageEXT, first_eglSwapBuffersWithDamageEXT, hook_eglSwapBuffersWithDamageEXT, (dpy: Ptr, surface: Ptr, rects: Ptr, n: i32) -> u32, {
+export! { 1089, eglSwapBuffersWithDamageEXT, first_eglSwapBuffersWithDamageEXT, hook_eglSwapBuffersWithDamageEXT, (dpy: Ptr, surface: Ptr, rects: Ptr, n: i32) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglSwapBuffersWithDamageEXT(dpy, surface, rects, n) }
 } }
-export! { 1087, eglMakeCurrent, first_eglMakeCurrent, hook_eglMakeCurrent, (dpy: Ptr, draw: Ptr, read: Ptr, ctx: Ptr) -> u32, {
+export! { 1090, eglMakeCurrent, first_eglMakeCurrent, hook_eglMakeCurrent, (dpy: Ptr, draw: Ptr, read: Ptr, ctx: Ptr) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglMakeCurrent(dpy, draw, read, ctx) }
 } }
-export! { 1088, eglCreateContext, first_eglCreateContext, hook_eglCreateContext, (dpy: Ptr, config: Ptr, share: Ptr, attribs: Ptr) -> Ptr, {
+export! { 1091, eglCreateContext, first_eglCreateContext, hook_eglCreateContext, (dpy: Ptr, config: Ptr, share: Ptr, attribs: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglCreateContext(dpy, config, share, attribs) }
 } }
-export! { 1089, eglDestroyContext, first_eglDestroyContext, hook_eglDestroyContext, (dpy: Ptr, ctx: Ptr) -> u32, {
+export! { 1092, eglDestroyContext, first_eglDestroyContext, hook_eglDestroyContext, (dpy: Ptr, ctx: Ptr) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglDestroyContext(dpy, ctx) }
 } }
-export! { 1090, eglReleaseThread, first_eglReleaseThread, hook_eglReleaseThread, () -> u32, {
+export! { 1093, eglReleaseThread, first_eglReleaseThread, hook_eglReleaseThread, () -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglReleaseThread() }
 } }
-export! { 1091, eglGetProcAddress, first_eglGetProcAddress, hook_eglGetProcAddress, (name: Ptr) -> Ptr, {
+export! { 1094, eglGetProcAddress, first_eglGetProcAddress, hook_eglGetProcAddress, (name: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglGetProcAddress(name) }
 } }
-export! { 1096, OSMesaMakeCurrent, first_OSMesaMakeCurrent, hook_OSMesaMakeCurrent, (ctx: Ptr, buffer: Ptr, kind: u32, width: i32, height: i32) -> u8, {
+export! { 1099, OSMesaMakeCurrent, first_OSMesaMakeCurrent, hook_OSMesaMakeCurrent, (ctx: Ptr, buffer: Ptr, kind: u32, width: i32, height: i32) -> u8, {
     // SAFETY: the program's own arguments.
     unsafe { special::OSMesaMakeCurrent(ctx, buffer, kind, width, height) }
 } }
-export! { 1097, OSMesaCreateContext, first_OSMesaCreateContext, hook_OSMesaCreateContext, (format: u32, share: Ptr) -> Ptr, {
+export! { 1100, OSMesaCreateContext, first_OSMesaCreateContext, hook_OSMesaCreateContext, (format: u32, share: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::OSMesaCreateContext(format, share) }
 } }
-export! { 1098, OSMesaCreateContextExt, first_OSMesaCreateContextExt, hook_OSMesaCreateContextExt, (format: u32, depth: i32, stencil: i32, accum: i32, share: Ptr) -> Ptr, {
+export! { 1101, OSMesaCreateContextExt, first_OSMesaCreateContextExt, hook_OSMesaCreateContextExt, (format: u32, depth: i32, stencil: i32, accum: i32, share: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::OSMesaCreateContextExt(format, depth, stencil, accum, share) }
 } }
-export! { 1099, OSMesaCreateContextAttribs, first_OSMesaCreateContextAttribs, hook_OSMesaCreateContextAttribs, (attribs: Ptr, share: Ptr) -> Ptr, {
+export! { 1102, OSMesaCreateContextAttribs, first_OSMesaCreateContextAttribs, hook_OSMesaCreateContextAttribs, (attribs: Ptr, share: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::OSMesaCreateContextAttribs(attribs, share) }
 } }
-export! { 1100, OSMesaDestroyContext, first_OSMesaDestroyContext, hook_OSMesaDestroyContext, (ctx: Ptr) -> (), {
+export! { 1103, OSMesaDestroyContext, first_OSMesaDestroyContext, hook_OSMesaDestroyContext, (ctx: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::OSMesaDestroyContext(ctx) }
 } }
-export! { 1101, OSMesaGetProcAddress, first_OSMesaGetProcAddress, hook_OSMesaGetProcAddress, (name: Ptr) -> Ptr, {
+export! { 1104, OSMesaGetProcAddress, first_OSMesaGetProcAddress, hook_OSMesaGetProcAddress, (name: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::OSMesaGetProcAddress(name) }
 } }

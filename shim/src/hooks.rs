@@ -4,7 +4,7 @@ use crate::context::{self, enter};
 use manyview_core::gl::Real;
 
 pub(crate) use context::real;
-use manyview_core::gl::consts::{FRAMEBUFFER_SRGB, SCISSOR_TEST};
+use manyview_core::gl::consts::{DEPTH_TEST, FRAMEBUFFER_SRGB, SCISSOR_TEST, TEXTURE_2D};
 use manyview_core::state::Run;
 pub(crate) use manyview_core::state::{Command, Touch};
 
@@ -22,7 +22,8 @@ pub(crate) enum Kind {
 pub(crate) fn touch(groups: Touch) {
     if context::peek(|l| l.touch(groups)) == Some(false) {
         // What the views depend on is set once; the rest may stay with the drawing.
-        let run = if groups.without(Touch::FIXED | Touch::MATERIAL) == Touch::NONE {
+        let inside = Touch::FIXED | Touch::MATERIAL | Touch::DEPTH | Touch::TEXTURE;
+        let run = if groups.without(inside) == Touch::NONE {
             Run::Open
         } else {
             Run::State
@@ -78,10 +79,11 @@ pub(crate) fn cap(cap: u32, on: bool) {
     if cap == FRAMEBUFFER_SRGB && on {
         enter(|gl, l| l.enable_srgb(gl));
     }
-    touch(if cap == SCISSOR_TEST {
-        Touch::RECTS
-    } else {
-        Touch::FIXED
+    touch(match cap {
+        SCISSOR_TEST => Touch::RECTS,
+        DEPTH_TEST => Touch::FIXED | Touch::DEPTH,
+        TEXTURE_2D => Touch::FIXED | Touch::TEXTURE,
+        _ => Touch::FIXED,
     });
 }
 

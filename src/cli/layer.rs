@@ -38,6 +38,18 @@ pub(crate) struct LayerArguments {
     /// Size of a view over the size of the window, above 0 and at most 1 [default: 1]
     #[arg(long, value_name = "F", allow_hyphen_values = true)]
     view_scale: Option<String>,
+    /// Where flat draws stand: 0 on the panel, 1 infinitely far, below 0 before the panel [default: 0]
+    #[arg(long, value_name = "D", allow_hyphen_values = true)]
+    hud_depth: Option<String>,
+    /// Rules that say what draws are [default: the profile that names the program]
+    #[arg(long, value_name = "NAME|FILE|none")]
+    profile: Option<String>,
+    /// Write what each draw of one frame is, and why, as PNG and text
+    #[arg(long, value_name = "FOLDER|FILE")]
+    explain: Option<String>,
+    /// Frame to explain, counted from 1 [default: 30]
+    #[arg(long, value_name = "N", allow_hyphen_values = true)]
+    explain_frame: Option<String>,
     /// Write a JSON report of frames, draws and fallbacks
     #[arg(long, value_name = "FILE.json")]
     report: Option<String>,
@@ -60,6 +72,10 @@ impl LayerArguments {
             (OptionId::Strategy, &self.strategy),
             (OptionId::Atlas, &self.atlas),
             (OptionId::ViewScale, &self.view_scale),
+            (OptionId::HudDepth, &self.hud_depth),
+            (OptionId::Profile, &self.profile),
+            (OptionId::Explain, &self.explain),
+            (OptionId::ExplainFrame, &self.explain_frame),
             (OptionId::Report, &self.report),
             (OptionId::Config, &self.config),
         ];

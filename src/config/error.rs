@@ -101,6 +101,14 @@ pub enum ConfigError {
         /// Its value.
         value: String,
     },
+    /// A frame that cannot be counted.
+    #[error("{field} is '{value}'; give one frame counted from 1 such as 30")]
+    Frame {
+        /// The option.
+        field: Field,
+        /// Its value.
+        value: String,
+    },
     /// Frames or content without a file to write to.
     #[error("{field} is '{value}' but no picture is asked for; set {out} to the file to write")]
     CaptureWithoutOut {
@@ -118,6 +126,44 @@ pub enum ConfigError {
         field: Field,
         /// What is wrong.
         reason: String,
+    },
+    /// A profile that cannot be had; the reason names the file, the rule, the key and the remedy.
+    #[error("{field}: {reason}")]
+    Profile {
+        /// The option.
+        field: Field,
+        /// What is wrong.
+        reason: String,
+    },
+    /// A depth for flat draws out of range.
+    #[error("{field} is '{value}'; {remedy}", remedy = super::profile::DEPTH_REMEDY)]
+    HudDepth {
+        /// The option.
+        field: Field,
+        /// Its value.
+        value: String,
+    },
+    /// A frame to explain, and nowhere to write to.
+    #[error(
+        "{field} is '{value}' but nothing is to be explained; set {explain} to a folder or file"
+    )]
+    FrameWithoutExplain {
+        /// The option.
+        field: Field,
+        /// Its value.
+        value: String,
+        /// The option that is missing.
+        explain: Field,
+    },
+    /// One view is drawn by the program itself.
+    #[error(
+        "{field} is '{value}' and there is one view; one view is drawn by the program itself, so ask for two views or more"
+    )]
+    ExplainOneView {
+        /// The option.
+        field: Field,
+        /// Its value.
+        value: String,
     },
     /// A TOML file that cannot be read or parsed.
     #[error("{field} is '{}', which cannot be used: {reason}", path.display())]

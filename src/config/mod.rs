@@ -1,17 +1,25 @@
 //! What the user asked for: options of the command line, keys of the TOML file and `MANYVIEW_*` variables.
 #![forbid(unsafe_code)]
 
+mod class;
 mod error;
+mod explain;
 mod options;
 pub mod panel;
 mod parse;
+pub mod profile;
+#[cfg(test)]
+mod profile_tests;
 mod settings;
 mod status;
 #[cfg(test)]
 mod tests;
 
+pub use class::{Class, DepthState, Projection, Word};
 pub use error::ConfigError;
+pub use explain::Explain;
 pub use options::{DISABLE, Field, LIBRARY, OPTIONS, OptionId, OptionSpec, Origin, PathKind};
+pub use profile::{Profile, Rule};
 pub use settings::{Setting, Settings};
 pub use status::Status;
 
@@ -20,6 +28,9 @@ use std::path::{Path, PathBuf};
 
 /// The largest number of views anyone may ask for; the driver may allow fewer.
 pub const MAX_VIEWS: u32 = 256;
+
+/// The name of the library, whatever its folder.
+pub const LIBRARY_FILE: &str = "libmanyview.so";
 
 /// Everything the layer needs to know before the first frame.
 #[derive(Clone, Debug, PartialEq)]
@@ -38,6 +49,12 @@ pub struct Config {
     pub atlas: AtlasLayout,
     /// Size of a tile over the size of the window, in (0, 1].
     pub view_scale: f64,
+    /// Where flat draws stand that no rule places: 0 on the panel, 1 infinitely far; a fraction of the separation at infinity.
+    pub hud_depth: Option<f64>,
+    /// What the program's draws are, where the state does not say it.
+    pub profile: Profile,
+    /// One frame to explain, if any.
+    pub explain: Option<Explain>,
     /// Where the JSON report goes at the end of the program.
     pub report: Option<PathBuf>,
     /// Pictures to write, if any.
@@ -47,9 +64,29 @@ pub struct Config {
 }
 
 impl Config {
-    /// Reads the `MANYVIEW_*` variables through `lookup`, and the TOML file that they name.
+    /// Reads the `MANYVIEW_*` variables through `lookup`, the TOML file that they name, and the profile for this process's program.
     pub fn from_env(lookup: impl Fn(&str) -> Option<String>) -> Result<Self, ConfigError> {
-        Self::from_settings(&Settings::from_env(lookup)?)
+        let mut settings = Settings::from_env(&lookup)?;
+        let preloads = lookup("LD_PRELOAD").unwrap_or_default();
+        let library = preloads.split([':', ' ']).map(Path::new);
+        let library = library
+            .into_iter()
+            .find(|path| path.ends_with(LIBRARY_FILE));
+        settings.find_profiles(library);
+        let mut config = Self::from_settings(&settings)?;
+        config.choose_profile(&settings, profile::this_program());
+        Ok(config)
+    }
+
+    /// Without `--profile`, takes the profile that names the program.
+    pub fn choose_profile(&mut self, settings: &Settings, program: Option<String>) {
+        let folder = settings.get(OptionId::Profiles);
+        if settings.get(OptionId::Profile).is_none()
+            && let (Some(folder), Some(program)) = (folder, program)
+            && let Some(profile) = Profile::automatic(Path::new(&folder.value), &program)
+        {
+            self.profile = profile;
+        }
     }
 }
 

@@ -34,6 +34,16 @@ pub enum OptionId {
     Atlas,
     /// Tile size over window size.
     ViewScale,
+    /// Depth of flat draws.
+    HudDepth,
+    /// Rules for the program.
+    Profile,
+    /// Folder of the profiles that come with the library.
+    Profiles,
+    /// Where one frame is explained.
+    Explain,
+    /// Which frame is explained.
+    ExplainFrame,
     /// JSON report.
     Report,
     /// Picture to write.
@@ -55,6 +65,8 @@ pub enum PathKind {
     File,
     /// A path unless it is the name of a built-in panel.
     NameOrFile,
+    /// A path unless it is the name of a profile.
+    ProfileOrFile,
 }
 
 /// One row of the table.
@@ -113,6 +125,14 @@ pub const OPTIONS: &[OptionSpec] = &[
         "where the views lie in memory; side-by-side unless given"),
     option!(ViewScale, Some("view-scale"), Some("view-scale"), "MANYVIEW_VIEW_SCALE", "F", No,
         "size of a view over the size of the window, above 0 and at most 1; 1 unless given"),
+    option!(HudDepth, Some("hud-depth"), Some("hud-depth"), "MANYVIEW_HUD_DEPTH", "D", No,
+        "where flat draws stand: 0 on the panel, 1 infinitely far, below 0 before the panel; 0 unless given"),
+    option!(Profile, Some("profile"), Some("profile"), "MANYVIEW_PROFILE", "NAME|FILE|none", ProfileOrFile,
+        "rules that say what draws are; the profile that names the program unless given"),
+    option!(Explain, Some("explain"), Some("explain"), "MANYVIEW_EXPLAIN", "FOLDER|FILE", File,
+        "write what each draw of one frame is, and why, as PNG and text"),
+    option!(ExplainFrame, Some("explain-frame"), Some("explain-frame"), "MANYVIEW_EXPLAIN_FRAME", "N", No,
+        "frame to explain, counted from 1; 30 unless given"),
     option!(Report, Some("report"), Some("report"), "MANYVIEW_REPORT", "FILE.json", File,
         "write a JSON report of frames, draws and fallbacks"),
     option!(Config, Some("config"), None, "MANYVIEW_CONFIG", "FILE.toml", File,
@@ -125,6 +145,8 @@ pub const OPTIONS: &[OptionSpec] = &[
         "what a picture holds; output unless given"),
     option!(Status, None, None, "MANYVIEW_STATUS", "FILE.json", File,
         "where the layer tells the launcher how many frames it has seen"),
+    option!(Profiles, None, None, "MANYVIEW_PROFILES", "FOLDER", File,
+        "folder of the profiles that --profile names; beside the library unless given"),
 ];
 
 impl OptionId {
@@ -219,6 +241,6 @@ mod tests {
         for row in OPTIONS {
             assert_eq!(row.id.spec().variable, row.variable);
         }
-        assert_eq!(OPTIONS.len(), 16, "a new option needs a row");
+        assert_eq!(OPTIONS.len(), 21, "a new option needs a row");
     }
 }

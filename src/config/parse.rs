@@ -5,10 +5,11 @@ use super::error::ConfigError;
 use super::options::{Field, OptionId, Origin};
 use super::settings::Settings;
 use super::{
-    AtlasLayout, Camera, Capture, CaptureWhat, Config, MAX_VIEWS, Output, Strategy, panel,
+    AtlasLayout, Camera, Capture, CaptureWhat, Config, Explain, MAX_VIEWS, Output, Profile,
+    Strategy, panel, profile,
 };
 use crate::display::Display;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 const DEFAULT_FRAME: u64 = 30;
 
@@ -36,6 +37,9 @@ impl Config {
             )?
             .unwrap_or(AtlasLayout::SideBySide),
             view_scale: view_scale(settings)?,
+            hud_depth: hud_depth(settings)?,
+            profile: named_profile(settings)?,
+            explain: explain(settings, views)?,
             report: path(settings, OptionId::Report),
             capture: capture(settings, views)?,
             status: path(settings, OptionId::Status),
@@ -228,6 +232,65 @@ fn view_scale(settings: &Settings) -> Result<f64, ConfigError> {
             value: value.to_owned(),
         }),
     }
+}
+
+fn hud_depth(settings: &Settings) -> Result<Option<f64>, ConfigError> {
+    let Some((field, value)) = settings.field(OptionId::HudDepth) else {
+        return Ok(None);
+    };
+    match value.parse() {
+        Ok(depth) if profile::depth_in_range(depth) => Ok(Some(depth)),
+        _ => Err(ConfigError::HudDepth {
+            field,
+            value: value.to_owned(),
+        }),
+    }
+}
+
+fn named_profile(settings: &Settings) -> Result<Profile, ConfigError> {
+    let Some((field, value)) = settings.field(OptionId::Profile) else {
+        return Ok(Profile::default());
+    };
+    if value == profile::NONE {
+        return Ok(Profile::default());
+    }
+    let folder = settings.get(OptionId::Profiles);
+    let folder = folder.map(|setting| Path::new(&setting.value));
+    Profile::named(folder, value).map_err(|reason| ConfigError::Profile { field, reason })
+}
+
+fn explain(settings: &Settings, views: u32) -> Result<Option<Explain>, ConfigError> {
+    let frame = settings.field(OptionId::ExplainFrame);
+    let Some((out, value)) = settings.field(OptionId::Explain) else {
+        return match frame {
+            None => Ok(None),
+            Some((field, value)) => Err(ConfigError::FrameWithoutExplain {
+                explain: field.sibling(OptionId::Explain),
+                field,
+                value: value.to_owned(),
+            }),
+        };
+    };
+    let value = value.to_owned();
+    if views < 2 {
+        return Err(ConfigError::ExplainOneView { field: out, value });
+    }
+    let frame = match frame {
+        None => DEFAULT_FRAME,
+        Some((field, text)) => match frame_range(text) {
+            Some((first, last)) if first == last => first,
+            _ => {
+                return Err(ConfigError::Frame {
+                    field,
+                    value: text.to_owned(),
+                });
+            }
+        },
+    };
+    Ok(Some(Explain {
+        out: PathBuf::from(value),
+        frame,
+    }))
 }
 
 fn path(settings: &Settings, id: OptionId) -> Option<PathBuf> {

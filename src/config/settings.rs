@@ -5,7 +5,7 @@
 
 use super::error::ConfigError;
 use super::options::{Field, OPTIONS, OptionId, Origin, PathKind};
-use super::panel;
+use super::{panel, profile};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
@@ -141,6 +141,19 @@ impl Settings {
         Ok(settings)
     }
 
+    /// Notes where the profiles are that come with a library, unless a folder is set.
+    pub fn find_profiles(&mut self, library: Option<&Path>) {
+        if self.get(OptionId::Profiles).is_none()
+            && let Some(folder) = library.and_then(profile::beside)
+        {
+            self.set(
+                OptionId::Profiles,
+                folder.to_string_lossy(),
+                Origin::Default,
+            );
+        }
+    }
+
     /// The variables that pass these options to the program, paths relative to `folder` made absolute.
     ///
     /// The TOML file is not among them: its keys are, already merged.
@@ -168,6 +181,7 @@ fn rebase(kind: PathKind, value: &str, folder: &Path) -> String {
         PathKind::No => false,
         PathKind::File => true,
         PathKind::NameOrFile => !panel::is_builtin(value),
+        PathKind::ProfileOrFile => profile::is_file(value),
     };
     if is_path {
         folder.join(value).to_string_lossy().into_owned()
@@ -176,7 +190,7 @@ fn rebase(kind: PathKind, value: &str, folder: &Path) -> String {
     }
 }
 
-fn read_capped(path: &Path) -> Result<String, String> {
+pub(super) fn read_capped(path: &Path) -> Result<String, String> {
     let about = std::fs::metadata(path).map_err(|error| error.to_string())?;
     if !about.is_file() {
         return Err("it is not a file".to_owned());
@@ -187,6 +201,6 @@ fn read_capped(path: &Path) -> Result<String, String> {
     std::fs::read_to_string(path).map_err(|error| error.to_string())
 }
 
-fn one_line(text: &str) -> String {
+pub(super) fn one_line(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }

@@ -82,6 +82,18 @@ fn every_message_is_one_clear_sentence() {
         &[("MANYVIEW_VIEW_SCALE", "0")],
         &[("MANYVIEW_VIEW_SCALE", "2")],
         &[("MANYVIEW_VIEW_SCALE", "NaN")],
+        &[("MANYVIEW_HUD_DEPTH", "far")],
+        &[("MANYVIEW_HUD_DEPTH", "1.5")],
+        &[("MANYVIEW_HUD_DEPTH", "NaN")],
+        &[("MANYVIEW_PROFILE", "no-such-profile")],
+        &[("MANYVIEW_PROFILE", "no-such-file.toml")],
+        &[("MANYVIEW_EXPLAIN_FRAME", "3")],
+        &[("MANYVIEW_EXPLAIN", "out"), ("MANYVIEW_EXPLAIN_FRAME", "0")],
+        &[
+            ("MANYVIEW_EXPLAIN", "out"),
+            ("MANYVIEW_EXPLAIN_FRAME", "3..4"),
+        ],
+        &[("MANYVIEW_EXPLAIN", "out"), ("MANYVIEW_VIEWS", "1")],
         &[("MANYVIEW_CAPTURE_FRAMES", "30")],
         &[
             ("MANYVIEW_CAPTURE_OUT", "a.png"),
@@ -193,6 +205,10 @@ fn options_survive_the_way_through_the_environment() {
         (OptionId::Separation, "-0.05"),
         (OptionId::Convergence, "4"),
         (OptionId::ViewScale, "1"),
+        (OptionId::HudDepth, "-0.25"),
+        (OptionId::Profile, "none"),
+        (OptionId::Explain, "/tmp/why.png"),
+        (OptionId::ExplainFrame, "7"),
         (OptionId::CaptureOut, "/tmp/a.png"),
         (OptionId::CaptureFrames, "3..5"),
         (OptionId::CaptureWhat, "atlas"),
@@ -212,9 +228,11 @@ fn paths_are_made_absolute_and_names_are_not() {
     let settings = on_command_line(&[
         (OptionId::Report, "r.json"),
         (OptionId::Display, panel::DEFAULT),
+        (OptionId::Profile, "room"),
     ]);
     let passed = settings.to_env(Path::new("/here"));
     assert!(passed.contains(&("MANYVIEW_REPORT".to_owned(), "/here/r.json".to_owned())));
+    assert!(passed.contains(&("MANYVIEW_PROFILE".to_owned(), "room".to_owned())));
     assert!(passed.contains(&("MANYVIEW_DISPLAY".to_owned(), panel::DEFAULT.to_owned())));
 }
 

@@ -3,13 +3,10 @@
 
 use super::elf::Elf;
 use super::error::LaunchError;
-use crate::config::LIBRARY;
+use crate::config::{LIBRARY, LIBRARY_FILE};
 use std::ffi::OsStr;
 use std::os::unix::ffi::OsStrExt;
 use std::path::{Path, PathBuf};
-
-/// The name of the library, whatever its folder.
-pub const FILE_NAME: &str = "libmanyview.so";
 
 /// Finds the library: `MANYVIEW_LIBRARY`, beside the command, or `../lib/manyview` of the command's folder.
 pub fn find() -> Result<PathBuf, LaunchError> {
@@ -19,7 +16,7 @@ pub fn find() -> Result<PathBuf, LaunchError> {
     let searched = folders();
     match searched
         .iter()
-        .map(|folder| folder.join(FILE_NAME))
+        .map(|folder| folder.join(LIBRARY_FILE))
         .find(|path| path.is_file())
     {
         Some(path) => check(path),

@@ -80,6 +80,11 @@ pub fn check_files(config: &Config) -> Result<(), LaunchError> {
     if let Some(report) = &config.report {
         writable("the report", report)?;
     }
+    if let Some(explain) = &config.explain {
+        for file in explain.files() {
+            writable("the explanation", &file)?;
+        }
+    }
     if let Some(capture) = &config.capture {
         writable("the picture", &capture.path_for(capture.first))?;
     }

@@ -1,7 +1,7 @@
 //! `LD_PRELOAD` with our library first and once.
 #![forbid(unsafe_code)]
 
-use super::library::FILE_NAME;
+use crate::config::LIBRARY_FILE;
 use std::ffi::{OsStr, OsString};
 use std::os::unix::ffi::{OsStrExt, OsStringExt};
 use std::path::Path;
@@ -15,7 +15,7 @@ pub fn with_library(library: &Path, before: Option<&OsStr>) -> OsString {
     for item in before.split(|byte| matches!(byte, b' ' | b':')) {
         let name = item.rsplit(|byte| *byte == b'/').next().unwrap_or(item);
         if !item.is_empty()
-            && name != FILE_NAME.as_bytes()
+            && name != LIBRARY_FILE.as_bytes()
             && item != library.as_os_str().as_bytes()
         {
             value.push(b':');

@@ -53,12 +53,15 @@ impl Ended {
 impl Launch {
     /// Checks options, files, program and library, in this order. `command` is the program and its arguments.
     pub fn prepare(command: &[OsString], settings: &Settings) -> Result<Self, LaunchError> {
-        let config = Config::from_settings(settings)?;
+        let mut settings = settings.clone();
+        settings.find_profiles(library::find().ok().as_deref());
+        let mut config = Config::from_settings(&settings)?;
         preflight::check_files(&config)?;
         let Some((name, arguments)) = command.split_first() else {
             return Err(LaunchError::AppNotFound("no program".to_owned()));
         };
         let app = preflight::check_app(name)?;
+        config.choose_profile(&settings, program_name(&app));
         let library = library::find()?;
         let folder = std::env::current_dir().map_err(|source| LaunchError::System {
             doing: "finding the current folder",
@@ -123,6 +126,12 @@ impl Launch {
             }
         })
     }
+}
+
+/// The name by which the layer will know a program: that of its file, links followed.
+fn program_name(app: &Path) -> Option<String> {
+    let path = app.canonicalize().ok()?;
+    Some(path.file_name()?.to_string_lossy().into_owned())
 }
 
 /// `LD_PRELOAD` for this environment and this library.

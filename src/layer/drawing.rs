@@ -1,6 +1,7 @@
 //! A draw call of the program: refresh, plan, execute, count.
 
 use super::Layer;
+use crate::config::{Class, Projection, Word};
 use crate::draw::{Again, Amplified, Current, FixedState, replay};
 use crate::gl::api::Indices;
 use crate::gl::{Gl, Recording, consts as c};
@@ -42,15 +43,6 @@ fn method_name(m: Method) -> &'static str {
     }
 }
 
-/// The key of the report for what a draw is.
-fn class(plan: &Plan) -> &'static str {
-    match (plan.method, plan.shear) {
-        (Method::Once, _) => "off screen",
-        (_, Some(_)) => "scene",
-        (_, None) => "flat",
-    }
-}
-
 /// The run of a display list that a draw belongs to.
 fn run(kind: Kind) -> Run {
     match kind {
@@ -78,13 +70,18 @@ impl Layer {
             self.compile(gl, Command::Of(run(kind)), Touch::NONE);
             return call();
         }
-        let plan = self.plan(gl, kind);
+        let mut plan = self.plan(gl, kind);
         if plan.method == Method::Once {
-            return call();
+            return self.once(gl, call);
         }
         let again = match kind {
             Kind::Clear => Again::Clear,
-            Kind::Pixels => Again::Raster(self.raster),
+            // The position moves, and the projection matters no more.
+            Kind::Pixels if plan.class == Class::Scene => {
+                plan.shear = None;
+                Again::Raster(self.raster)
+            }
+            Kind::Pixels => Again::Raster(plan.shear.take()),
             _ => Again::Same,
         };
         self.replay(gl, &plan, again, &mut |_| call());
@@ -101,7 +98,7 @@ impl Layer {
         }
         let plan = self.plan(gl, kind);
         match plan.method {
-            Method::Once => call(),
+            Method::Once => self.once(gl, call),
             Method::Replay => self.replay(gl, &plan, Again::Same, &mut |_| call()),
             Method::Instanced | Method::Geometry => {
                 let Some(how) = self.amplify(gl, &plan, primitives.mode(), false) else {
@@ -152,11 +149,13 @@ impl Layer {
         self.report.shaders(self.programs.compiled);
         match how {
             Ok(how) => {
-                self.report.draw(method_name(plan.method), class(plan));
+                self.report
+                    .draw(method_name(plan.method), plan.class.word());
                 Some(how)
             }
             Err(reason) => {
-                self.report.draw(method_name(Method::Replay), class(plan));
+                self.report
+                    .draw(method_name(Method::Replay), plan.class.word());
                 self.report.fallback(&reason);
                 None
             }
@@ -179,12 +178,15 @@ impl Layer {
     }
 
     pub(super) fn plan(&mut self, gl: &Gl, kind: Kind) -> Plan {
+        self.explain_last(gl);
         self.state.refresh(gl);
-        if self.state.draws_to_window() {
+        let (facts, classed) = self.classify(gl, kind);
+        if classed.class == Class::Scene {
             self.rig.latch(&self.state.projection);
         }
-        let plan = plan(kind, &self.state, &self.rig, &self.means);
+        let plan = plan(kind, &self.state, &self.rig, &self.means, &classed);
         let plan = self.uncopied(gl, self.uncounted(plan));
+        self.explain_this(&facts, &classed);
         if plan.method == Method::Once {
             self.queries.drawn();
         } else {
@@ -192,7 +194,8 @@ impl Layer {
         }
         // An amplified draw is counted when it is known that it can be made.
         if matches!(plan.method, Method::Once | Method::Replay) {
-            self.report.draw(method_name(plan.method), class(&plan));
+            self.report
+                .draw(method_name(plan.method), plan.class.word());
         }
         if let Some(r) = &plan.reason {
             self.report.fallback(r);
@@ -246,7 +249,12 @@ impl Layer {
         }
         self.state.refresh(gl);
         if !self.state.draws_to_window() || mode > c::POLYGON {
-            self.queries.drawn();
+            if self.state.list.is_none() && self.state.framebuffers.draw != 0 {
+                // Only to be counted, as other draws to the program's own framebuffers are.
+                self.plan(gl, Kind::Begin(mode));
+            } else {
+                self.queries.drawn();
+            }
             self.state.begin = Begin::Direct;
             return false;
         }
@@ -296,6 +304,9 @@ impl Layer {
                     gl.replay(how.mode, &recording);
                 });
             }
+            None if plan.method == Method::Once => {
+                self.once(gl, &mut || gl.replay(mode, &recording));
+            }
             None => self.replay(gl, &plan, again, &mut |_| gl.replay(mode, &recording)),
         }
         self.recording = recording;
@@ -315,11 +326,13 @@ impl Layer {
     pub fn placed_raster(&mut self, gl: &Gl) {
         self.state.refresh(gl);
         self.raster = self.rig.shear(&self.state.projection);
+        self.raster_placed = self.state.projection_kind();
     }
 
     /// glWindowPos: the position is one of the window.
     pub fn placed_in_window(&mut self) {
         self.raster = None;
+        self.raster_placed = Projection::None;
     }
 
     /// State groups that a command touches; false where it is compiled into a list instead.

@@ -17,6 +17,7 @@ impl Layer {
         {
             return;
         }
+        self.finish_explanation(gl);
         self.queries.pause(gl);
         let saved = Saved::take(gl, self.state.compatibility);
         self.atlas.resolve(gl, false, c::COLOR_BUFFER_BIT);
@@ -39,6 +40,14 @@ impl Layer {
         }
         self.capture(gl, &source);
         saved.restore(gl);
+        self.rebind(gl);
+        self.queries.resume(gl);
+        self.drawn = false;
+        self.frame = Default::default();
+    }
+
+    /// The framebuffers that the program has bound, after others were.
+    fn rebind(&mut self, gl: &Gl) {
         let f = &self.state.framebuffers;
         let (draw, read) = (f.draw, f.read);
         if draw != 0 {
@@ -48,8 +57,16 @@ impl Layer {
             gl.bind_framebuffer(c::READ_FRAMEBUFFER, read);
         }
         self.bind_draw(gl, true, true);
-        self.queries.resume(gl);
-        self.drawn = false;
+    }
+
+    /// The program's own view as it is now, row 0 on top; nothing of the program's state has changed.
+    pub(super) fn own_view(&mut self, gl: &Gl) -> RgbImage {
+        let saved = Saved::take(gl, self.state.compatibility);
+        self.atlas.resolve(gl, true, c::COLOR_BUFFER_BIT);
+        let picture = tile(gl, &self.atlas, self.atlas.tiles.own());
+        saved.restore(gl);
+        self.rebind(gl);
+        picture
     }
 
     /// Counts the frame and writes the report where one is asked for.

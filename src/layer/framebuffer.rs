@@ -331,7 +331,7 @@ impl Layer {
     }
 
     /// Runs a call with the scissor cut to a tile, where tiles lie beside each other.
-    fn scissored(&self, gl: &Gl, x: i32, call: &mut dyn FnMut()) {
+    pub(super) fn scissored(&self, gl: &Gl, x: i32, call: &mut dyn FnMut()) {
         if self.atlas.tiles.columns == 1 {
             return call();
         }

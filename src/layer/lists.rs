@@ -97,6 +97,12 @@ impl Layer {
 
     /// glCallList, glCallLists outside of lists: `lists` are the names where they are known, `call` the driver's own call.
     pub fn call_lists(&mut self, gl: &Gl, lists: Option<&[u32]>, call: &mut dyn FnMut()) {
+        self.frame.list = lists.and_then(|lists| lists.first().copied());
+        self.execute_lists(gl, lists, call);
+        self.frame.list = None;
+    }
+
+    fn execute_lists(&mut self, gl: &Gl, lists: Option<&[u32]>, call: &mut dyn FnMut()) {
         self.state.refresh(gl);
         let bodies = lists.and_then(|names| {
             let lists = self.lists.lock().unwrap_or_else(PoisonError::into_inner);
@@ -181,7 +187,7 @@ impl Layer {
     fn unknown_list(&mut self, gl: &Gl, call: &mut dyn FnMut()) {
         let plan = self.plan(gl, Kind::List);
         if plan.method == Method::Once {
-            call();
+            self.once(gl, call);
         } else {
             let again = Again::Anything {
                 rects: true,
@@ -212,7 +218,11 @@ impl Layer {
                     projection,
                     current,
                 };
-                self.replay(gl, &plan, again, &mut |_| call());
+                if plan.method == Method::Once {
+                    self.once(gl, call);
+                } else {
+                    self.replay(gl, &plan, again, &mut |_| call());
+                }
             }
             Run::Clear => self.draw(gl, Kind::Clear, call),
             Run::Accum => self.draw(gl, Kind::Accum, call),

@@ -1,8 +1,10 @@
 //! One context under the layer: puts the stages together. The hooks call nothing else.
 #![forbid(unsafe_code)]
 
+mod classing;
 mod copies;
 mod drawing;
+mod explain;
 mod frame;
 mod framebuffer;
 mod frames;
@@ -15,11 +17,11 @@ pub use frames::Frames;
 pub use queries::Answer;
 
 use crate::atlas::{Atlas, AtlasError, Names, Tiles};
-use crate::config::{AtlasLayout, Config, Strategy};
+use crate::config::{AtlasLayout, Config, Projection, Strategy, profile};
 use crate::draw::{Driver, FixedState, Programs};
 use crate::gl::{Gl, Recording, consts as c};
 use crate::interleave::Interleaver;
-use crate::plan::{Means, Rig, Shear};
+use crate::plan::{Classifier, Means, Rig, Shear};
 use crate::report::Report;
 use crate::state::{Immediate, Lists, State, Window};
 use std::sync::{Arc, Mutex};
@@ -60,12 +62,17 @@ pub struct Layer {
     driver: Driver,
     lists: SharedLists,
     raster: Option<Shear>,
+    /// The projection under which the raster position was placed; none where glWindowPos did it.
+    raster_placed: Projection,
     pushed: Vec<framebuffer::Pushed>,
     queries: queries::Queries,
     copies: copies::Copies,
     recording: Recording,
     immediate: Immediate,
     support: Support,
+    classifier: Classifier,
+    frame: classing::Frame,
+    explained: Option<explain::Explained>,
     /// Counts for `--report`.
     pub report: Report,
     drawn: bool,
@@ -111,12 +118,21 @@ impl Layer {
             driver: Driver::ask(gl),
             lists,
             raster: None,
+            raster_placed: Projection::None,
             pushed: Vec::new(),
             queries: queries::Queries::default(),
             copies: copies::Copies::new(support.compatibility),
             recording: Recording::default(),
             immediate: Immediate::default(),
             support,
+            classifier: Classifier::new(
+                &config.profile,
+                config.hud_depth,
+                profile::this_program().as_deref(),
+                config.explain.is_some(),
+            ),
+            frame: classing::Frame::default(),
+            explained: None,
             report,
             drawn: false,
         };

@@ -1,10 +1,13 @@
 //! A draw plus state in, a [`Plan`] value out: which views, which parallax, which strategy. Calls no GL.
 #![forbid(unsafe_code)]
 
+pub mod class;
 pub mod parallax;
 
-use crate::config::Strategy;
+use crate::config::profile::FARTHEST;
+use crate::config::{Class, Strategy};
 use crate::state::State;
+pub use class::{Classed, Classifier, Facts};
 pub use parallax::{Rig, Shear};
 
 /// What the program draws with.
@@ -73,7 +76,9 @@ pub enum Method {
 pub struct Plan {
     /// How.
     pub method: Method,
-    /// The shift of the views; none for flat draws (orthographic, no projection).
+    /// What the draw is.
+    pub class: Class,
+    /// The shift of the views; none for what is the same in all of them.
     pub shear: Option<Shear>,
     /// Why not by the strategy asked for.
     pub reason: Option<Reason>,
@@ -91,18 +96,26 @@ pub struct Means {
 }
 
 /// Decides one draw.
-pub fn plan(kind: Kind, state: &State, rig: &Rig, means: &Means) -> Plan {
-    if !state.draws_to_window() {
+pub fn plan(kind: Kind, state: &State, rig: &Rig, means: &Means, classed: &Classed) -> Plan {
+    let class = classed.class;
+    if class == Class::OffScreen {
         return Plan {
             method: Method::Once,
+            class,
             shear: None,
             reason: None,
         };
     }
-    let shear = if matches!(kind, Kind::Clear | Kind::Accum | Kind::Pixels) {
+    let shear = if matches!(kind, Kind::Clear | Kind::Accum) {
         None
     } else {
-        rig.shear(&state.projection)
+        let p = &state.projection;
+        match class {
+            Class::Scene => rig.shear(p),
+            Class::Sky => rig.at_depth(p, FARTHEST),
+            Class::Flat => rig.at_depth(p, classed.depth),
+            Class::OffScreen => None,
+        }
     };
     let (method, reason) = match method(kind, state, means) {
         Ok(m) => (m, None),
@@ -110,6 +123,7 @@ pub fn plan(kind: Kind, state: &State, rig: &Rig, means: &Means) -> Plan {
     };
     Plan {
         method,
+        class,
         shear,
         reason,
     }

@@ -14,6 +14,8 @@ pub struct Rig {
     pub views: u32,
     camera: Camera,
     latched: Option<(f64, f64)>,
+    /// A per unit of row 3, of the last perspective projection that was drawn with.
+    a: Option<f64>,
 }
 
 /// The shift of one draw's views in clip space: `x_i = x + sep_i·(w − conv·w_eye)`, `sep_i = a·e_i/focal`.
@@ -40,6 +42,7 @@ impl Rig {
             views,
             camera,
             latched: None,
+            a: None,
         }
     }
 
@@ -48,10 +51,17 @@ impl Rig {
         f64::from(view) - (f64::from(self.views) - 1.0) / 2.0
     }
 
-    /// With [`Camera::Auto`], fixes the focal depth by the first perspective projection that the program draws with: the
+    /// A perspective projection that the program draws its scene with. With [`Camera::Auto`], fixes the focal depth by the first perspective projection that the program draws with: the
     /// geometric mean of its near and far distance, the far one at most 1000 near distances away.
     pub fn latch(&mut self, p: &[f32; 16]) {
-        if self.camera != Camera::Auto || self.latched.is_some() || flat(p) {
+        if flat(p) {
+            return;
+        }
+        if let Camera::Eye { .. } = self.camera {
+            let (a, scale) = focal_length(p);
+            self.a = Some(a / scale);
+        }
+        if self.camera != Camera::Auto || self.latched.is_some() {
             return;
         }
         let [a, b, c, d] = [p[10], p[14], p[11], p[15]].map(f64::from);
@@ -62,14 +72,45 @@ impl Rig {
         if near.is_finite() && near > 0.0 {
             let scale = c.hypot(f64::from(p[3])).hypot(f64::from(p[7]));
             let focal = (near * far.min(1000.0 * near)).sqrt();
-            let step = AUTO_TOTAL_SEPARATION / f64::from(self.views.max(2) - 1);
-            self.latched = Some((step, focal * scale));
+            self.latched = Some((self.auto_step(), focal * scale));
         }
+    }
+
+    /// Separation of neighbouring views with [`Camera::Auto`].
+    fn auto_step(&self) -> f64 {
+        AUTO_TOTAL_SEPARATION / f64::from(self.views.max(2) - 1)
     }
 
     /// Separation and convergence in use, once known: of neighbouring views in clip space, and in units of clip-space w.
     pub fn latched(&self) -> Option<(f64, f64)> {
         self.latched
+    }
+
+    /// The shift of what stands at one depth, whatever its projection: `x_i = x + sep_i·depth·w`. Depth 0 is on the panel, 1 is
+    /// infinitely far. `None` where all views are the same, and as long as no perspective projection has said what A is.
+    pub fn at_depth(&self, p: &[f32; 16], depth: f64) -> Option<Shear> {
+        if self.views < 2 || depth == 0.0 {
+            return None;
+        }
+        let far = match self.camera {
+            Camera::Clip { separation, .. } => Shear::in_clip_space(separation, 0.0),
+            Camera::Auto => Shear::in_clip_space(self.auto_step(), 0.0),
+            Camera::Eye { .. } if !flat(p) => self.shear(p)?,
+            Camera::Eye {
+                spacing,
+                focal_depth,
+            } => Shear {
+                a: self.a?,
+                spacing,
+                focal: focal_depth,
+                conv: 0.0,
+            },
+        };
+        Some(Shear {
+            spacing: far.spacing * depth,
+            conv: 0.0,
+            ..far
+        })
     }
 
     /// The shift for a projection (column-major); `None` where all views are the same: one view, orthographic, no projection.
@@ -250,6 +291,34 @@ mod tests {
         assert_eq!(rig().shear(&ortho), None);
         let p = frustum(-1.0, 1.0, -1.0, 1.0, 1.0, 60.0).to_cols_array();
         assert_eq!(rig().shear(&p).expect("a shear").projection(&p, 0.0), p);
+    }
+
+    #[test]
+    fn a_flat_draw_moves_by_a_fraction_of_what_infinity_does() {
+        let p = frustum(-1.2, 0.8, -0.7, 0.9, 1.0, 60.0).to_cols_array();
+        let ortho = Mat4::from_scale(Vec3::new(0.01, 0.02, -1.0)).to_cols_array();
+        let mut rig = rig();
+        assert_eq!(rig.at_depth(&ortho, 0.5), None, "A is not known yet");
+        rig.latch(&p);
+        assert_eq!(rig.at_depth(&ortho, 0.0), None);
+        let place = 2.0;
+        let shift = |shear: Option<Shear>, p: &[f32; 16], point: Vec4| {
+            let before = Mat4::from_cols_array(p) * point;
+            let pi = shear.expect("a shift").projection(p, place);
+            let after = Mat4::from_cols_array(&pi) * point;
+            assert_eq!((before.y, before.z, before.w), (after.y, after.z, after.w));
+            (after.x - before.x) / after.w
+        };
+        // A direction (w = 0) is infinitely far.
+        let far = shift(rig.shear(&p), &p, Vec4::new(0.1, 0.2, -1.0, 0.0));
+        let near = Vec4::new(0.1, 0.2, -3.0, 1.0);
+        for (p, depth) in [(&ortho, 0.5), (&ortho, -1.0), (&p, 0.5), (&p, 1.0)] {
+            let got = shift(rig.at_depth(p, depth), p, near);
+            assert!(
+                (got - far * depth as f32).abs() < 1e-6,
+                "{got} {far} {depth}"
+            );
+        }
     }
 
     #[test]

@@ -5,10 +5,12 @@
 mod effect;
 mod framebuffer;
 mod lists;
+mod look;
 
 pub use effect::{Effect, Immediate};
 pub use framebuffer::{Framebuffers, Window};
 pub use lists::{Body, Command, Compiling, Lists, Run, Segment};
+pub use look::Look;
 
 use crate::gl::{Gl, consts as c};
 
@@ -20,7 +22,7 @@ impl Touch {
     /// The current matrix; which group that is depends on the matrix mode.
     pub const MATRIX: Touch = Touch(1);
     /// Some matrix named by the call.
-    pub const DSA_MATRIX: Touch = Touch(2 | 8);
+    pub const DSA_MATRIX: Touch = Touch(2 | 8 | 1 << 11);
     /// The projection matrix.
     pub const PROJECTION: Touch = Touch(2);
     /// Viewport, scissor rectangle and scissor test.
@@ -33,6 +35,12 @@ impl Touch {
     pub const OBJECTS: Touch = Touch(32);
     /// The material.
     pub const MATERIAL: Touch = Touch(64);
+    /// Depth test and depth mask.
+    pub const DEPTH: Touch = Touch(1 << 9);
+    /// The 2D texture of the active unit.
+    pub const TEXTURE: Touch = Touch(1 << 10);
+    /// The modelview matrix.
+    pub const MODELVIEW: Touch = Touch(1 << 11);
     /// The raster position, by glRasterPos.
     pub const RASTER: Touch = Touch(128);
     /// The raster position, by glWindowPos.
@@ -87,6 +95,8 @@ pub struct State {
     pub scissor: [i32; 4],
     /// GL_SCISSOR_TEST.
     pub scissor_test: bool,
+    /// What else tells what a draw is; read only where that is asked.
+    pub look: Look,
     /// Bound framebuffers, draw and read buffers.
     pub framebuffers: Framebuffers,
     /// The drawable behind framebuffer 0.
@@ -117,6 +127,7 @@ impl State {
             viewport: [0; 4],
             scissor: [0; 4],
             scissor_test: false,
+            look: Look::default(),
             framebuffers: Framebuffers::new(window.default_buffer, window.default_read),
             window,
             list: None,
@@ -138,7 +149,7 @@ impl State {
                 | match self.matrix_mode {
                     _ if self.touched.has(Touch::MODE) => Touch::DSA_MATRIX,
                     c::PROJECTION => Touch::PROJECTION,
-                    c::MODELVIEW => Touch::NONE,
+                    c::MODELVIEW => Touch::MODELVIEW,
                     _ => Touch::FIXED,
                 };
         }

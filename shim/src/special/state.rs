@@ -1,7 +1,7 @@
 //! State that the layer follows call by call, and what the program asks about.
 
 use crate::context::{check_size, draws_to_memory, enter, frame, peek, real};
-use crate::hooks::{any, compile, touch};
+use crate::hooks::{compile, touch};
 use core::sync::atomic::{AtomicI64, Ordering::Relaxed};
 use manyview_core::gl::Ptr;
 use manyview_core::state::{Command, Touch};
@@ -37,7 +37,7 @@ pub(crate) unsafe fn glBindTexture(target: u32, texture: u32) {
     if peek(|l| l.owns_texture(texture)) == Some(true) {
         enter(|gl, l| l.yield_names(gl));
     }
-    any();
+    touch(Touch::TEXTURE);
     // SAFETY: the program's own call.
     unsafe { real().glBindTexture(target, texture) };
 }
@@ -57,6 +57,8 @@ pub(crate) unsafe fn glDeleteTextures(n: i32, textures: Ptr) {
         enter(|gl, l| l.yield_names(gl));
     }
     enter(|gl, l| l.deleted_textures(gl, names));
+    // A bound texture that is deleted is bound no more.
+    peek(|l| l.touch(Touch::TEXTURE));
     // SAFETY: the program's own call.
     unsafe { real().glDeleteTextures(n, textures) };
 }

@@ -1,0 +1,135 @@
+/* Outdoors: a sky box that turns with the camera but never moves and writes no depth, a ground with pillars and
+ * smoke, what the viewer holds in the hand, and over it a flat display. */
+#include "demo.h"
+#include <math.h>
+
+DEMO_NO_OPTIONS;
+
+static GLuint clouds, grass, stone;
+
+void demo_setup(void)
+{
+    static const GLubyte white[3] = {235, 240, 245}, blue[3] = {120, 165, 220}, green[3] = {95, 140, 70},
+                         dark[3] = {60, 100, 50}, pale[3] = {200, 190, 170}, brown[3] = {150, 120, 90};
+    clouds = demo_checker(64, 8, white, blue);
+    grass = demo_checker(64, 2, green, dark);
+    stone = demo_checker(64, 4, pale, brown);
+    glEnable(GL_TEXTURE_2D);
+    glEnable(GL_DEPTH_TEST);
+    glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+}
+
+/* Six sides around the eye. Its size means nothing: it is drawn first, without depth. */
+static void sky(void)
+{
+    glDisable(GL_DEPTH_TEST);
+    glDepthMask(GL_FALSE);
+    glBindTexture(GL_TEXTURE_2D, clouds);
+    glColor3f(1.0f, 1.0f, 1.0f);
+    for (int side = 0; side < 6; side++) {
+        glBegin(GL_QUADS);
+        for (int c = 0; c < 4; c++) {
+            double p[3], u = c == 1 || c == 2 ? 1.0 : -1.0, v = c >= 2 ? 1.0 : -1.0;
+            p[side % 3] = side < 3 ? 10.0 : -10.0;
+            p[(side + 1) % 3] = 10.0 * u;
+            p[(side + 2) % 3] = 10.0 * v;
+            glTexCoord2d(0.5 * u + 0.5, 0.5 * v + 0.5);
+            glVertex3dv(p);
+        }
+        glEnd();
+    }
+    glDepthMask(GL_TRUE);
+    glEnable(GL_DEPTH_TEST);
+}
+
+static void ground(void)
+{
+    glBindTexture(GL_TEXTURE_2D, grass);
+    glColor3f(1.0f, 1.0f, 1.0f);
+    glBegin(GL_QUADS);
+    for (int z = -6; z < 6; z++)
+        for (int x = -6; x < 6; x++)
+            for (int c = 0; c < 4; c++) {
+                int dx = c == 1 || c == 2, dz = c < 2;
+                glTexCoord2d(x + dx, z + dz);
+                glVertex3d(4.0 * (x + dx), 0.0, 4.0 * (z + dz));
+            }
+    glEnd();
+    glBindTexture(GL_TEXTURE_2D, stone);
+    for (int i = 0; i < 9; i++) {
+        glPushMatrix();
+        glTranslated(5.0 * (i % 3) - 5.0, 1.5, 5.0 * (i / 3) - 9.0);
+        glRotated(20.0 * i, 0.0, 1.0, 0.0);
+        glColor3d(1.0, 1.0 - 0.06 * i, 0.6 + 0.04 * i);
+        demo_box(0.4, 1.5, 0.4);
+        glPopMatrix();
+    }
+}
+
+/* Drawn after the solid things, writing no depth: not a sky, it stands somewhere. */
+static void smoke(void)
+{
+    glDisable(GL_TEXTURE_2D);
+    glEnable(GL_BLEND);
+    glDepthMask(GL_FALSE);
+    glColor4f(0.8f, 0.8f, 0.85f, 0.4f);
+    glBegin(GL_QUADS);
+    for (int i = 0; i < 3; i++)
+        for (int c = 0; c < 4; c++)
+            glVertex3d(-2.0 + 2.0 * i + (c == 1 || c == 2), 0.4 + 1.4 * (c >= 2), -1.0 - 2.0 * i);
+    glEnd();
+    glDepthMask(GL_TRUE);
+    glDisable(GL_BLEND);
+    glEnable(GL_TEXTURE_2D);
+}
+
+/* Near the eye, in the eye's own coordinates, and solid. */
+static void hand(void)
+{
+    glLoadIdentity();
+    glTranslated(0.7, -0.6, -2.0);
+    glRotated(25.0, 0.2, 1.0, 0.0);
+    glColor3f(0.6f, 0.65f, 0.71f);
+    demo_box(0.12, 0.12, 0.5);
+}
+
+static void display(void)
+{
+    glMatrixMode(GL_PROJECTION);
+    glLoadIdentity();
+    glOrtho(0.0, 64.0, 0.0, 48.0, -1.0, 1.0);
+    demo_flat_done();
+    glMatrixMode(GL_MODELVIEW);
+    glLoadIdentity();
+    glDisable(GL_DEPTH_TEST);
+    glDisable(GL_TEXTURE_2D);
+    glColor3f(1.0f, 0.85f, 0.2f);
+    glRectd(4.0, 4.0, 20.0, 7.0);
+    glRectd(52.0, 40.0, 60.0, 44.0);
+    glColor3f(0.91f, 0.2f, 0.2f);
+    glBegin(GL_LINES); /* cross-hair */
+    glVertex2d(30.05, 24.05); glVertex2d(34.05, 24.05);
+    glVertex2d(32.05, 22.05); glVertex2d(32.05, 26.05);
+    glEnd();
+    glEnable(GL_TEXTURE_2D);
+    glEnable(GL_DEPTH_TEST);
+}
+
+void demo_frame(int frame)
+{
+    double t = demo_time(frame), aspect = (double)demo_width / demo_height;
+    demo_viewport(0, 0, demo_width, demo_height);
+    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    glMatrixMode(GL_MODELVIEW);
+    glLoadIdentity();
+    glRotated(8.0, 1.0, 0.0, 0.0);
+    glRotated(25.0 + 30.0 * sin(t), 0.0, 1.0, 0.0);
+    demo_perspective_sky(50.0, aspect, 0.5, 60.0);
+    sky();
+    demo_perspective(50.0, aspect, 0.5, 60.0);
+    glTranslated(0.5, -1.8, -9.0 + 2.0 * t);
+    ground();
+    smoke();
+    hand();
+    display();
+}

@@ -1,0 +1,109 @@
+//! The words for what a draw is and for the state that tells it; profiles and plans share them.
+#![forbid(unsafe_code)]
+
+/// What a draw is, and so how its views differ.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Class {
+    /// No parallax of its own: head-up displays, fonts, cursors, full-screen quads. All of it stands at one depth.
+    Flat,
+    /// Infinitely far.
+    Sky,
+    /// Each vertex has its own depth.
+    Scene,
+    /// No picture for the viewer: shadow maps, lightmaps, render targets. Drawn once.
+    OffScreen,
+}
+
+/// What the projection matrix is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Projection {
+    /// Row 3 depends on the position.
+    Perspective,
+    /// Row 3 is (0, 0, 0, k).
+    Orthographic,
+    /// The identity.
+    None,
+}
+
+/// What a draw does with the depth buffer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DepthState {
+    /// Tests and writes.
+    On,
+    /// Neither: without the test GL does not write either.
+    Off,
+    /// Tests, and writes nothing.
+    TestOnly,
+}
+
+/// A value that is written as a word.
+pub trait Word: Copy + PartialEq + 'static {
+    /// Every value with its word.
+    const WORDS: &'static [(&'static str, Self)];
+
+    /// The word of this value.
+    fn word(self) -> &'static str {
+        // Every value has a word (tested); the fallback only keeps this total.
+        Self::WORDS
+            .iter()
+            .find(|(_, value)| *value == self)
+            .map_or("", |(word, _)| word)
+    }
+
+    /// The value of a word.
+    fn of(word: &str) -> Option<Self> {
+        Self::WORDS
+            .iter()
+            .find(|(known, _)| *known == word)
+            .map(|(_, value)| *value)
+    }
+}
+
+impl Word for Class {
+    const WORDS: &'static [(&'static str, Self)] = &[
+        ("flat", Self::Flat),
+        ("sky", Self::Sky),
+        ("scene", Self::Scene),
+        ("off-screen", Self::OffScreen),
+    ];
+}
+
+impl Word for Projection {
+    const WORDS: &'static [(&'static str, Self)] = &[
+        ("perspective", Self::Perspective),
+        ("orthographic", Self::Orthographic),
+        ("none", Self::None),
+    ];
+}
+
+impl Word for DepthState {
+    const WORDS: &'static [(&'static str, Self)] = &[
+        ("on", Self::On),
+        ("off", Self::Off),
+        ("test-only", Self::TestOnly),
+    ];
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn round_trip<T: Word + std::fmt::Debug>(values: &[T]) {
+        for &value in values {
+            assert_eq!(T::of(value.word()), Some(value));
+        }
+        assert_eq!(values.len(), T::WORDS.len());
+        assert_eq!(T::of("nonsense"), None);
+    }
+
+    #[test]
+    fn every_value_has_a_word() {
+        round_trip(&[Class::Flat, Class::Sky, Class::Scene, Class::OffScreen]);
+        round_trip(&[
+            Projection::Perspective,
+            Projection::Orthographic,
+            Projection::None,
+        ]);
+        round_trip(&[DepthState::On, DepthState::Off, DepthState::TestOnly]);
+    }
+}

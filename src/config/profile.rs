@@ -1,0 +1,313 @@
+//! Profiles: what the draws of one program are, where its state alone does not say it.
+//!
+//! A profile is a TOML file with a list of rules; the first rule whose every key matches a draw decides it.
+#![forbid(unsafe_code)]
+
+use super::class::{Class, DepthState, Projection, Word};
+use super::settings::{one_line, read_capped};
+use std::ffi::OsStr;
+use std::path::{Path, PathBuf};
+use toml::{Table, Value};
+
+/// Infinitely far, as the depth of a flat draw.
+pub const FARTHEST: f64 = 1.0;
+/// As far before the panel as anyone may ask for.
+pub const NEAREST: f64 = -10.0;
+/// The value of `--profile` that wants none.
+pub const NONE: &str = "none";
+
+/// The rules for a program.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Profile {
+    /// The file, for people; empty without one.
+    pub file: PathBuf,
+    /// File names of the programs that it is for; it is chosen by itself for these.
+    pub executable: Vec<String>,
+    /// Depth of flat draws that no rule places, unless the user says another.
+    pub hud_depth: Option<f64>,
+    /// The first that matches decides.
+    pub rules: Vec<Rule>,
+}
+
+/// One rule. An empty list and `None` match everything.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Rule {
+    /// File names of programs.
+    pub executable: Vec<String>,
+    /// Names of 2D textures that the draw samples on the active unit; 0 is none.
+    pub texture: Vec<u32>,
+    /// Names of display lists that are called.
+    pub list: Vec<u32>,
+    /// The projection matrix.
+    pub projection: Option<Projection>,
+    /// Depth test and mask.
+    pub depth_state: Option<DepthState>,
+    /// Number of the draw in its frame, counted from 1; both ends included.
+    pub draw: Option<(u32, u32)>,
+    /// What the draw is.
+    pub class: Class,
+    /// Where a flat draw stands: 0 on the panel, 1 infinitely far, below 0 before the panel.
+    pub depth: Option<f64>,
+}
+
+const PROFILE_KEYS: &[&str] = &["executable", "hud-depth", "rule"];
+const RULE_KEYS: &[&str] = &[
+    "executable",
+    "texture",
+    "list",
+    "projection",
+    "depth-state",
+    "draw",
+    "class",
+    "depth",
+];
+
+/// Checks where a flat draw is to stand.
+pub fn depth_in_range(depth: f64) -> bool {
+    (NEAREST..=FARTHEST).contains(&depth)
+}
+
+impl Profile {
+    /// Reads a profile; the error is one sentence that names the file, the rule, the key and the remedy.
+    pub fn read(path: &Path) -> Result<Self, String> {
+        let text = read_capped(path).map_err(|reason| {
+            format!(
+                "{}: {reason}; give a file of rules, or the name of a profile",
+                path.display()
+            )
+        })?;
+        Self::parse(&text, path).map_err(|reason| format!("{}: {reason}", path.display()))
+    }
+
+    /// Understands the text of a profile; the error does not name the file.
+    pub fn parse(text: &str, path: &Path) -> Result<Self, String> {
+        let table: Table = text.parse().map_err(|error: toml::de::Error| {
+            let at = error.span().map_or(0, |span| span.start);
+            let line = text.get(..at).unwrap_or_default().matches('\n').count() + 1;
+            format!("line {line}: {}", one_line(error.message()))
+        })?;
+        known(&table, PROFILE_KEYS)?;
+        let rules = match table.get("rule") {
+            None => &Vec::new(),
+            Some(Value::Array(rules)) => rules,
+            Some(other) => {
+                return Err(format!(
+                    "rule is of type {}; begin each rule with [[rule]]",
+                    other.type_str()
+                ));
+            }
+        };
+        let rules = rules.iter().enumerate().map(|(at, rule)| {
+            let Value::Table(rule) = rule else {
+                return Err(format!(
+                    "rule {} is of type {}; write keys and values in {{ }}",
+                    at + 1,
+                    rule.type_str()
+                ));
+            };
+            Rule::parse(rule).map_err(|reason| format!("rule {}: {reason}", at + 1))
+        });
+        Ok(Self {
+            file: path.to_owned(),
+            executable: names(&table, "executable")?,
+            hud_depth: depth(&table, "hud-depth")?,
+            rules: rules.collect::<Result<_, _>>()?,
+        })
+    }
+
+    /// The profile in a folder that names a program; files with mistakes name none.
+    #[must_use]
+    pub fn automatic(folder: &Path, program: &str) -> Option<Self> {
+        shelf(folder)
+            .iter()
+            .filter_map(|path| Self::read(path).ok())
+            .find(|profile| profile.executable.iter().any(|name| name == program))
+    }
+
+    /// The profile for a name in a folder, or for a file.
+    pub fn named(folder: Option<&Path>, value: &str) -> Result<Self, String> {
+        if is_file(value) {
+            return Self::read(Path::new(value));
+        }
+        let paths = folder.map(shelf).unwrap_or_default();
+        let name = |path: &Path| path.file_stem().unwrap_or_default().to_os_string();
+        if let Some(path) = paths.iter().find(|path| name(path) == OsStr::new(value)) {
+            return Self::read(path);
+        }
+        let known: Vec<_> = paths
+            .iter()
+            .map(|path| format!(", {}", name(path).to_string_lossy()))
+            .collect();
+        Err(format!(
+            "there is no profile '{value}'; give a file that ends in .toml, or one of {NONE}{}",
+            known.concat()
+        ))
+    }
+}
+
+/// Whether a value of `--profile` is a file and not a name.
+#[must_use]
+pub fn is_file(value: &str) -> bool {
+    value.contains('/') || value.ends_with(".toml")
+}
+
+/// Where the profiles are that come with a library: in `profiles` beside it, or of the repository that it was built in.
+#[must_use]
+pub fn beside(library: &Path) -> Option<PathBuf> {
+    let folder = library.parent()?;
+    [folder.join("profiles"), folder.join("../../profiles")]
+        .into_iter()
+        .find(|profiles| profiles.is_dir())
+}
+
+/// The file name of the program of this process.
+#[must_use]
+pub fn this_program() -> Option<String> {
+    let path = std::env::current_exe().ok()?;
+    Some(path.file_name()?.to_string_lossy().into_owned())
+}
+
+/// The profiles in a folder, in the order of their names.
+fn shelf(folder: &Path) -> Vec<PathBuf> {
+    let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
+    let mut paths: Vec<_> = entries
+        .map(|entry| entry.path())
+        .filter(|path| path.extension() == Some(OsStr::new("toml")))
+        .collect();
+    paths.sort();
+    paths
+}
+
+impl Rule {
+    fn parse(table: &Table) -> Result<Self, String> {
+        known(table, RULE_KEYS)?;
+        let class: Class = word(table, "class")?
+            .ok_or_else(|| format!("class is missing; give one of {}", words::<Class>()))?;
+        let depth = depth(table, "depth")?;
+        if let (Some(depth), false) = (depth, class == Class::Flat) {
+            return Err(format!(
+                "depth is {depth} and class is '{}'; only a flat draw stands at one depth, so leave depth out or make the class flat",
+                class.word()
+            ));
+        }
+        Ok(Self {
+            executable: names(table, "executable")?,
+            texture: numbers(table, "texture")?,
+            list: numbers(table, "list")?,
+            projection: word(table, "projection")?,
+            depth_state: word(table, "depth-state")?,
+            draw: range(table, "draw")?,
+            class,
+            depth,
+        })
+    }
+}
+
+fn known(table: &Table, keys: &[&str]) -> Result<(), String> {
+    match table.keys().find(|key| !keys.contains(&key.as_str())) {
+        None => Ok(()),
+        Some(key) => Err(format!(
+            "the key '{key}' means nothing here; the keys are {}",
+            keys.join(", ")
+        )),
+    }
+}
+
+fn wrong(key: &str, value: &Value, remedy: &str) -> String {
+    let text = match value {
+        Value::String(text) => format!("'{text}'"),
+        Value::Integer(_) | Value::Float(_) => value.to_string(),
+        other => format!("of type {}", other.type_str()),
+    };
+    format!("{key} is {text}; {remedy}")
+}
+
+/// One value as a list of one.
+fn list<'a>(table: &'a Table, key: &str) -> &'a [Value] {
+    match table.get(key) {
+        None => &[],
+        Some(Value::Array(values)) => values,
+        Some(value) => std::slice::from_ref(value),
+    }
+}
+
+fn names(table: &Table, key: &str) -> Result<Vec<String>, String> {
+    let one = |value: &Value| match value.as_str() {
+        Some(name) if !name.is_empty() && !name.contains('/') => Ok(name.to_owned()),
+        _ => Err(wrong(
+            key,
+            value,
+            "give the file name of a program in quotes, without its folder",
+        )),
+    };
+    list(table, key).iter().map(one).collect()
+}
+
+fn numbers(table: &Table, key: &str) -> Result<Vec<u32>, String> {
+    let one = |value: &Value| {
+        let number = value.as_integer().and_then(|n| u32::try_from(n).ok());
+        number.ok_or_else(|| wrong(key, value, "give a whole number from 0, or a list of them"))
+    };
+    list(table, key).iter().map(one).collect()
+}
+
+fn words<T: Word>() -> String {
+    let words: Vec<_> = T::WORDS.iter().map(|(word, _)| *word).collect();
+    words.join(", ")
+}
+
+fn word<T: Word>(table: &Table, key: &str) -> Result<Option<T>, String> {
+    let Some(value) = table.get(key) else {
+        return Ok(None);
+    };
+    match value.as_str().and_then(T::of) {
+        Some(known) => Ok(Some(known)),
+        None => Err(wrong(key, value, &format!("give one of {}", words::<T>()))),
+    }
+}
+
+fn depth(table: &Table, key: &str) -> Result<Option<f64>, String> {
+    let Some(value) = table.get(key) else {
+        return Ok(None);
+    };
+    let number = match value {
+        Value::Integer(number) => Some(*number as f64),
+        other => other.as_float(),
+    };
+    match number {
+        Some(number) if depth_in_range(number) => Ok(Some(number)),
+        _ => Err(wrong(key, value, DEPTH_REMEDY)),
+    }
+}
+
+/// What a depth may be, in words.
+pub const DEPTH_REMEDY: &str =
+    "give a number from -10 (far before the panel) to 1 (infinitely far); 0 is on the panel";
+
+/// `5`, `"5..9"` or `"5.."`, both ends included, counted from 1.
+fn range(table: &Table, key: &str) -> Result<Option<(u32, u32)>, String> {
+    let Some(value) = table.get(key) else {
+        return Ok(None);
+    };
+    let parsed = match value {
+        Value::Integer(number) => u32::try_from(*number).ok().map(|n| (n, n)),
+        Value::String(text) => {
+            let (first, last) = text.split_once("..").unwrap_or((text, text));
+            let last = if last.is_empty() {
+                Some(u32::MAX)
+            } else {
+                last.parse().ok()
+            };
+            first.parse().ok().zip(last)
+        }
+        _ => None,
+    };
+    match parsed {
+        Some((first, last)) if 1 <= first && first <= last => Ok(Some((first, last))),
+        _ => Err(wrong(
+            key,
+            value,
+            "give a draw counted from 1 such as 5, or a range in quotes such as \"5..9\" or \"5..\"",
+        )),
+    }
+}

@@ -1,0 +1,187 @@
+//! Profiles: what is understood, and the message for each mistake.
+
+use super::profile::*;
+use super::{Class, Config, ConfigError, DepthState, OptionId, Projection, Settings};
+use proptest::prelude::*;
+use std::path::Path;
+
+const WHOLE: &str = r#"
+executable = ["room", "room.x86_64"]
+hud-depth = 0.25
+
+[[rule]]
+executable = "room"
+texture = 7
+list = [3, 4]
+projection = "orthographic"
+depth-state = "test-only"
+draw = "5..9"
+class = "flat"
+depth = -0.5
+
+[[rule]]
+draw = 1
+class = "off-screen"
+"#;
+
+#[test]
+fn every_key_is_understood() {
+    let profile = Profile::parse(WHOLE, Path::new("room.toml")).unwrap();
+    assert_eq!(profile.executable, ["room", "room.x86_64"]);
+    assert_eq!(profile.hud_depth, Some(0.25));
+    let [first, second] = &profile.rules[..] else {
+        panic!("{:?}", profile.rules)
+    };
+    assert_eq!(
+        *first,
+        Rule {
+            executable: vec!["room".to_owned()],
+            texture: vec![7],
+            list: vec![3, 4],
+            projection: Some(Projection::Orthographic),
+            depth_state: Some(DepthState::TestOnly),
+            draw: Some((5, 9)),
+            class: Class::Flat,
+            depth: Some(-0.5),
+        }
+    );
+    assert_eq!(
+        (second.draw, second.class),
+        (Some((1, 1)), Class::OffScreen)
+    );
+}
+
+#[test]
+fn a_list_of_lines_is_the_same_as_tables() {
+    let lines = "rule = [\n{ draw = \"2..\", class = \"sky\" },\n{ class = \"scene\" },\n]";
+    let tables = "[[rule]]\ndraw = \"2..\"\nclass = \"sky\"\n[[rule]]\nclass = \"scene\"";
+    let parse = |text| Profile::parse(text, Path::new("")).unwrap();
+    assert_eq!(parse(lines), parse(tables));
+    assert_eq!(parse(lines).rules[0].draw, Some((2, u32::MAX)));
+}
+
+#[test]
+fn every_mistake_is_one_clear_sentence() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("game.toml");
+    let message = |text: &str| {
+        std::fs::write(&path, text).unwrap();
+        let mut settings = Settings::default();
+        let value = path.to_string_lossy();
+        settings.set(OptionId::Profile, value, super::Origin::CommandLine);
+        let error = Config::from_settings(&settings).unwrap_err();
+        assert!(matches!(error, ConfigError::Profile { .. }), "{error:?}");
+        let error = error.to_string();
+        assert!(!error.contains('\n'), "one line: {error}");
+        error.replace(folder.path().to_str().unwrap(), "FOLDER")
+    };
+    let rule = |keys: &str| format!("rule = [\n{{ class = \"flat\" }},\n{{ {keys} }},\n]");
+    let all = [
+        "rule = [\n{ class = \"flat\" }\n{ class = \"sky\" }\n]".to_owned(),
+        "rules = []".to_owned(),
+        "rule = 5".to_owned(),
+        "rule = [5]".to_owned(),
+        "executable = \"/usr/games/room\"".to_owned(),
+        "hud-depth = 1.5".to_owned(),
+        rule("texture = 3"),
+        rule("class = \"hud\""),
+        rule("class = 5"),
+        rule("class = \"flat\", texure = 3"),
+        rule("class = \"flat\", texture = -1"),
+        rule("class = \"flat\", list = \"3\""),
+        rule("class = \"flat\", projection = \"ortho\""),
+        rule("class = \"flat\", depth-state = true"),
+        rule("class = \"flat\", draw = 0"),
+        rule("class = \"flat\", draw = \"9..5\""),
+        rule("class = \"flat\", depth = \"near\""),
+        rule("class = \"flat\", depth = -11"),
+        rule("class = \"sky\", depth = 0.5"),
+    ]
+    .map(|text| message(&text));
+    insta::assert_snapshot!(all.join("\n"));
+}
+
+#[test]
+fn profiles_are_found_by_name_and_by_program() {
+    let folder = tempfile::tempdir().unwrap();
+    let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).unwrap();
+    write("a-broken.toml", "executable = 5");
+    write("room.toml", WHOLE);
+    write("other.toml", "executable = \"other\"");
+    write("notes.txt", "not a profile");
+    let by_name = Profile::named(Some(folder.path()), "room").unwrap();
+    assert_eq!(by_name.rules.len(), 2);
+    let by_program = Profile::automatic(folder.path(), "room.x86_64").unwrap();
+    assert_eq!(by_program, by_name);
+    assert_eq!(Profile::automatic(folder.path(), "unknown"), None);
+    insta::assert_snapshot!(
+        Profile::named(Some(folder.path()), "rome").unwrap_err(),
+        @"there is no profile 'rome'; give a file that ends in .toml, or one of none, a-broken, other, room"
+    );
+    insta::assert_snapshot!(
+        Profile::named(None, "rome").unwrap_err(),
+        @"there is no profile 'rome'; give a file that ends in .toml, or one of none"
+    );
+}
+
+#[test]
+fn a_profile_is_chosen_for_a_program_unless_another_is_asked_for() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("room.toml"), WHOLE).unwrap();
+    let rules = |profile: Option<&str>| {
+        let mut settings = Settings::default();
+        let set = |settings: &mut Settings, id, value: &str| {
+            settings.set(id, value, super::Origin::Variable);
+        };
+        set(
+            &mut settings,
+            OptionId::Profiles,
+            folder.path().to_str().unwrap(),
+        );
+        if let Some(profile) = profile {
+            set(&mut settings, OptionId::Profile, profile);
+        }
+        let mut config = Config::from_settings(&settings).unwrap();
+        config.choose_profile(&settings, Some("room".to_owned()));
+        config.profile.rules.len()
+    };
+    assert_eq!(rules(None), 2);
+    assert_eq!(rules(Some("none")), 0);
+    assert_eq!(rules(Some("room")), 2);
+}
+
+#[test]
+fn the_profiles_that_come_with_the_library_are_good() {
+    let shelf = Path::new(env!("CARGO_MANIFEST_DIR")).join("profiles");
+    let mut seen = 0;
+    for entry in std::fs::read_dir(shelf).unwrap() {
+        let path = entry.unwrap().path();
+        if path
+            .extension()
+            .is_some_and(|extension| extension == "toml")
+        {
+            let profile = Profile::read(&path).unwrap();
+            assert!(!profile.rules.is_empty() || profile.hud_depth.is_some());
+            seen += 1;
+        }
+    }
+    assert!(seen > 0, "there are profiles");
+}
+
+proptest! {
+    /// Whatever stands in a file, reading it ends in a profile or in one line.
+    #[test]
+    fn no_text_makes_a_profile_panic(text in "(rule|class|draw|depth|= |\\[|\\]|\\{|\\}|\"|\\.\\.|[0-9]|-|,|\n|flat|sky){0,30}") {
+        if let Err(message) = Profile::parse(&text, Path::new("any.toml")) {
+            prop_assert!(!message.is_empty() && !message.contains('\n'), "{message}");
+        }
+    }
+
+    #[test]
+    fn ranges_survive_being_written(first in 1u32..1000, length in 0u32..1000) {
+        let last = first + length;
+        let text = format!("rule = [{{ draw = \"{first}..{last}\", class = \"scene\" }}]");
+        let profile = Profile::parse(&text, Path::new("")).unwrap();
+        prop_assert_eq!(profile.rules[0].draw, Some((first, last)));
+    }
+}

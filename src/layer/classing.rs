@@ -1,0 +1,66 @@
+//! What a draw is: reads what the classifier asks for, and keeps what it must know of the frame.
+
+use super::Layer;
+use crate::config::{DepthState, Projection};
+use crate::gl::Gl;
+use crate::plan::class::Target;
+use crate::plan::{Classed, Facts, Kind};
+use crate::state::Touch;
+
+/// What has happened in the frame so far.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Frame {
+    /// Draws, without clears.
+    pub(super) draws: u32,
+    /// The list that is called.
+    pub(super) list: Option<u32>,
+    /// Something in perspective has written depth since the frame began or was last cleared.
+    pub(super) deep: bool,
+}
+
+impl Layer {
+    /// Classes the draw that is about to be made; [`crate::state::State::refresh`] has been called.
+    pub(super) fn classify(&mut self, gl: &Gl, kind: Kind) -> (Facts, Classed) {
+        let shown = self.state.draws_to_window();
+        let clear = matches!(kind, Kind::Clear | Kind::Accum);
+        if clear && shown {
+            self.frame.deep = false;
+        }
+        if !clear && self.state.list.is_none() {
+            self.frame.draws += 1;
+        }
+        let first = !self.frame.deep;
+        if shown {
+            let projection = self.state.projection_kind();
+            let needs = self.classifier.needs(kind, projection, first);
+            self.state.look(gl, needs);
+            let depth = self.state.look.depth;
+            if !clear && projection == Projection::Perspective && first {
+                if self.classifier.needs_modelview(projection, first, depth) {
+                    self.state.look(gl, Touch::MODELVIEW);
+                }
+                self.frame.deep = depth == DepthState::On;
+            }
+        }
+        let facts = Facts {
+            draw: self.frame.draws,
+            list: self.frame.list,
+            raster: self.raster_placed,
+            first,
+            ..Facts::of(kind, &self.state)
+        };
+        let classed = self.classifier.class(&facts);
+        debug_assert!(shown || facts.target != Target::Window);
+        (facts, classed)
+    }
+
+    /// The call once, in the program's own view only.
+    pub(super) fn once(&mut self, gl: &Gl, call: &mut dyn FnMut()) {
+        if self.state.draws_to_window() {
+            // The tiles beside it are others' views.
+            self.scissored(gl, 0, call);
+        } else {
+            call();
+        }
+    }
+}

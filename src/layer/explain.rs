@@ -1,0 +1,290 @@
+//! One frame explained: a picture in which each draw's class is a colour, and a list of the draws with the reasons.
+//!
+//! The program's own view is read before and after each draw of that frame, and what has changed is the draw's. That is slow, but
+//! it is one frame, it changes no state of the program's, and it is true of every kind of draw and strategy.
+
+use super::Layer;
+use crate::config::{Class, Explain, Word};
+use crate::gl::{Gl, consts as c};
+use crate::plan::class::Target;
+use crate::plan::{Classed, Facts, Kind};
+use image::{Rgb, RgbImage};
+use std::fmt::Write as _;
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+/// The picture stops, and the list goes on, after this time.
+const PATIENCE: Duration = Duration::from_secs(60);
+
+/// Classes in the order of the legend, and their colours; told apart by the colour-blind as well (after Okabe and Ito, 2008).
+const COLOURS: [(Class, [u8; 3]); 4] = [
+    (Class::Flat, [230, 159, 0]),
+    (Class::Sky, [86, 180, 233]),
+    (Class::Scene, [0, 158, 115]),
+    (Class::OffScreen, [204, 121, 167]),
+];
+
+/// What is known of the frame so far.
+#[derive(Debug)]
+pub(super) struct Explained {
+    /// The program's own view after the last draw.
+    view: RgbImage,
+    /// For each pixel the class of the draw that changed it last.
+    owner: Vec<Option<Class>>,
+    /// The draw that has been made since `view`: its class, nothing for a clear.
+    last: Option<Option<Class>>,
+    draws: Vec<(Facts, Classed)>,
+    began: Instant,
+    complete: bool,
+}
+
+impl Layer {
+    /// The frame that is being drawn is the one to explain.
+    fn explains(&self) -> Option<&'static Explain> {
+        let explain = self.config.explain.as_ref()?;
+        (self.report.frames() + 1 == explain.frame && self.state.list.is_none()).then_some(explain)
+    }
+
+    /// Before a draw: finds what the one before it has changed.
+    pub(super) fn explain_last(&mut self, gl: &Gl) {
+        if self.explains().is_none() {
+            return;
+        }
+        let Some(mut explained) = self.explained.take() else {
+            let view = self.own_view(gl);
+            let pixels = view.width() as usize * view.height() as usize;
+            self.explained = Some(Explained {
+                view,
+                owner: vec![None; pixels],
+                last: None,
+                draws: Vec::new(),
+                began: Instant::now(),
+                complete: true,
+            });
+            return;
+        };
+        if explained.began.elapsed() > PATIENCE {
+            explained.complete = false;
+            explained.last = None;
+        }
+        if let Some(class) = explained.last.take() {
+            explained.settle(class, self.own_view(gl));
+        }
+        self.explained = Some(explained);
+    }
+
+    /// A draw is about to be made.
+    pub(super) fn explain_this(&mut self, facts: &Facts, classed: &Classed) {
+        if self.explains().is_none() {
+            return;
+        }
+        if let Some(explained) = &mut self.explained {
+            let clear = matches!(facts.kind, Kind::Clear | Kind::Accum);
+            if !clear {
+                explained.draws.push((*facts, *classed));
+            }
+            if facts.target == Target::Window {
+                explained.last = Some((!clear).then_some(classed.class));
+            }
+        }
+    }
+
+    /// At the end of the frame: writes both files.
+    pub(super) fn finish_explanation(&mut self, gl: &Gl) {
+        let Some(explain) = self.explains() else {
+            return;
+        };
+        self.explain_last(gl);
+        let Some(explained) = self.explained.take() else {
+            return;
+        };
+        let [picture, list] = explain.files();
+        let written = replace(&picture, |path| {
+            explained
+                .picture()
+                .save_with_format(path, image::ImageFormat::Png)
+                .map_err(|e| e.to_string())
+        })
+        .and_then(|()| {
+            replace(&list, |path| {
+                std::fs::write(path, explained.list(explain.frame)).map_err(|e| e.to_string())
+            })
+        });
+        if let Err(e) = written {
+            self.report
+                .note(format!("explanation of frame {}: {e}", explain.frame));
+        }
+    }
+}
+
+/// Writes beside the file and renames, so that nobody sees half of it.
+fn replace(path: &Path, write: impl FnOnce(&Path) -> Result<(), String>) -> Result<(), String> {
+    let mut growing = path.as_os_str().to_owned();
+    growing.push(".tmp");
+    write(Path::new(&growing))
+        .and_then(|()| std::fs::rename(&growing, path).map_err(|e| e.to_string()))
+        .map_err(|e| format!("{}: {e}", path.display()))
+}
+
+impl Explained {
+    /// What differs from the view before is the last draw's.
+    fn settle(&mut self, class: Option<Class>, now: RgbImage) {
+        if now.dimensions() != self.view.dimensions() {
+            self.owner = vec![None; now.width() as usize * now.height() as usize];
+        } else {
+            let pixels = now.pixels().zip(self.view.pixels());
+            for (owner, (after, before)) in self.owner.iter_mut().zip(pixels) {
+                if class.is_none() || after != before {
+                    *owner = class;
+                }
+            }
+        }
+        self.view = now;
+    }
+
+    /// The view in grey, tinted by class, over a legend.
+    fn picture(&self) -> RgbImage {
+        let (width, height) = self.view.dimensions();
+        let mut picture = RgbImage::new(width, height + LEGEND);
+        for ((x, y, pixel), owner) in self.view.enumerate_pixels().zip(&self.owner) {
+            let [r, g, b] = pixel.0.map(u32::from);
+            let grey = (2 * r + 5 * g + b) / 8;
+            let tinted = match owner {
+                Some(class) => colour(*class).map(|k| ((5 * grey + 7 * u32::from(k)) / 12) as u8),
+                None => [(grey / 2) as u8; 3],
+            };
+            picture.put_pixel(x, y, Rgb(tinted));
+        }
+        legend(&mut picture, height);
+        picture
+    }
+
+    /// One line a draw.
+    fn list(&self, frame: u64) -> String {
+        let mut counts = String::new();
+        for (class, _) in COLOURS {
+            let count = self.draws.iter().filter(|d| d.1.class == class).count();
+            let _ = write!(counts, ", {count} {}", class.word());
+        }
+        let mut text = format!(
+            "# Frame {frame}: {} draws{counts}.\n\
+             # A rule at the end of a line, pasted into a profile between `rule = [` and `]`, changes what its draw is.\n",
+            self.draws.len()
+        );
+        if !self.complete {
+            let _ = writeln!(
+                text,
+                "# The picture is not complete: it was given up after {} s.",
+                PATIENCE.as_secs()
+            );
+        }
+        let _ = writeln!(
+            text,
+            "{:>5}  {:<22} {:<10} {:<59} {:>7} {:>5} {:<9}  rule",
+            "draw", "kind", "class", "reason", "texture", "list", "depth"
+        );
+        for (facts, classed) in &self.draws {
+            let window = facts.target == Target::Window;
+            let known = |text: String| if window { text } else { "-".to_owned() };
+            let number = |n: Option<u32>| n.map_or("-".to_owned(), |n| n.to_string());
+            let _ = writeln!(
+                text,
+                "{:>5}  {:<22} {:<10} {:<59} {:>7} {:>5} {:<9}  {}",
+                facts.draw,
+                kind(facts.kind),
+                classed.class.word(),
+                classed.why.to_string(),
+                known(number(Some(facts.texture).filter(|&t| t != 0))),
+                number(facts.list),
+                known(facts.depth_state.word().to_owned()),
+                facts.rule(classed).unwrap_or_else(|| "-".to_owned()),
+            );
+        }
+        text
+    }
+}
+
+/// A draw's command and primitive, in words.
+fn kind(kind: Kind) -> String {
+    let mode = |mode: u32| match mode {
+        c::POINTS => "points",
+        c::LINES => "lines",
+        c::LINE_LOOP => "line loop",
+        c::LINE_STRIP => "line strip",
+        c::TRIANGLES => "triangles",
+        c::TRIANGLE_STRIP => "triangle strip",
+        c::TRIANGLE_FAN => "triangle fan",
+        c::QUADS => "quads",
+        c::QUAD_STRIP => "quad strip",
+        c::POLYGON => "polygon",
+        _ => "primitives",
+    };
+    match kind {
+        Kind::Begin(m) => format!("glBegin {}", mode(m)),
+        Kind::Arrays(m) => format!("array {}", mode(m)),
+        Kind::Elements(m) => format!("indexed {}", mode(m)),
+        Kind::Other => "other arrays, glRect".to_owned(),
+        Kind::List => "display list".to_owned(),
+        Kind::Pixels => "pixels".to_owned(),
+        Kind::Clear => "clear".to_owned(),
+        Kind::Accum => "accumulation".to_owned(),
+    }
+}
+
+fn colour(class: Class) -> [u8; 3] {
+    COLOURS
+        .iter()
+        .find(|(known, _)| *known == class)
+        .map_or([255; 3], |(_, colour)| *colour)
+}
+
+/// Height of the legend in pixels; a letter is 3 by 5 dots of 2 pixels.
+const LEGEND: u32 = 18;
+const DOT: u32 = 2;
+
+/// The letters of the legend: rows from the top, three bits each, the left dot the highest.
+const LETTERS: [(char, [u8; 5]); 12] = [
+    ('a', [2, 5, 7, 5, 5]),
+    ('c', [3, 4, 4, 4, 3]),
+    ('e', [7, 4, 6, 4, 7]),
+    ('f', [7, 4, 6, 4, 4]),
+    ('k', [5, 5, 6, 5, 5]),
+    ('l', [4, 4, 4, 4, 7]),
+    ('n', [6, 5, 5, 5, 5]),
+    ('o', [2, 5, 5, 5, 2]),
+    ('r', [6, 5, 6, 5, 5]),
+    ('s', [3, 4, 2, 1, 6]),
+    ('t', [7, 2, 2, 2, 2]),
+    ('y', [5, 5, 2, 2, 2]),
+];
+
+/// A swatch and a word for each class, from `top` on; what does not fit is left out.
+fn legend(picture: &mut RgbImage, top: u32) {
+    let mut x = 4;
+    for (class, colour) in COLOURS {
+        fill(picture, [x, top + 4, 10, 10], colour);
+        x += 14;
+        for letter in class.word().chars() {
+            let rows = LETTERS.iter().find(|(known, _)| *known == letter);
+            // A hyphen has no letter of its own.
+            let rows = rows.map_or([0, 0, 7, 0, 0], |(_, rows)| *rows);
+            for (row, bits) in (0..).zip(rows) {
+                for dot in (0..3).filter(|dot| bits >> (2 - dot) & 1 != 0) {
+                    let at = [x + dot * DOT, top + 4 + row * DOT, DOT, DOT];
+                    fill(picture, at, [255; 3]);
+                }
+            }
+            x += 4 * DOT;
+        }
+        x += 10;
+    }
+}
+
+/// A rectangle (x, y, width, height), cut to the picture.
+fn fill(picture: &mut RgbImage, [x, y, w, h]: [u32; 4], colour: [u8; 3]) {
+    for y in y..(y + h).min(picture.height()) {
+        for x in x..(x + w).min(picture.width()) {
+            picture.put_pixel(x, y, Rgb(colour));
+        }
+    }
+}

@@ -1,0 +1,297 @@
+//! What a draw is, and why: from the state, and from the rules of a profile. Calls no GL.
+//!
+//! The rules without a profile are few and careful: a scene taken for a sky or a display loses its depth, which is worse than a
+//! sky that keeps a little.
+
+use super::Kind;
+use crate::config::{Class, DepthState, Profile, Projection, Rule, Word, profile};
+use crate::state::{State, Touch};
+
+/// What there is to know about a draw.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Facts {
+    /// What the program draws with.
+    pub kind: Kind,
+    /// Where it goes.
+    pub target: Target,
+    /// Its number in the frame, counted from 1; clears are not counted.
+    pub draw: u32,
+    /// The display list that is called.
+    pub list: Option<u32>,
+    /// The projection under which the raster position was placed.
+    pub raster: Projection,
+    /// The projection matrix.
+    pub projection: Projection,
+    /// The projection moves nothing sideways or along the axis: what turns about the eye is at its origin.
+    pub centred: bool,
+    /// Depth test and mask, where [`Classifier::needs`] asks for them.
+    pub depth_state: DepthState,
+    /// The 2D texture of the active unit, 0 for none; where asked for.
+    pub texture: u32,
+    /// The modelview matrix turns about the eye, moves nothing, and is not the identity; where asked for.
+    pub turns: bool,
+    /// Nothing in perspective has written depth since the frame began or was last cleared.
+    pub first: bool,
+}
+
+/// Where a draw goes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Target {
+    /// The window.
+    Window,
+    /// A framebuffer of the program's.
+    Framebuffer(u32),
+    /// No picture: a list that is compiled, selection, feedback.
+    Nothing,
+}
+
+/// Why a draw is what it is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Why {
+    /// A rule of the profile, counted from 1.
+    Rule(usize),
+    /// It goes to a framebuffer of the program's.
+    Framebuffer(u32),
+    /// It makes no picture.
+    NoPicture,
+    /// It fills the picture with one value.
+    Whole,
+    /// It stands at the raster position.
+    Raster,
+    /// No depth to shift by.
+    Orthographic,
+    /// No projection at all.
+    NoProjection,
+    /// Turned about the eye, without depth, before the scene.
+    Around,
+    /// In perspective, and nothing speaks against it.
+    Perspective,
+}
+
+impl core::fmt::Display for Why {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        match self {
+            Why::Rule(number) => write!(f, "rule {number} of the profile"),
+            Why::Framebuffer(name) => write!(f, "drawn to framebuffer {name}, not to the window"),
+            Why::NoPicture => f.write_str("selection or feedback, not a picture"),
+            Why::Whole => f.write_str("the whole picture"),
+            Why::Raster => f.write_str("at the raster position"),
+            Why::Orthographic => f.write_str("orthographic projection"),
+            Why::NoProjection => f.write_str("no projection"),
+            Why::Around => {
+                f.write_str("turns about the eye, writes no depth, comes before the scene")
+            }
+            Why::Perspective => f.write_str("perspective projection"),
+        }
+    }
+}
+
+/// A draw, classed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Classed {
+    /// What it is.
+    pub class: Class,
+    /// Where a flat draw stands: 0 on the panel, 1 infinitely far.
+    pub depth: f64,
+    /// Why.
+    pub why: Why,
+}
+
+/// The rules for one program.
+#[derive(Clone, Debug)]
+pub struct Classifier {
+    /// Those for this program, with their numbers in the file.
+    rules: Vec<(usize, Rule)>,
+    hud_depth: f64,
+    explains: bool,
+}
+
+impl Classifier {
+    /// For a program. `explains`: all facts are wanted, whether a rule asks for them or not.
+    pub fn new(
+        profile: &Profile,
+        hud_depth: Option<f64>,
+        program: Option<&str>,
+        explains: bool,
+    ) -> Self {
+        let ours = |rule: &Rule| {
+            rule.executable.is_empty()
+                || rule
+                    .executable
+                    .iter()
+                    .any(|name| Some(name.as_str()) == program)
+        };
+        let numbered = profile.rules.iter().enumerate();
+        Classifier {
+            rules: numbered
+                .filter(|(_, rule)| ours(rule))
+                .map(|(at, rule)| (at + 1, rule.clone()))
+                .collect(),
+            hud_depth: hud_depth.or(profile.hud_depth).unwrap_or(0.0),
+            explains,
+        }
+    }
+
+    /// The groups of state that a draw's class may depend on, beside those that every draw needs. `first` as in [`Facts`].
+    pub fn needs(&self, kind: Kind, projection: Projection, first: bool) -> Touch {
+        if matches!(kind, Kind::Clear | Kind::Accum) {
+            return Touch::NONE;
+        }
+        let rule = |asks: fn(&Rule) -> bool| {
+            self.explains || self.rules.iter().any(|(_, rule)| asks(rule))
+        };
+        let mut needs = Touch::NONE;
+        if rule(|rule| rule.depth_state.is_some()) {
+            needs = needs | Touch::DEPTH;
+        }
+        if rule(|rule| !rule.texture.is_empty()) {
+            needs = needs | Touch::TEXTURE;
+        }
+        if projection == Projection::Perspective && first {
+            needs = needs | Touch::DEPTH;
+        }
+        needs
+    }
+
+    /// Whether the modelview matrix may decide, once the depth state is known.
+    pub fn needs_modelview(&self, projection: Projection, first: bool, depth: DepthState) -> bool {
+        projection == Projection::Perspective && first && depth != DepthState::On
+    }
+
+    /// What a draw is.
+    pub fn class(&self, facts: &Facts) -> Classed {
+        let classed = |class, why| Classed {
+            class,
+            depth: 0.0,
+            why,
+        };
+        match facts.target {
+            Target::Window => {}
+            Target::Framebuffer(name) => {
+                return classed(Class::OffScreen, Why::Framebuffer(name));
+            }
+            Target::Nothing => return classed(Class::OffScreen, Why::NoPicture),
+        }
+        if matches!(facts.kind, Kind::Clear | Kind::Accum) {
+            return classed(Class::Flat, Why::Whole);
+        }
+        if let Some((number, rule)) = self.rules.iter().find(|(_, rule)| matches(rule, facts)) {
+            return Classed {
+                class: rule.class,
+                depth: rule.depth.unwrap_or(self.hud_depth),
+                why: Why::Rule(*number),
+            };
+        }
+        if facts.kind == Kind::Pixels {
+            return match facts.raster {
+                Projection::Perspective => classed(Class::Scene, Why::Raster),
+                Projection::Orthographic => Classed {
+                    class: Class::Flat,
+                    depth: self.hud_depth,
+                    why: Why::Raster,
+                },
+                Projection::None => classed(Class::Flat, Why::Raster),
+            };
+        }
+        match facts.projection {
+            Projection::Orthographic => Classed {
+                class: Class::Flat,
+                depth: self.hud_depth,
+                why: Why::Orthographic,
+            },
+            // Vertices in clip space are for quads over the whole window, which would show their edges.
+            Projection::None => classed(Class::Flat, Why::NoProjection),
+            Projection::Perspective if is_sky(facts) => Classed {
+                class: Class::Sky,
+                depth: profile::FARTHEST,
+                why: Why::Around,
+            },
+            Projection::Perspective => classed(Class::Scene, Why::Perspective),
+        }
+    }
+}
+
+/// A sky is turned with the camera but stays around it; it writes no depth, so it comes before what does. The identity is no sky:
+/// programs that move vertices themselves draw everything with it.
+fn is_sky(facts: &Facts) -> bool {
+    facts.first && facts.centred && facts.turns && facts.depth_state != DepthState::On
+}
+
+fn matches(rule: &Rule, facts: &Facts) -> bool {
+    let any = |names: &[u32], name: Option<u32>| {
+        names.is_empty() || name.is_some_and(|name| names.contains(&name))
+    };
+    any(&rule.texture, Some(facts.texture))
+        && any(&rule.list, facts.list)
+        && rule.projection.is_none_or(|p| p == facts.projection)
+        && rule.depth_state.is_none_or(|d| d == facts.depth_state)
+        && rule
+            .draw
+            .is_none_or(|(first, last)| (first..=last).contains(&facts.draw))
+}
+
+impl Facts {
+    /// From the state, of which [`Classifier::needs`] has been read; what is not in it is left at its least.
+    pub fn of(kind: Kind, state: &State) -> Facts {
+        let p = &state.projection;
+        Facts {
+            kind,
+            target: match state.framebuffers.draw {
+                _ if state.draws_to_window() => Target::Window,
+                0 => Target::Nothing,
+                name => Target::Framebuffer(name),
+            },
+            draw: 0,
+            list: None,
+            raster: Projection::None,
+            projection: state.projection_kind(),
+            centred: [p[3], p[7], p[12], p[13], p[15]] == [0.0; 5],
+            depth_state: state.look.depth,
+            texture: state.look.texture,
+            turns: turns(&state.look.modelview),
+            first: false,
+        }
+    }
+
+    /// The line of a profile that would give this draw another class.
+    pub fn rule(&self, classed: &Classed) -> Option<String> {
+        if self.target != Target::Window {
+            return None;
+        }
+        let mut keys = Vec::new();
+        if let Some(list) = self.list {
+            keys.push(format!("list = {list}"));
+        }
+        if self.texture != 0 {
+            keys.push(format!("texture = {}", self.texture));
+        }
+        if keys.is_empty() {
+            // Nothing else tells it from its neighbours.
+            keys.push(format!("draw = {}", self.draw));
+        }
+        keys.push(format!("projection = \"{}\"", self.projection.word()));
+        keys.push(format!("depth-state = \"{}\"", self.depth_state.word()));
+        let other = match (classed.class, self.projection) {
+            (Class::Scene, _) => Class::Flat,
+            (Class::Sky, _) => Class::Scene,
+            (_, Projection::Perspective) if self.kind != Kind::Pixels => Class::Scene,
+            // It has no depths of its own; it can only stand elsewhere.
+            _ => Class::Flat,
+        };
+        keys.push(format!("class = \"{}\"", other.word()));
+        if classed.class == Class::Flat && other == Class::Flat {
+            keys.push("depth = 0.25".to_owned());
+        }
+        Some(format!("{{ {} }},", keys.join(", ")))
+    }
+}
+
+/// Whether a matrix (column-major) turns or scales about the origin and is not the identity.
+fn turns(m: &[f32; 16]) -> bool {
+    [m[12], m[13], m[14], m[3], m[7], m[11]] == [0.0; 6]
+        && m[15] != 0.0
+        && *m != glam::Mat4::IDENTITY.to_cols_array()
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,247 @@
+//! What draws are, case by case.
+
+use super::*;
+use glam::{Mat4, Vec3};
+use std::path::Path;
+
+fn classifier(profile: &str) -> Classifier {
+    let profile = Profile::parse(profile, Path::new("test.toml")).expect("a profile");
+    Classifier::new(&profile, None, Some("room"), false)
+}
+
+fn facts() -> Facts {
+    Facts {
+        kind: Kind::Begin(7),
+        target: Target::Window,
+        draw: 5,
+        list: None,
+        raster: Projection::None,
+        projection: Projection::Perspective,
+        centred: true,
+        depth_state: DepthState::On,
+        texture: 3,
+        turns: false,
+        first: true,
+    }
+}
+
+fn class(classifier: &Classifier, facts: Facts) -> (Class, Why) {
+    let classed = classifier.class(&facts);
+    (classed.class, classed.why)
+}
+
+#[test]
+fn the_state_tells_what_a_draw_is() {
+    let c = classifier("");
+    let sky = Facts {
+        depth_state: DepthState::Off,
+        turns: true,
+        ..facts()
+    };
+    let cases = [
+        (facts(), Class::Scene, Why::Perspective),
+        (
+            Facts {
+                projection: Projection::Orthographic,
+                ..facts()
+            },
+            Class::Flat,
+            Why::Orthographic,
+        ),
+        (
+            Facts {
+                projection: Projection::None,
+                ..facts()
+            },
+            Class::Flat,
+            Why::NoProjection,
+        ),
+        (
+            Facts {
+                kind: Kind::Pixels,
+                ..facts()
+            },
+            Class::Flat,
+            Why::Raster,
+        ),
+        (
+            Facts {
+                kind: Kind::Pixels,
+                raster: Projection::Perspective,
+                projection: Projection::Orthographic,
+                ..facts()
+            },
+            Class::Scene,
+            Why::Raster,
+        ),
+        (
+            Facts {
+                kind: Kind::Clear,
+                ..sky
+            },
+            Class::Flat,
+            Why::Whole,
+        ),
+        (
+            Facts {
+                target: Target::Framebuffer(4),
+                ..sky
+            },
+            Class::OffScreen,
+            Why::Framebuffer(4),
+        ),
+        (
+            Facts {
+                target: Target::Nothing,
+                ..sky
+            },
+            Class::OffScreen,
+            Why::NoPicture,
+        ),
+        (sky, Class::Sky, Why::Around),
+        (
+            Facts {
+                depth_state: DepthState::TestOnly,
+                ..sky
+            },
+            Class::Sky,
+            Why::Around,
+        ),
+    ];
+    for (facts, want, why) in cases {
+        assert_eq!(class(&c, facts), (want, why), "{facts:?}");
+    }
+    // Whatever is not like a sky in every respect is scene.
+    for near in [
+        Facts {
+            depth_state: DepthState::On,
+            ..sky
+        },
+        Facts {
+            turns: false,
+            ..sky
+        },
+        Facts {
+            centred: false,
+            ..sky
+        },
+        Facts {
+            first: false,
+            ..sky
+        },
+    ] {
+        assert_eq!(class(&c, near), (Class::Scene, Why::Perspective));
+    }
+}
+
+#[test]
+fn turning_is_neither_moving_nor_standing_still() {
+    let turned = Mat4::from_rotation_y(0.3) * Mat4::from_scale(Vec3::splat(9.0));
+    assert!(turns(&turned.to_cols_array()));
+    let moved = turned * Mat4::from_translation(Vec3::X);
+    assert!(!turns(&moved.to_cols_array()));
+    assert!(!turns(&Mat4::IDENTITY.to_cols_array()));
+}
+
+#[test]
+fn the_first_rule_whose_every_key_matches_decides() {
+    let c = classifier(
+        r#"
+        hud-depth = 0.5
+        rule = [
+            { executable = "other", class = "off-screen" },
+            { texture = [1, 3], projection = "orthographic", class = "flat", depth = -0.5 },
+            { list = 9, class = "sky" },
+            { draw = "8..", depth-state = "on", class = "flat" },
+            { draw = 5, class = "scene" },
+        ]"#,
+    );
+    let why = |facts| c.class(&facts).why;
+    assert_eq!(why(facts()), Why::Rule(5));
+    let flat = Facts {
+        projection: Projection::Orthographic,
+        ..facts()
+    };
+    assert_eq!((why(flat), c.class(&flat).depth), (Why::Rule(2), -0.5));
+    let other_texture = Facts { texture: 2, ..flat };
+    assert_eq!(why(other_texture), Why::Rule(5));
+    let list = Facts {
+        list: Some(9),
+        ..facts()
+    };
+    assert_eq!(why(list), Why::Rule(3));
+    let late = Facts {
+        draw: 12,
+        ..facts()
+    };
+    assert_eq!((why(late), c.class(&late).depth), (Why::Rule(4), 0.5));
+    let late_flat = Facts { draw: 12, ..flat };
+    assert_eq!(
+        why(Facts {
+            texture: 0,
+            ..late_flat
+        }),
+        Why::Rule(4)
+    );
+    let outside = Facts {
+        depth_state: DepthState::Off,
+        draw: 12,
+        ..flat
+    };
+    let classed = c.class(&Facts {
+        texture: 0,
+        ..outside
+    });
+    assert_eq!((classed.why, classed.depth), (Why::Orthographic, 0.5));
+}
+
+#[test]
+fn state_is_asked_for_only_where_it_may_decide() {
+    let plain = classifier("");
+    let needs = |c: &Classifier, p, first| c.needs(Kind::Other, p, first);
+    assert_eq!(needs(&plain, Projection::Orthographic, true), Touch::NONE);
+    assert_eq!(needs(&plain, Projection::Perspective, false), Touch::NONE);
+    assert_eq!(needs(&plain, Projection::Perspective, true), Touch::DEPTH);
+    let textures = classifier("rule = [{ texture = 1, class = \"flat\" }]");
+    assert_eq!(
+        needs(&textures, Projection::Orthographic, false),
+        Touch::TEXTURE
+    );
+    assert_eq!(
+        textures.needs(Kind::Clear, Projection::Perspective, true),
+        Touch::NONE
+    );
+}
+
+#[test]
+fn a_suggested_rule_is_one_that_matches_and_changes_the_class() {
+    let all = [
+        facts(),
+        Facts {
+            texture: 0,
+            ..facts()
+        },
+        Facts {
+            projection: Projection::Orthographic,
+            depth_state: DepthState::Off,
+            ..facts()
+        },
+        Facts {
+            list: Some(7),
+            turns: true,
+            depth_state: DepthState::TestOnly,
+            ..facts()
+        },
+    ];
+    for facts in all {
+        let before = classifier("").class(&facts);
+        let line = facts.rule(&before).expect("a rule");
+        let after = classifier(&format!("rule = [\n{line}\n]")).class(&facts);
+        assert_eq!(after.why, Why::Rule(1), "{line}");
+        assert_ne!(
+            (before.class, before.depth),
+            (after.class, after.depth),
+            "{line}"
+        );
+    }
+}

@@ -1,0 +1,68 @@
+//! State that no draw needs for its views, but that tells what the draw is.
+
+use super::{State, Touch};
+use crate::config::{DepthState, Projection};
+use crate::gl::{Gl, consts as c};
+
+/// Valid in the groups that [`State::look`] was last asked for, until a command touches them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Look {
+    /// Depth test and mask.
+    pub depth: DepthState,
+    /// The 2D texture that the active unit samples; 0 for none.
+    pub texture: u32,
+    /// GL_MODELVIEW_MATRIX.
+    pub modelview: [f32; 16],
+}
+
+impl Default for Look {
+    fn default() -> Self {
+        Look {
+            depth: DepthState::Off,
+            texture: 0,
+            modelview: glam::Mat4::IDENTITY.to_cols_array(),
+        }
+    }
+}
+
+impl State {
+    /// Reads again what of some groups a command has touched; after [`State::refresh`].
+    pub fn look(&mut self, gl: &Gl, groups: Touch) {
+        let stale = |group: Touch| groups.has(group) && self.touched.has(group);
+        if stale(Touch::DEPTH) {
+            let buffer = self.window.bits[4] > 0;
+            self.look.depth = if !buffer || !gl.is_enabled(c::DEPTH_TEST) {
+                DepthState::Off
+            } else if gl.get_integer(c::DEPTH_WRITEMASK) == 0 {
+                DepthState::TestOnly
+            } else {
+                DepthState::On
+            };
+        }
+        if stale(Touch::TEXTURE) {
+            // Programs sample without it being enabled.
+            let sampled = self.program != 0 || !self.compatibility || gl.is_enabled(c::TEXTURE_2D);
+            self.look.texture = if sampled {
+                gl.get_integer(c::TEXTURE_BINDING_2D) as u32
+            } else {
+                0
+            };
+        }
+        if stale(Touch::MODELVIEW) && self.compatibility {
+            self.look.modelview = gl.get_floats(c::MODELVIEW_MATRIX);
+        }
+        self.touched = self.touched.without(groups);
+    }
+
+    /// What the projection matrix is.
+    pub fn projection_kind(&self) -> Projection {
+        let p = &self.projection;
+        if [p[3], p[7], p[11]] != [0.0; 3] {
+            Projection::Perspective
+        } else if *p == glam::Mat4::IDENTITY.to_cols_array() {
+            Projection::None
+        } else {
+            Projection::Orthographic
+        }
+    }
+}
