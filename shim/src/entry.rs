@@ -7,7 +7,7 @@ use manyview_core::gl::{Ptr, slot};
 use manyview_core::state::Effect;
 
 /// Where each exported function jumps to, by slot: at first its resolver, then the driver's function or the hook.
-pub(crate) static ENTRY: [AtomicPtr<()>; 1158] = [
+pub(crate) static ENTRY: [AtomicPtr<()>; 1235] = [
     AtomicPtr::new(first_glVertex2d as *mut ()),
     AtomicPtr::new(first_glVertex2dv as *mut ()),
     AtomicPtr::new(first_glVertex2f as *mut ()),
@@ -973,6 +973,8 @@ pub(crate) static ENTRY: [AtomicPtr<()>; 1158] = [
     AtomicPtr::new(first_glCallList as *mut ()),
     AtomicPtr::new(first_glCallLists as *mut ()),
     AtomicPtr::new(first_glDeleteLists as *mut ()),
+    AtomicPtr::new(first_glGenLists as *mut ()),
+    AtomicPtr::new(first_glIsList as *mut ()),
     AtomicPtr::new(first_glBindTexture as *mut ()),
     AtomicPtr::new(first_glBindTextureEXT as *mut ()),
     AtomicPtr::new(first_glDeleteTextures as *mut ()),
@@ -1082,6 +1084,104 @@ pub(crate) static ENTRY: [AtomicPtr<()>; 1158] = [
     AtomicPtr::new(first_glGetQueryObjecti64vEXT as *mut ()),
     AtomicPtr::new(first_glGetQueryObjectui64v as *mut ()),
     AtomicPtr::new(first_glGetQueryObjectui64vEXT as *mut ()),
+    AtomicPtr::new(first_glIsEnabled as *mut ()),
+    AtomicPtr::new(first_glIsEnabledi as *mut ()),
+    AtomicPtr::new(first_glIsEnabledIndexedEXT as *mut ()),
+    AtomicPtr::new(first_glIsEnablediEXT as *mut ()),
+    AtomicPtr::new(first_glIsEnablediNV as *mut ()),
+    AtomicPtr::new(first_glIsEnablediOES as *mut ()),
+    AtomicPtr::new(first_glGetTexGendv as *mut ()),
+    AtomicPtr::new(first_glGetTexGenfv as *mut ()),
+    AtomicPtr::new(first_glGetTexGeniv as *mut ()),
+    AtomicPtr::new(first_glGetTexEnvfv as *mut ()),
+    AtomicPtr::new(first_glGetTexEnviv as *mut ()),
+    AtomicPtr::new(first_glGetLightfv as *mut ()),
+    AtomicPtr::new(first_glGetLightiv as *mut ()),
+    AtomicPtr::new(first_glGetMaterialfv as *mut ()),
+    AtomicPtr::new(first_glGetMaterialiv as *mut ()),
+    AtomicPtr::new(first_glGetTexParameterfv as *mut ()),
+    AtomicPtr::new(first_glGetTexParameteriv as *mut ()),
+    AtomicPtr::new(first_glGetTexLevelParameterfv as *mut ()),
+    AtomicPtr::new(first_glGetTexLevelParameteriv as *mut ()),
+    AtomicPtr::new(first_glGetClipPlane as *mut ()),
+    AtomicPtr::new(first_glGetMapdv as *mut ()),
+    AtomicPtr::new(first_glGetMapfv as *mut ()),
+    AtomicPtr::new(first_glGetMapiv as *mut ()),
+    AtomicPtr::new(first_glGetPixelMapfv as *mut ()),
+    AtomicPtr::new(first_glGetPixelMapuiv as *mut ()),
+    AtomicPtr::new(first_glGetPixelMapusv as *mut ()),
+    AtomicPtr::new(first_glGetPolygonStipple as *mut ()),
+    AtomicPtr::new(first_glGetTexImage as *mut ()),
+    AtomicPtr::new(first_glGetnTexImage as *mut ()),
+    AtomicPtr::new(first_glGetPointerv as *mut ()),
+    AtomicPtr::new(first_glGetPointervEXT as *mut ()),
+    AtomicPtr::new(first_glGetPointervKHR as *mut ()),
+    AtomicPtr::new(first_glGetIntegeri_v as *mut ()),
+    AtomicPtr::new(first_glGetIntegerIndexedvEXT as *mut ()),
+    AtomicPtr::new(first_glGetUniformfv as *mut ()),
+    AtomicPtr::new(first_glGetUniformfvARB as *mut ()),
+    AtomicPtr::new(first_glGetUniformiv as *mut ()),
+    AtomicPtr::new(first_glGetUniformivARB as *mut ()),
+    AtomicPtr::new(first_glGetVertexAttribdv as *mut ()),
+    AtomicPtr::new(first_glGetVertexAttribdvARB as *mut ()),
+    AtomicPtr::new(first_glGetVertexAttribdvNV as *mut ()),
+    AtomicPtr::new(first_glGetVertexAttribfv as *mut ()),
+    AtomicPtr::new(first_glGetVertexAttribfvARB as *mut ()),
+    AtomicPtr::new(first_glGetVertexAttribfvNV as *mut ()),
+    AtomicPtr::new(first_glGetVertexAttribiv as *mut ()),
+    AtomicPtr::new(first_glGetVertexAttribivARB as *mut ()),
+    AtomicPtr::new(first_glGetVertexAttribivNV as *mut ()),
+    AtomicPtr::new(first_glGetVertexAttribPointerv as *mut ()),
+    AtomicPtr::new(first_glGetVertexAttribPointervARB as *mut ()),
+    AtomicPtr::new(first_glGetVertexAttribPointervNV as *mut ()),
+    AtomicPtr::new(first_glFeedbackBuffer as *mut ()),
+    AtomicPtr::new(first_glSelectBuffer as *mut ()),
+    AtomicPtr::new(first_glGenTextures as *mut ()),
+    AtomicPtr::new(first_glGenFramebuffers as *mut ()),
+    AtomicPtr::new(first_glGenFramebuffersEXT as *mut ()),
+    AtomicPtr::new(first_glGenRenderbuffers as *mut ()),
+    AtomicPtr::new(first_glGenRenderbuffersEXT as *mut ()),
+    AtomicPtr::new(first_glBindRenderbuffer as *mut ()),
+    AtomicPtr::new(first_glRenderbufferStorage as *mut ()),
+    AtomicPtr::new(first_glRenderbufferStorageEXT as *mut ()),
+    AtomicPtr::new(first_glRenderbufferStorageMultisample as *mut ()),
+    AtomicPtr::new(first_glRenderbufferStorageMultisampleEXT as *mut ()),
+    AtomicPtr::new(first_glRenderbufferStorageMultisampleNV as *mut ()),
+    AtomicPtr::new(first_glDeleteRenderbuffers as *mut ()),
+    AtomicPtr::new(first_glDeleteRenderbuffersEXT as *mut ()),
+    AtomicPtr::new(first_glBindBuffer as *mut ()),
+    AtomicPtr::new(first_glBindBufferARB as *mut ()),
+    AtomicPtr::new(first_glBufferData as *mut ()),
+    AtomicPtr::new(first_glBufferDataARB as *mut ()),
+    AtomicPtr::new(first_glBufferSubData as *mut ()),
+    AtomicPtr::new(first_glBufferSubDataARB as *mut ()),
+    AtomicPtr::new(first_glDeleteBuffers as *mut ()),
+    AtomicPtr::new(first_glDeleteBuffersARB as *mut ()),
+    AtomicPtr::new(first_glPixelStoref as *mut ()),
+    AtomicPtr::new(first_glPixelStorei as *mut ()),
+    AtomicPtr::new(first_glPushClientAttrib as *mut ()),
+    AtomicPtr::new(first_glPopClientAttrib as *mut ()),
+    AtomicPtr::new(first_glEnableClientState as *mut ()),
+    AtomicPtr::new(first_glDisableClientState as *mut ()),
+    AtomicPtr::new(first_glClientActiveTexture as *mut ()),
+    AtomicPtr::new(first_glClientActiveTextureARB as *mut ()),
+    AtomicPtr::new(first_glInterleavedArrays as *mut ()),
+    AtomicPtr::new(first_glColorPointer as *mut ()),
+    AtomicPtr::new(first_glSecondaryColorPointer as *mut ()),
+    AtomicPtr::new(first_glSecondaryColorPointerEXT as *mut ()),
+    AtomicPtr::new(first_glTexCoordPointer as *mut ()),
+    AtomicPtr::new(first_glVertexPointer as *mut ()),
+    AtomicPtr::new(first_glEdgeFlagPointer as *mut ()),
+    AtomicPtr::new(first_glFogCoordPointer as *mut ()),
+    AtomicPtr::new(first_glFogCoordPointerEXT as *mut ()),
+    AtomicPtr::new(first_glIndexPointer as *mut ()),
+    AtomicPtr::new(first_glNormalPointer as *mut ()),
+    AtomicPtr::new(first_glVertexAttribPointer as *mut ()),
+    AtomicPtr::new(first_glVertexAttribPointerARB as *mut ()),
+    AtomicPtr::new(first_glEnableVertexAttribArray as *mut ()),
+    AtomicPtr::new(first_glEnableVertexAttribArrayARB as *mut ()),
+    AtomicPtr::new(first_glDisableVertexAttribArray as *mut ()),
+    AtomicPtr::new(first_glDisableVertexAttribArrayARB as *mut ()),
     AtomicPtr::new(first_glXSwapBuffers as *mut ()),
     AtomicPtr::new(first_glXSwapBuffersMscOML as *mut ()),
     AtomicPtr::new(first_glXMakeCurrent as *mut ()),
@@ -1143,33 +1243,10 @@ pub(crate) static ENTRY: [AtomicPtr<()>; 1158] = [
     AtomicPtr::new(core::ptr::null_mut()),
     AtomicPtr::new(core::ptr::null_mut()),
     AtomicPtr::new(core::ptr::null_mut()),
-    AtomicPtr::new(core::ptr::null_mut()),
-    AtomicPtr::new(core::ptr::null_mut()),
-    AtomicPtr::new(core::ptr::null_mut()),
-    AtomicPtr::new(core::ptr::null_mut()),
-    AtomicPtr::new(core::ptr::null_mut()),
-    AtomicPtr::new(core::ptr::null_mut()),
-    AtomicPtr::new(core::ptr::null_mut()),
-    AtomicPtr::new(core::ptr::null_mut()),
-    AtomicPtr::new(core::ptr::null_mut()),
-    AtomicPtr::new(core::ptr::null_mut()),
-    AtomicPtr::new(core::ptr::null_mut()),
-    AtomicPtr::new(core::ptr::null_mut()),
-    AtomicPtr::new(core::ptr::null_mut()),
-    AtomicPtr::new(core::ptr::null_mut()),
-    AtomicPtr::new(core::ptr::null_mut()),
-    AtomicPtr::new(core::ptr::null_mut()),
-    AtomicPtr::new(core::ptr::null_mut()),
-    AtomicPtr::new(core::ptr::null_mut()),
-    AtomicPtr::new(core::ptr::null_mut()),
-    AtomicPtr::new(core::ptr::null_mut()),
-    AtomicPtr::new(core::ptr::null_mut()),
-    AtomicPtr::new(core::ptr::null_mut()),
-    AtomicPtr::new(core::ptr::null_mut()),
 ];
 
 /// The hook of each exported function, by slot.
-pub(crate) static HOOK: [Option<crate::Address>; 1158] = [
+pub(crate) static HOOK: [Option<crate::Address>; 1235] = [
     Some(crate::Address(hook_glVertex2d as *const ())),
     Some(crate::Address(hook_glVertex2dv as *const ())),
     Some(crate::Address(hook_glVertex2f as *const ())),
@@ -2135,6 +2212,8 @@ pub(crate) static HOOK: [Option<crate::Address>; 1158] = [
     Some(crate::Address(hook_glCallList as *const ())),
     Some(crate::Address(hook_glCallLists as *const ())),
     Some(crate::Address(hook_glDeleteLists as *const ())),
+    Some(crate::Address(hook_glGenLists as *const ())),
+    Some(crate::Address(hook_glIsList as *const ())),
     Some(crate::Address(hook_glBindTexture as *const ())),
     Some(crate::Address(hook_glBindTextureEXT as *const ())),
     Some(crate::Address(hook_glDeleteTextures as *const ())),
@@ -2244,6 +2323,104 @@ pub(crate) static HOOK: [Option<crate::Address>; 1158] = [
     Some(crate::Address(hook_glGetQueryObjecti64vEXT as *const ())),
     Some(crate::Address(hook_glGetQueryObjectui64v as *const ())),
     Some(crate::Address(hook_glGetQueryObjectui64vEXT as *const ())),
+    Some(crate::Address(hook_glIsEnabled as *const ())),
+    Some(crate::Address(hook_glIsEnabledi as *const ())),
+    Some(crate::Address(hook_glIsEnabledIndexedEXT as *const ())),
+    Some(crate::Address(hook_glIsEnablediEXT as *const ())),
+    Some(crate::Address(hook_glIsEnablediNV as *const ())),
+    Some(crate::Address(hook_glIsEnablediOES as *const ())),
+    Some(crate::Address(hook_glGetTexGendv as *const ())),
+    Some(crate::Address(hook_glGetTexGenfv as *const ())),
+    Some(crate::Address(hook_glGetTexGeniv as *const ())),
+    Some(crate::Address(hook_glGetTexEnvfv as *const ())),
+    Some(crate::Address(hook_glGetTexEnviv as *const ())),
+    Some(crate::Address(hook_glGetLightfv as *const ())),
+    Some(crate::Address(hook_glGetLightiv as *const ())),
+    Some(crate::Address(hook_glGetMaterialfv as *const ())),
+    Some(crate::Address(hook_glGetMaterialiv as *const ())),
+    Some(crate::Address(hook_glGetTexParameterfv as *const ())),
+    Some(crate::Address(hook_glGetTexParameteriv as *const ())),
+    Some(crate::Address(hook_glGetTexLevelParameterfv as *const ())),
+    Some(crate::Address(hook_glGetTexLevelParameteriv as *const ())),
+    Some(crate::Address(hook_glGetClipPlane as *const ())),
+    Some(crate::Address(hook_glGetMapdv as *const ())),
+    Some(crate::Address(hook_glGetMapfv as *const ())),
+    Some(crate::Address(hook_glGetMapiv as *const ())),
+    Some(crate::Address(hook_glGetPixelMapfv as *const ())),
+    Some(crate::Address(hook_glGetPixelMapuiv as *const ())),
+    Some(crate::Address(hook_glGetPixelMapusv as *const ())),
+    Some(crate::Address(hook_glGetPolygonStipple as *const ())),
+    Some(crate::Address(hook_glGetTexImage as *const ())),
+    Some(crate::Address(hook_glGetnTexImage as *const ())),
+    Some(crate::Address(hook_glGetPointerv as *const ())),
+    Some(crate::Address(hook_glGetPointervEXT as *const ())),
+    Some(crate::Address(hook_glGetPointervKHR as *const ())),
+    Some(crate::Address(hook_glGetIntegeri_v as *const ())),
+    Some(crate::Address(hook_glGetIntegerIndexedvEXT as *const ())),
+    Some(crate::Address(hook_glGetUniformfv as *const ())),
+    Some(crate::Address(hook_glGetUniformfvARB as *const ())),
+    Some(crate::Address(hook_glGetUniformiv as *const ())),
+    Some(crate::Address(hook_glGetUniformivARB as *const ())),
+    Some(crate::Address(hook_glGetVertexAttribdv as *const ())),
+    Some(crate::Address(hook_glGetVertexAttribdvARB as *const ())),
+    Some(crate::Address(hook_glGetVertexAttribdvNV as *const ())),
+    Some(crate::Address(hook_glGetVertexAttribfv as *const ())),
+    Some(crate::Address(hook_glGetVertexAttribfvARB as *const ())),
+    Some(crate::Address(hook_glGetVertexAttribfvNV as *const ())),
+    Some(crate::Address(hook_glGetVertexAttribiv as *const ())),
+    Some(crate::Address(hook_glGetVertexAttribivARB as *const ())),
+    Some(crate::Address(hook_glGetVertexAttribivNV as *const ())),
+    Some(crate::Address(hook_glGetVertexAttribPointerv as *const ())),
+    Some(crate::Address(hook_glGetVertexAttribPointervARB as *const ())),
+    Some(crate::Address(hook_glGetVertexAttribPointervNV as *const ())),
+    Some(crate::Address(hook_glFeedbackBuffer as *const ())),
+    Some(crate::Address(hook_glSelectBuffer as *const ())),
+    Some(crate::Address(hook_glGenTextures as *const ())),
+    Some(crate::Address(hook_glGenFramebuffers as *const ())),
+    Some(crate::Address(hook_glGenFramebuffersEXT as *const ())),
+    Some(crate::Address(hook_glGenRenderbuffers as *const ())),
+    Some(crate::Address(hook_glGenRenderbuffersEXT as *const ())),
+    Some(crate::Address(hook_glBindRenderbuffer as *const ())),
+    Some(crate::Address(hook_glRenderbufferStorage as *const ())),
+    Some(crate::Address(hook_glRenderbufferStorageEXT as *const ())),
+    Some(crate::Address(hook_glRenderbufferStorageMultisample as *const ())),
+    Some(crate::Address(hook_glRenderbufferStorageMultisampleEXT as *const ())),
+    Some(crate::Address(hook_glRenderbufferStorageMultisampleNV as *const ())),
+    Some(crate::Address(hook_glDeleteRenderbuffers as *const ())),
+    Some(crate::Address(hook_glDeleteRenderbuffersEXT as *const ())),
+    Some(crate::Address(hook_glBindBuffer as *const ())),
+    Some(crate::Address(hook_glBindBufferARB as *const ())),
+    Some(crate::Address(hook_glBufferData as *const ())),
+    Some(crate::Address(hook_glBufferDataARB as *const ())),
+    Some(crate::Address(hook_glBufferSubData as *const ())),
+    Some(crate::Address(hook_glBufferSubDataARB as *const ())),
+    Some(crate::Address(hook_glDeleteBuffers as *const ())),
+    Some(crate::Address(hook_glDeleteBuffersARB as *const ())),
+    Some(crate::Address(hook_glPixelStoref as *const ())),
+    Some(crate::Address(hook_glPixelStorei as *const ())),
+    Some(crate::Address(hook_glPushClientAttrib as *const ())),
+    Some(crate::Address(hook_glPopClientAttrib as *const ())),
+    Some(crate::Address(hook_glEnableClientState as *const ())),
+    Some(crate::Address(hook_glDisableClientState as *const ())),
+    Some(crate::Address(hook_glClientActiveTexture as *const ())),
+    Some(crate::Address(hook_glClientActiveTextureARB as *const ())),
+    Some(crate::Address(hook_glInterleavedArrays as *const ())),
+    Some(crate::Address(hook_glColorPointer as *const ())),
+    Some(crate::Address(hook_glSecondaryColorPointer as *const ())),
+    Some(crate::Address(hook_glSecondaryColorPointerEXT as *const ())),
+    Some(crate::Address(hook_glTexCoordPointer as *const ())),
+    Some(crate::Address(hook_glVertexPointer as *const ())),
+    Some(crate::Address(hook_glEdgeFlagPointer as *const ())),
+    Some(crate::Address(hook_glFogCoordPointer as *const ())),
+    Some(crate::Address(hook_glFogCoordPointerEXT as *const ())),
+    Some(crate::Address(hook_glIndexPointer as *const ())),
+    Some(crate::Address(hook_glNormalPointer as *const ())),
+    Some(crate::Address(hook_glVertexAttribPointer as *const ())),
+    Some(crate::Address(hook_glVertexAttribPointerARB as *const ())),
+    Some(crate::Address(hook_glEnableVertexAttribArray as *const ())),
+    Some(crate::Address(hook_glEnableVertexAttribArrayARB as *const ())),
+    Some(crate::Address(hook_glDisableVertexAttribArray as *const ())),
+    Some(crate::Address(hook_glDisableVertexAttribArrayARB as *const ())),
     Some(crate::Address(hook_glXSwapBuffers as *const ())),
     Some(crate::Address(hook_glXSwapBuffersMscOML as *const ())),
     Some(crate::Address(hook_glXMakeCurrent as *const ())),
@@ -2305,47 +2482,24 @@ pub(crate) static HOOK: [Option<crate::Address>; 1158] = [
     None,
     None,
     None,
-    None,
-    None,
-    None,
-    None,
-    None,
-    None,
-    None,
-    None,
-    None,
-    None,
-    None,
-    None,
-    None,
-    None,
-    None,
-    None,
-    None,
-    None,
-    None,
-    None,
-    None,
-    None,
-    None,
 ];
 
 /// Exported names in order, their slots and addresses: what dlsym and the GetProcAddress family hand out.
-pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1100] = [
-    (b"OSMesaCreateContext", 1100, crate::Address(OSMesaCreateContext as *const ())),
-    (b"OSMesaCreateContextAttribs", 1102, crate::Address(OSMesaCreateContextAttribs as *const ())),
-    (b"OSMesaCreateContextExt", 1101, crate::Address(OSMesaCreateContextExt as *const ())),
-    (b"OSMesaDestroyContext", 1103, crate::Address(OSMesaDestroyContext as *const ())),
-    (b"OSMesaGetProcAddress", 1104, crate::Address(OSMesaGetProcAddress as *const ())),
-    (b"OSMesaMakeCurrent", 1099, crate::Address(OSMesaMakeCurrent as *const ())),
-    (b"eglCreateContext", 1091, crate::Address(eglCreateContext as *const ())),
-    (b"eglDestroyContext", 1092, crate::Address(eglDestroyContext as *const ())),
-    (b"eglGetProcAddress", 1094, crate::Address(eglGetProcAddress as *const ())),
-    (b"eglMakeCurrent", 1090, crate::Address(eglMakeCurrent as *const ())),
-    (b"eglReleaseThread", 1093, crate::Address(eglReleaseThread as *const ())),
-    (b"eglSwapBuffers", 1087, crate::Address(eglSwapBuffers as *const ())),
-    (b"eglSwapBuffersWithDamageEXT", 1089, crate::Address(eglSwapBuffersWithDamageEXT as *const ())),
-    (b"eglSwapBuffersWithDamageKHR", 1088, crate::Address(eglSwapBuffersWithDamageKHR as *const ())),
+pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1200] = [
+    (b"OSMesaCreateContext", 1200, crate::Address(OSMesaCreateContext as *const ())),
+    (b"OSMesaCreateContextAttribs", 1202, crate::Address(OSMesaCreateContextAttribs as *const ())),
+    (b"OSMesaCreateContextExt", 1201, crate::Address(OSMesaCreateContextExt as *const ())),
+    (b"OSMesaDestroyContext", 1203, crate::Address(OSMesaDestroyContext as *const ())),
+    (b"OSMesaGetProcAddress", 1204, crate::Address(OSMesaGetProcAddress as *const ())),
+    (b"OSMesaMakeCurrent", 1199, crate::Address(OSMesaMakeCurrent as *const ())),
+    (b"eglCreateContext", 1191, crate::Address(eglCreateContext as *const ())),
+    (b"eglDestroyContext", 1192, crate::Address(eglDestroyContext as *const ())),
+    (b"eglGetProcAddress", 1194, crate::Address(eglGetProcAddress as *const ())),
+    (b"eglMakeCurrent", 1190, crate::Address(eglMakeCurrent as *const ())),
+    (b"eglReleaseThread", 1193, crate::Address(eglReleaseThread as *const ())),
+    (b"eglSwapBuffers", 1187, crate::Address(eglSwapBuffers as *const ())),
+    (b"eglSwapBuffersWithDamageEXT", 1189, crate::Address(eglSwapBuffersWithDamageEXT as *const ())),
+    (b"eglSwapBuffersWithDamageKHR", 1188, crate::Address(eglSwapBuffersWithDamageKHR as *const ())),
     (b"glAccum", 956, crate::Address(glAccum as *const ())),
     (b"glActiveTexture", 531, crate::Address(glActiveTexture as *const ())),
     (b"glActiveTextureARB", 532, crate::Address(glActiveTextureARB as *const ())),
@@ -2353,19 +2507,22 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1100] = [
     (b"glArrayElement", 260, crate::Address(glArrayElement as *const ())),
     (b"glArrayElementEXT", 261, crate::Address(glArrayElementEXT as *const ())),
     (b"glBegin", 454, crate::Address(glBegin as *const ())),
-    (b"glBeginQuery", 1057, crate::Address(glBeginQuery as *const ())),
-    (b"glBeginQueryARB", 1058, crate::Address(glBeginQueryARB as *const ())),
+    (b"glBeginQuery", 1059, crate::Address(glBeginQuery as *const ())),
+    (b"glBeginQueryARB", 1060, crate::Address(glBeginQueryARB as *const ())),
     (b"glBeginTransformFeedback", 664, crate::Address(glBeginTransformFeedback as *const ())),
     (b"glBeginTransformFeedbackEXT", 665, crate::Address(glBeginTransformFeedbackEXT as *const ())),
     (b"glBeginTransformFeedbackNV", 666, crate::Address(glBeginTransformFeedbackNV as *const ())),
-    (b"glBindFramebuffer", 971, crate::Address(glBindFramebuffer as *const ())),
-    (b"glBindFramebufferEXT", 972, crate::Address(glBindFramebufferEXT as *const ())),
+    (b"glBindBuffer", 1141, crate::Address(glBindBuffer as *const ())),
+    (b"glBindBufferARB", 1142, crate::Address(glBindBufferARB as *const ())),
+    (b"glBindFramebuffer", 973, crate::Address(glBindFramebuffer as *const ())),
+    (b"glBindFramebufferEXT", 974, crate::Address(glBindFramebufferEXT as *const ())),
     (b"glBindMultiTextureEXT", 535, crate::Address(glBindMultiTextureEXT as *const ())),
     (b"glBindProgramARB", 581, crate::Address(glBindProgramARB as *const ())),
     (b"glBindProgramNV", 582, crate::Address(glBindProgramNV as *const ())),
     (b"glBindProgramPipeline", 588, crate::Address(glBindProgramPipeline as *const ())),
-    (b"glBindTexture", 965, crate::Address(glBindTexture as *const ())),
-    (b"glBindTextureEXT", 966, crate::Address(glBindTextureEXT as *const ())),
+    (b"glBindRenderbuffer", 1133, crate::Address(glBindRenderbuffer as *const ())),
+    (b"glBindTexture", 967, crate::Address(glBindTexture as *const ())),
+    (b"glBindTextureEXT", 968, crate::Address(glBindTextureEXT as *const ())),
     (b"glBindTextureUnit", 534, crate::Address(glBindTextureUnit as *const ())),
     (b"glBindTextures", 533, crate::Address(glBindTextures as *const ())),
     (b"glBitmap", 957, crate::Address(glBitmap as *const ())),
@@ -2399,14 +2556,18 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1100] = [
     (b"glBlendFunciARB", 682, crate::Address(glBlendFunciARB as *const ())),
     (b"glBlendFunciEXT", 683, crate::Address(glBlendFunciEXT as *const ())),
     (b"glBlendFunciOES", 684, crate::Address(glBlendFunciOES as *const ())),
-    (b"glBlitFramebuffer", 987, crate::Address(glBlitFramebuffer as *const ())),
-    (b"glBlitFramebufferEXT", 988, crate::Address(glBlitFramebufferEXT as *const ())),
-    (b"glBlitFramebufferNV", 989, crate::Address(glBlitFramebufferNV as *const ())),
-    (b"glBlitNamedFramebuffer", 990, crate::Address(glBlitNamedFramebuffer as *const ())),
+    (b"glBlitFramebuffer", 989, crate::Address(glBlitFramebuffer as *const ())),
+    (b"glBlitFramebufferEXT", 990, crate::Address(glBlitFramebufferEXT as *const ())),
+    (b"glBlitFramebufferNV", 991, crate::Address(glBlitFramebufferNV as *const ())),
+    (b"glBlitNamedFramebuffer", 992, crate::Address(glBlitNamedFramebuffer as *const ())),
+    (b"glBufferData", 1143, crate::Address(glBufferData as *const ())),
+    (b"glBufferDataARB", 1144, crate::Address(glBufferDataARB as *const ())),
+    (b"glBufferSubData", 1145, crate::Address(glBufferSubData as *const ())),
+    (b"glBufferSubDataARB", 1146, crate::Address(glBufferSubDataARB as *const ())),
     (b"glCallList", 962, crate::Address(glCallList as *const ())),
     (b"glCallLists", 963, crate::Address(glCallLists as *const ())),
-    (b"glCheckFramebufferStatus", 1019, crate::Address(glCheckFramebufferStatus as *const ())),
-    (b"glCheckFramebufferStatusEXT", 1020, crate::Address(glCheckFramebufferStatusEXT as *const ())),
+    (b"glCheckFramebufferStatus", 1021, crate::Address(glCheckFramebufferStatus as *const ())),
+    (b"glCheckFramebufferStatusEXT", 1022, crate::Address(glCheckFramebufferStatusEXT as *const ())),
     (b"glClampColor", 584, crate::Address(glClampColor as *const ())),
     (b"glClampColorARB", 585, crate::Address(glClampColorARB as *const ())),
     (b"glClear", 890, crate::Address(glClear as *const ())),
@@ -2420,11 +2581,13 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1100] = [
     (b"glClearDepthf", 704, crate::Address(glClearDepthf as *const ())),
     (b"glClearDepthfOES", 705, crate::Address(glClearDepthfOES as *const ())),
     (b"glClearIndex", 706, crate::Address(glClearIndex as *const ())),
-    (b"glClearNamedFramebufferfi", 994, crate::Address(glClearNamedFramebufferfi as *const ())),
-    (b"glClearNamedFramebufferfv", 991, crate::Address(glClearNamedFramebufferfv as *const ())),
-    (b"glClearNamedFramebufferiv", 992, crate::Address(glClearNamedFramebufferiv as *const ())),
-    (b"glClearNamedFramebufferuiv", 993, crate::Address(glClearNamedFramebufferuiv as *const ())),
+    (b"glClearNamedFramebufferfi", 996, crate::Address(glClearNamedFramebufferfi as *const ())),
+    (b"glClearNamedFramebufferfv", 993, crate::Address(glClearNamedFramebufferfv as *const ())),
+    (b"glClearNamedFramebufferiv", 994, crate::Address(glClearNamedFramebufferiv as *const ())),
+    (b"glClearNamedFramebufferuiv", 995, crate::Address(glClearNamedFramebufferuiv as *const ())),
     (b"glClearStencil", 707, crate::Address(glClearStencil as *const ())),
+    (b"glClientActiveTexture", 1155, crate::Address(glClientActiveTexture as *const ())),
+    (b"glClientActiveTextureARB", 1156, crate::Address(glClientActiveTextureARB as *const ())),
     (b"glClipControl", 579, crate::Address(glClipControl as *const ())),
     (b"glClipControlEXT", 580, crate::Address(glClipControlEXT as *const ())),
     (b"glClipPlane", 708, crate::Address(glClipPlane as *const ())),
@@ -2474,6 +2637,7 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1100] = [
     (b"glColorP3uiv", 441, crate::Address(glColorP3uiv as *const ())),
     (b"glColorP4ui", 442, crate::Address(glColorP4ui as *const ())),
     (b"glColorP4uiv", 443, crate::Address(glColorP4uiv as *const ())),
+    (b"glColorPointer", 1158, crate::Address(glColorPointer as *const ())),
     (b"glCompressedTexImage1D", 775, crate::Address(glCompressedTexImage1D as *const ())),
     (b"glCompressedTexImage1DARB", 776, crate::Address(glCompressedTexImage1DARB as *const ())),
     (b"glCompressedTexImage2D", 777, crate::Address(glCompressedTexImage2D as *const ())),
@@ -2486,37 +2650,41 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1100] = [
     (b"glCompressedTexSubImage2DARB", 784, crate::Address(glCompressedTexSubImage2DARB as *const ())),
     (b"glCompressedTexSubImage3D", 785, crate::Address(glCompressedTexSubImage3D as *const ())),
     (b"glCompressedTexSubImage3DARB", 786, crate::Address(glCompressedTexSubImage3DARB as *const ())),
-    (b"glCopyColorTable", 1048, crate::Address(glCopyColorTable as *const ())),
-    (b"glCopyColorTableSGI", 1049, crate::Address(glCopyColorTableSGI as *const ())),
-    (b"glCopyConvolutionFilter1D", 1050, crate::Address(glCopyConvolutionFilter1D as *const ())),
-    (b"glCopyConvolutionFilter1DEXT", 1051, crate::Address(glCopyConvolutionFilter1DEXT as *const ())),
-    (b"glCopyConvolutionFilter2D", 1052, crate::Address(glCopyConvolutionFilter2D as *const ())),
-    (b"glCopyConvolutionFilter2DEXT", 1053, crate::Address(glCopyConvolutionFilter2DEXT as *const ())),
-    (b"glCopyMultiTexImage1DEXT", 1044, crate::Address(glCopyMultiTexImage1DEXT as *const ())),
-    (b"glCopyMultiTexImage2DEXT", 1045, crate::Address(glCopyMultiTexImage2DEXT as *const ())),
+    (b"glCopyColorTable", 1050, crate::Address(glCopyColorTable as *const ())),
+    (b"glCopyColorTableSGI", 1051, crate::Address(glCopyColorTableSGI as *const ())),
+    (b"glCopyConvolutionFilter1D", 1052, crate::Address(glCopyConvolutionFilter1D as *const ())),
+    (b"glCopyConvolutionFilter1DEXT", 1053, crate::Address(glCopyConvolutionFilter1DEXT as *const ())),
+    (b"glCopyConvolutionFilter2D", 1054, crate::Address(glCopyConvolutionFilter2D as *const ())),
+    (b"glCopyConvolutionFilter2DEXT", 1055, crate::Address(glCopyConvolutionFilter2DEXT as *const ())),
+    (b"glCopyMultiTexImage1DEXT", 1046, crate::Address(glCopyMultiTexImage1DEXT as *const ())),
+    (b"glCopyMultiTexImage2DEXT", 1047, crate::Address(glCopyMultiTexImage2DEXT as *const ())),
     (b"glCopyPixels", 959, crate::Address(glCopyPixels as *const ())),
-    (b"glCopyTexImage1D", 1026, crate::Address(glCopyTexImage1D as *const ())),
-    (b"glCopyTexImage1DEXT", 1027, crate::Address(glCopyTexImage1DEXT as *const ())),
-    (b"glCopyTexImage2D", 1028, crate::Address(glCopyTexImage2D as *const ())),
-    (b"glCopyTexImage2DEXT", 1029, crate::Address(glCopyTexImage2DEXT as *const ())),
-    (b"glCopyTexSubImage1D", 1030, crate::Address(glCopyTexSubImage1D as *const ())),
-    (b"glCopyTexSubImage1DEXT", 1031, crate::Address(glCopyTexSubImage1DEXT as *const ())),
-    (b"glCopyTexSubImage2D", 1032, crate::Address(glCopyTexSubImage2D as *const ())),
-    (b"glCopyTexSubImage2DEXT", 1033, crate::Address(glCopyTexSubImage2DEXT as *const ())),
-    (b"glCopyTexSubImage3D", 1039, crate::Address(glCopyTexSubImage3D as *const ())),
-    (b"glCopyTexSubImage3DEXT", 1040, crate::Address(glCopyTexSubImage3DEXT as *const ())),
-    (b"glCopyTextureImage1DEXT", 1046, crate::Address(glCopyTextureImage1DEXT as *const ())),
-    (b"glCopyTextureImage2DEXT", 1047, crate::Address(glCopyTextureImage2DEXT as *const ())),
-    (b"glCopyTextureSubImage1D", 1041, crate::Address(glCopyTextureSubImage1D as *const ())),
-    (b"glCopyTextureSubImage2D", 1042, crate::Address(glCopyTextureSubImage2D as *const ())),
-    (b"glCopyTextureSubImage3D", 1043, crate::Address(glCopyTextureSubImage3D as *const ())),
+    (b"glCopyTexImage1D", 1028, crate::Address(glCopyTexImage1D as *const ())),
+    (b"glCopyTexImage1DEXT", 1029, crate::Address(glCopyTexImage1DEXT as *const ())),
+    (b"glCopyTexImage2D", 1030, crate::Address(glCopyTexImage2D as *const ())),
+    (b"glCopyTexImage2DEXT", 1031, crate::Address(glCopyTexImage2DEXT as *const ())),
+    (b"glCopyTexSubImage1D", 1032, crate::Address(glCopyTexSubImage1D as *const ())),
+    (b"glCopyTexSubImage1DEXT", 1033, crate::Address(glCopyTexSubImage1DEXT as *const ())),
+    (b"glCopyTexSubImage2D", 1034, crate::Address(glCopyTexSubImage2D as *const ())),
+    (b"glCopyTexSubImage2DEXT", 1035, crate::Address(glCopyTexSubImage2DEXT as *const ())),
+    (b"glCopyTexSubImage3D", 1041, crate::Address(glCopyTexSubImage3D as *const ())),
+    (b"glCopyTexSubImage3DEXT", 1042, crate::Address(glCopyTexSubImage3DEXT as *const ())),
+    (b"glCopyTextureImage1DEXT", 1048, crate::Address(glCopyTextureImage1DEXT as *const ())),
+    (b"glCopyTextureImage2DEXT", 1049, crate::Address(glCopyTextureImage2DEXT as *const ())),
+    (b"glCopyTextureSubImage1D", 1043, crate::Address(glCopyTextureSubImage1D as *const ())),
+    (b"glCopyTextureSubImage2D", 1044, crate::Address(glCopyTextureSubImage2D as *const ())),
+    (b"glCopyTextureSubImage3D", 1045, crate::Address(glCopyTextureSubImage3D as *const ())),
     (b"glCullFace", 714, crate::Address(glCullFace as *const ())),
-    (b"glDeleteFramebuffers", 973, crate::Address(glDeleteFramebuffers as *const ())),
-    (b"glDeleteFramebuffersEXT", 974, crate::Address(glDeleteFramebuffersEXT as *const ())),
+    (b"glDeleteBuffers", 1147, crate::Address(glDeleteBuffers as *const ())),
+    (b"glDeleteBuffersARB", 1148, crate::Address(glDeleteBuffersARB as *const ())),
+    (b"glDeleteFramebuffers", 975, crate::Address(glDeleteFramebuffers as *const ())),
+    (b"glDeleteFramebuffersEXT", 976, crate::Address(glDeleteFramebuffersEXT as *const ())),
     (b"glDeleteLists", 964, crate::Address(glDeleteLists as *const ())),
-    (b"glDeleteQueries", 1061, crate::Address(glDeleteQueries as *const ())),
-    (b"glDeleteQueriesARB", 1062, crate::Address(glDeleteQueriesARB as *const ())),
-    (b"glDeleteTextures", 967, crate::Address(glDeleteTextures as *const ())),
+    (b"glDeleteQueries", 1063, crate::Address(glDeleteQueries as *const ())),
+    (b"glDeleteQueriesARB", 1064, crate::Address(glDeleteQueriesARB as *const ())),
+    (b"glDeleteRenderbuffers", 1139, crate::Address(glDeleteRenderbuffers as *const ())),
+    (b"glDeleteRenderbuffersEXT", 1140, crate::Address(glDeleteRenderbuffersEXT as *const ())),
+    (b"glDeleteTextures", 969, crate::Address(glDeleteTextures as *const ())),
     (b"glDepthBoundsEXT", 721, crate::Address(glDepthBoundsEXT as *const ())),
     (b"glDepthFunc", 715, crate::Address(glDepthFunc as *const ())),
     (b"glDepthMask", 530, crate::Address(glDepthMask as *const ())),
@@ -2526,12 +2694,15 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1100] = [
     (b"glDepthRangef", 717, crate::Address(glDepthRangef as *const ())),
     (b"glDepthRangefOES", 718, crate::Address(glDepthRangefOES as *const ())),
     (b"glDisable", 519, crate::Address(glDisable as *const ())),
+    (b"glDisableClientState", 1154, crate::Address(glDisableClientState as *const ())),
     (b"glDisableIndexedEXT", 526, crate::Address(glDisableIndexedEXT as *const ())),
+    (b"glDisableVertexAttribArray", 1172, crate::Address(glDisableVertexAttribArray as *const ())),
+    (b"glDisableVertexAttribArrayARB", 1173, crate::Address(glDisableVertexAttribArrayARB as *const ())),
     (b"glDisablei", 525, crate::Address(glDisablei as *const ())),
     (b"glDisableiEXT", 527, crate::Address(glDisableiEXT as *const ())),
     (b"glDisableiNV", 528, crate::Address(glDisableiNV as *const ())),
     (b"glDisableiOES", 529, crate::Address(glDisableiOES as *const ())),
-    (b"glDiscardFramebufferEXT", 1025, crate::Address(glDiscardFramebufferEXT as *const ())),
+    (b"glDiscardFramebufferEXT", 1027, crate::Address(glDiscardFramebufferEXT as *const ())),
     (b"glDrawArrays", 895, crate::Address(glDrawArrays as *const ())),
     (b"glDrawArraysEXT", 896, crate::Address(glDrawArraysEXT as *const ())),
     (b"glDrawArraysIndirect", 931, crate::Address(glDrawArraysIndirect as *const ())),
@@ -2542,11 +2713,11 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1100] = [
     (b"glDrawArraysInstancedBaseInstanceEXT", 926, crate::Address(glDrawArraysInstancedBaseInstanceEXT as *const ())),
     (b"glDrawArraysInstancedEXT", 915, crate::Address(glDrawArraysInstancedEXT as *const ())),
     (b"glDrawArraysInstancedNV", 916, crate::Address(glDrawArraysInstancedNV as *const ())),
-    (b"glDrawBuffer", 975, crate::Address(glDrawBuffer as *const ())),
-    (b"glDrawBuffers", 976, crate::Address(glDrawBuffers as *const ())),
-    (b"glDrawBuffersARB", 977, crate::Address(glDrawBuffersARB as *const ())),
-    (b"glDrawBuffersATI", 978, crate::Address(glDrawBuffersATI as *const ())),
-    (b"glDrawBuffersEXT", 979, crate::Address(glDrawBuffersEXT as *const ())),
+    (b"glDrawBuffer", 977, crate::Address(glDrawBuffer as *const ())),
+    (b"glDrawBuffers", 978, crate::Address(glDrawBuffers as *const ())),
+    (b"glDrawBuffersARB", 979, crate::Address(glDrawBuffersARB as *const ())),
+    (b"glDrawBuffersATI", 980, crate::Address(glDrawBuffersATI as *const ())),
+    (b"glDrawBuffersEXT", 981, crate::Address(glDrawBuffersEXT as *const ())),
     (b"glDrawElements", 897, crate::Address(glDrawElements as *const ())),
     (b"glDrawElementsBaseVertex", 904, crate::Address(glDrawElementsBaseVertex as *const ())),
     (b"glDrawElementsBaseVertexEXT", 905, crate::Address(glDrawElementsBaseVertexEXT as *const ())),
@@ -2578,17 +2749,21 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1100] = [
     (b"glDrawTransformFeedbackStream", 944, crate::Address(glDrawTransformFeedbackStream as *const ())),
     (b"glDrawTransformFeedbackStreamInstanced", 945, crate::Address(glDrawTransformFeedbackStreamInstanced as *const ())),
     (b"glEdgeFlag", 234, crate::Address(glEdgeFlag as *const ())),
+    (b"glEdgeFlagPointer", 1163, crate::Address(glEdgeFlagPointer as *const ())),
     (b"glEdgeFlagv", 235, crate::Address(glEdgeFlagv as *const ())),
     (b"glEnable", 518, crate::Address(glEnable as *const ())),
+    (b"glEnableClientState", 1153, crate::Address(glEnableClientState as *const ())),
     (b"glEnableIndexedEXT", 521, crate::Address(glEnableIndexedEXT as *const ())),
+    (b"glEnableVertexAttribArray", 1170, crate::Address(glEnableVertexAttribArray as *const ())),
+    (b"glEnableVertexAttribArrayARB", 1171, crate::Address(glEnableVertexAttribArrayARB as *const ())),
     (b"glEnablei", 520, crate::Address(glEnablei as *const ())),
     (b"glEnableiEXT", 522, crate::Address(glEnableiEXT as *const ())),
     (b"glEnableiNV", 523, crate::Address(glEnableiNV as *const ())),
     (b"glEnableiOES", 524, crate::Address(glEnableiOES as *const ())),
     (b"glEnd", 455, crate::Address(glEnd as *const ())),
     (b"glEndList", 961, crate::Address(glEndList as *const ())),
-    (b"glEndQuery", 1059, crate::Address(glEndQuery as *const ())),
-    (b"glEndQueryARB", 1060, crate::Address(glEndQueryARB as *const ())),
+    (b"glEndQuery", 1061, crate::Address(glEndQuery as *const ())),
+    (b"glEndQueryARB", 1062, crate::Address(glEndQueryARB as *const ())),
     (b"glEndTransformFeedback", 667, crate::Address(glEndTransformFeedback as *const ())),
     (b"glEndTransformFeedbackEXT", 668, crate::Address(glEndTransformFeedbackEXT as *const ())),
     (b"glEndTransformFeedbackNV", 669, crate::Address(glEndTransformFeedbackNV as *const ())),
@@ -2604,8 +2779,11 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1100] = [
     (b"glEvalMesh2", 955, crate::Address(glEvalMesh2 as *const ())),
     (b"glEvalPoint1", 258, crate::Address(glEvalPoint1 as *const ())),
     (b"glEvalPoint2", 259, crate::Address(glEvalPoint2 as *const ())),
-    (b"glFinish", 1054, crate::Address(glFinish as *const ())),
-    (b"glFlush", 1055, crate::Address(glFlush as *const ())),
+    (b"glFeedbackBuffer", 1126, crate::Address(glFeedbackBuffer as *const ())),
+    (b"glFinish", 1056, crate::Address(glFinish as *const ())),
+    (b"glFlush", 1057, crate::Address(glFlush as *const ())),
+    (b"glFogCoordPointer", 1164, crate::Address(glFogCoordPointer as *const ())),
+    (b"glFogCoordPointerEXT", 1165, crate::Address(glFogCoordPointerEXT as *const ())),
     (b"glFogCoordd", 224, crate::Address(glFogCoordd as *const ())),
     (b"glFogCoorddEXT", 225, crate::Address(glFogCoorddEXT as *const ())),
     (b"glFogCoorddv", 226, crate::Address(glFogCoorddv as *const ())),
@@ -2620,53 +2798,104 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1100] = [
     (b"glFogfv", 552, crate::Address(glFogfv as *const ())),
     (b"glFogi", 553, crate::Address(glFogi as *const ())),
     (b"glFogiv", 554, crate::Address(glFogiv as *const ())),
-    (b"glFramebufferDrawBufferEXT", 984, crate::Address(glFramebufferDrawBufferEXT as *const ())),
-    (b"glFramebufferDrawBuffersEXT", 985, crate::Address(glFramebufferDrawBuffersEXT as *const ())),
-    (b"glFramebufferParameteri", 1021, crate::Address(glFramebufferParameteri as *const ())),
-    (b"glFramebufferReadBufferEXT", 986, crate::Address(glFramebufferReadBufferEXT as *const ())),
-    (b"glFramebufferRenderbuffer", 1015, crate::Address(glFramebufferRenderbuffer as *const ())),
-    (b"glFramebufferRenderbufferEXT", 1016, crate::Address(glFramebufferRenderbufferEXT as *const ())),
-    (b"glFramebufferTexture", 1002, crate::Address(glFramebufferTexture as *const ())),
-    (b"glFramebufferTexture1D", 1006, crate::Address(glFramebufferTexture1D as *const ())),
-    (b"glFramebufferTexture1DEXT", 1007, crate::Address(glFramebufferTexture1DEXT as *const ())),
-    (b"glFramebufferTexture2D", 1008, crate::Address(glFramebufferTexture2D as *const ())),
-    (b"glFramebufferTexture2DEXT", 1009, crate::Address(glFramebufferTexture2DEXT as *const ())),
-    (b"glFramebufferTexture3D", 1010, crate::Address(glFramebufferTexture3D as *const ())),
-    (b"glFramebufferTexture3DEXT", 1011, crate::Address(glFramebufferTexture3DEXT as *const ())),
-    (b"glFramebufferTextureARB", 1003, crate::Address(glFramebufferTextureARB as *const ())),
-    (b"glFramebufferTextureEXT", 1004, crate::Address(glFramebufferTextureEXT as *const ())),
-    (b"glFramebufferTextureLayer", 1012, crate::Address(glFramebufferTextureLayer as *const ())),
-    (b"glFramebufferTextureLayerARB", 1013, crate::Address(glFramebufferTextureLayerARB as *const ())),
-    (b"glFramebufferTextureLayerEXT", 1014, crate::Address(glFramebufferTextureLayerEXT as *const ())),
-    (b"glFramebufferTextureOES", 1005, crate::Address(glFramebufferTextureOES as *const ())),
+    (b"glFramebufferDrawBufferEXT", 986, crate::Address(glFramebufferDrawBufferEXT as *const ())),
+    (b"glFramebufferDrawBuffersEXT", 987, crate::Address(glFramebufferDrawBuffersEXT as *const ())),
+    (b"glFramebufferParameteri", 1023, crate::Address(glFramebufferParameteri as *const ())),
+    (b"glFramebufferReadBufferEXT", 988, crate::Address(glFramebufferReadBufferEXT as *const ())),
+    (b"glFramebufferRenderbuffer", 1017, crate::Address(glFramebufferRenderbuffer as *const ())),
+    (b"glFramebufferRenderbufferEXT", 1018, crate::Address(glFramebufferRenderbufferEXT as *const ())),
+    (b"glFramebufferTexture", 1004, crate::Address(glFramebufferTexture as *const ())),
+    (b"glFramebufferTexture1D", 1008, crate::Address(glFramebufferTexture1D as *const ())),
+    (b"glFramebufferTexture1DEXT", 1009, crate::Address(glFramebufferTexture1DEXT as *const ())),
+    (b"glFramebufferTexture2D", 1010, crate::Address(glFramebufferTexture2D as *const ())),
+    (b"glFramebufferTexture2DEXT", 1011, crate::Address(glFramebufferTexture2DEXT as *const ())),
+    (b"glFramebufferTexture3D", 1012, crate::Address(glFramebufferTexture3D as *const ())),
+    (b"glFramebufferTexture3DEXT", 1013, crate::Address(glFramebufferTexture3DEXT as *const ())),
+    (b"glFramebufferTextureARB", 1005, crate::Address(glFramebufferTextureARB as *const ())),
+    (b"glFramebufferTextureEXT", 1006, crate::Address(glFramebufferTextureEXT as *const ())),
+    (b"glFramebufferTextureLayer", 1014, crate::Address(glFramebufferTextureLayer as *const ())),
+    (b"glFramebufferTextureLayerARB", 1015, crate::Address(glFramebufferTextureLayerARB as *const ())),
+    (b"glFramebufferTextureLayerEXT", 1016, crate::Address(glFramebufferTextureLayerEXT as *const ())),
+    (b"glFramebufferTextureOES", 1007, crate::Address(glFramebufferTextureOES as *const ())),
     (b"glFrontFace", 722, crate::Address(glFrontFace as *const ())),
     (b"glFrustum", 476, crate::Address(glFrustum as *const ())),
+    (b"glGenFramebuffers", 1129, crate::Address(glGenFramebuffers as *const ())),
+    (b"glGenFramebuffersEXT", 1130, crate::Address(glGenFramebuffersEXT as *const ())),
+    (b"glGenLists", 965, crate::Address(glGenLists as *const ())),
+    (b"glGenRenderbuffers", 1131, crate::Address(glGenRenderbuffers as *const ())),
+    (b"glGenRenderbuffersEXT", 1132, crate::Address(glGenRenderbuffersEXT as *const ())),
+    (b"glGenTextures", 1128, crate::Address(glGenTextures as *const ())),
     (b"glGenerateMipmap", 888, crate::Address(glGenerateMipmap as *const ())),
     (b"glGenerateMipmapEXT", 889, crate::Address(glGenerateMipmapEXT as *const ())),
-    (b"glGetBooleanv", 996, crate::Address(glGetBooleanv as *const ())),
-    (b"glGetDoublev", 998, crate::Address(glGetDoublev as *const ())),
-    (b"glGetError", 1056, crate::Address(glGetError as *const ())),
-    (b"glGetFloatv", 997, crate::Address(glGetFloatv as *const ())),
-    (b"glGetFramebufferAttachmentParameteriv", 1017, crate::Address(glGetFramebufferAttachmentParameteriv as *const ())),
-    (b"glGetFramebufferAttachmentParameterivEXT", 1018, crate::Address(glGetFramebufferAttachmentParameterivEXT as *const ())),
-    (b"glGetFramebufferParameteriv", 1022, crate::Address(glGetFramebufferParameteriv as *const ())),
-    (b"glGetInteger64v", 999, crate::Address(glGetInteger64v as *const ())),
-    (b"glGetInteger64vAPPLE", 1000, crate::Address(glGetInteger64vAPPLE as *const ())),
-    (b"glGetInteger64vEXT", 1001, crate::Address(glGetInteger64vEXT as *const ())),
-    (b"glGetIntegerv", 995, crate::Address(glGetIntegerv as *const ())),
-    (b"glGetQueryObjecti64v", 1070, crate::Address(glGetQueryObjecti64v as *const ())),
-    (b"glGetQueryObjecti64vEXT", 1071, crate::Address(glGetQueryObjecti64vEXT as *const ())),
-    (b"glGetQueryObjectiv", 1065, crate::Address(glGetQueryObjectiv as *const ())),
-    (b"glGetQueryObjectivARB", 1066, crate::Address(glGetQueryObjectivARB as *const ())),
-    (b"glGetQueryObjectivEXT", 1067, crate::Address(glGetQueryObjectivEXT as *const ())),
-    (b"glGetQueryObjectui64v", 1072, crate::Address(glGetQueryObjectui64v as *const ())),
-    (b"glGetQueryObjectui64vEXT", 1073, crate::Address(glGetQueryObjectui64vEXT as *const ())),
-    (b"glGetQueryObjectuiv", 1068, crate::Address(glGetQueryObjectuiv as *const ())),
-    (b"glGetQueryObjectuivARB", 1069, crate::Address(glGetQueryObjectuivARB as *const ())),
-    (b"glGetQueryiv", 1063, crate::Address(glGetQueryiv as *const ())),
-    (b"glGetQueryivARB", 1064, crate::Address(glGetQueryivARB as *const ())),
+    (b"glGetBooleanv", 998, crate::Address(glGetBooleanv as *const ())),
+    (b"glGetClipPlane", 1095, crate::Address(glGetClipPlane as *const ())),
+    (b"glGetDoublev", 1000, crate::Address(glGetDoublev as *const ())),
+    (b"glGetError", 1058, crate::Address(glGetError as *const ())),
+    (b"glGetFloatv", 999, crate::Address(glGetFloatv as *const ())),
+    (b"glGetFramebufferAttachmentParameteriv", 1019, crate::Address(glGetFramebufferAttachmentParameteriv as *const ())),
+    (b"glGetFramebufferAttachmentParameterivEXT", 1020, crate::Address(glGetFramebufferAttachmentParameterivEXT as *const ())),
+    (b"glGetFramebufferParameteriv", 1024, crate::Address(glGetFramebufferParameteriv as *const ())),
+    (b"glGetInteger64v", 1001, crate::Address(glGetInteger64v as *const ())),
+    (b"glGetInteger64vAPPLE", 1002, crate::Address(glGetInteger64vAPPLE as *const ())),
+    (b"glGetInteger64vEXT", 1003, crate::Address(glGetInteger64vEXT as *const ())),
+    (b"glGetIntegerIndexedvEXT", 1109, crate::Address(glGetIntegerIndexedvEXT as *const ())),
+    (b"glGetIntegeri_v", 1108, crate::Address(glGetIntegeri_v as *const ())),
+    (b"glGetIntegerv", 997, crate::Address(glGetIntegerv as *const ())),
+    (b"glGetLightfv", 1087, crate::Address(glGetLightfv as *const ())),
+    (b"glGetLightiv", 1088, crate::Address(glGetLightiv as *const ())),
+    (b"glGetMapdv", 1096, crate::Address(glGetMapdv as *const ())),
+    (b"glGetMapfv", 1097, crate::Address(glGetMapfv as *const ())),
+    (b"glGetMapiv", 1098, crate::Address(glGetMapiv as *const ())),
+    (b"glGetMaterialfv", 1089, crate::Address(glGetMaterialfv as *const ())),
+    (b"glGetMaterialiv", 1090, crate::Address(glGetMaterialiv as *const ())),
+    (b"glGetPixelMapfv", 1099, crate::Address(glGetPixelMapfv as *const ())),
+    (b"glGetPixelMapuiv", 1100, crate::Address(glGetPixelMapuiv as *const ())),
+    (b"glGetPixelMapusv", 1101, crate::Address(glGetPixelMapusv as *const ())),
+    (b"glGetPointerv", 1105, crate::Address(glGetPointerv as *const ())),
+    (b"glGetPointervEXT", 1106, crate::Address(glGetPointervEXT as *const ())),
+    (b"glGetPointervKHR", 1107, crate::Address(glGetPointervKHR as *const ())),
+    (b"glGetPolygonStipple", 1102, crate::Address(glGetPolygonStipple as *const ())),
+    (b"glGetQueryObjecti64v", 1072, crate::Address(glGetQueryObjecti64v as *const ())),
+    (b"glGetQueryObjecti64vEXT", 1073, crate::Address(glGetQueryObjecti64vEXT as *const ())),
+    (b"glGetQueryObjectiv", 1067, crate::Address(glGetQueryObjectiv as *const ())),
+    (b"glGetQueryObjectivARB", 1068, crate::Address(glGetQueryObjectivARB as *const ())),
+    (b"glGetQueryObjectivEXT", 1069, crate::Address(glGetQueryObjectivEXT as *const ())),
+    (b"glGetQueryObjectui64v", 1074, crate::Address(glGetQueryObjectui64v as *const ())),
+    (b"glGetQueryObjectui64vEXT", 1075, crate::Address(glGetQueryObjectui64vEXT as *const ())),
+    (b"glGetQueryObjectuiv", 1070, crate::Address(glGetQueryObjectuiv as *const ())),
+    (b"glGetQueryObjectuivARB", 1071, crate::Address(glGetQueryObjectuivARB as *const ())),
+    (b"glGetQueryiv", 1065, crate::Address(glGetQueryiv as *const ())),
+    (b"glGetQueryivARB", 1066, crate::Address(glGetQueryivARB as *const ())),
+    (b"glGetTexEnvfv", 1085, crate::Address(glGetTexEnvfv as *const ())),
+    (b"glGetTexEnviv", 1086, crate::Address(glGetTexEnviv as *const ())),
+    (b"glGetTexGendv", 1082, crate::Address(glGetTexGendv as *const ())),
+    (b"glGetTexGenfv", 1083, crate::Address(glGetTexGenfv as *const ())),
+    (b"glGetTexGeniv", 1084, crate::Address(glGetTexGeniv as *const ())),
+    (b"glGetTexImage", 1103, crate::Address(glGetTexImage as *const ())),
+    (b"glGetTexLevelParameterfv", 1093, crate::Address(glGetTexLevelParameterfv as *const ())),
+    (b"glGetTexLevelParameteriv", 1094, crate::Address(glGetTexLevelParameteriv as *const ())),
+    (b"glGetTexParameterfv", 1091, crate::Address(glGetTexParameterfv as *const ())),
+    (b"glGetTexParameteriv", 1092, crate::Address(glGetTexParameteriv as *const ())),
+    (b"glGetUniformfv", 1110, crate::Address(glGetUniformfv as *const ())),
+    (b"glGetUniformfvARB", 1111, crate::Address(glGetUniformfvARB as *const ())),
+    (b"glGetUniformiv", 1112, crate::Address(glGetUniformiv as *const ())),
+    (b"glGetUniformivARB", 1113, crate::Address(glGetUniformivARB as *const ())),
+    (b"glGetVertexAttribPointerv", 1123, crate::Address(glGetVertexAttribPointerv as *const ())),
+    (b"glGetVertexAttribPointervARB", 1124, crate::Address(glGetVertexAttribPointervARB as *const ())),
+    (b"glGetVertexAttribPointervNV", 1125, crate::Address(glGetVertexAttribPointervNV as *const ())),
+    (b"glGetVertexAttribdv", 1114, crate::Address(glGetVertexAttribdv as *const ())),
+    (b"glGetVertexAttribdvARB", 1115, crate::Address(glGetVertexAttribdvARB as *const ())),
+    (b"glGetVertexAttribdvNV", 1116, crate::Address(glGetVertexAttribdvNV as *const ())),
+    (b"glGetVertexAttribfv", 1117, crate::Address(glGetVertexAttribfv as *const ())),
+    (b"glGetVertexAttribfvARB", 1118, crate::Address(glGetVertexAttribfvARB as *const ())),
+    (b"glGetVertexAttribfvNV", 1119, crate::Address(glGetVertexAttribfvNV as *const ())),
+    (b"glGetVertexAttribiv", 1120, crate::Address(glGetVertexAttribiv as *const ())),
+    (b"glGetVertexAttribivARB", 1121, crate::Address(glGetVertexAttribivARB as *const ())),
+    (b"glGetVertexAttribivNV", 1122, crate::Address(glGetVertexAttribivNV as *const ())),
+    (b"glGetnTexImage", 1104, crate::Address(glGetnTexImage as *const ())),
     (b"glHint", 575, crate::Address(glHint as *const ())),
     (b"glIndexMask", 723, crate::Address(glIndexMask as *const ())),
+    (b"glIndexPointer", 1166, crate::Address(glIndexPointer as *const ())),
     (b"glIndexd", 236, crate::Address(glIndexd as *const ())),
     (b"glIndexdv", 237, crate::Address(glIndexdv as *const ())),
     (b"glIndexf", 238, crate::Address(glIndexf as *const ())),
@@ -2678,11 +2907,19 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1100] = [
     (b"glIndexub", 244, crate::Address(glIndexub as *const ())),
     (b"glIndexubv", 245, crate::Address(glIndexubv as *const ())),
     (b"glInitNames", 724, crate::Address(glInitNames as *const ())),
-    (b"glInvalidateFramebuffer", 1023, crate::Address(glInvalidateFramebuffer as *const ())),
-    (b"glInvalidateSubFramebuffer", 1024, crate::Address(glInvalidateSubFramebuffer as *const ())),
-    (b"glIsFramebuffer", 969, crate::Address(glIsFramebuffer as *const ())),
-    (b"glIsFramebufferEXT", 970, crate::Address(glIsFramebufferEXT as *const ())),
-    (b"glIsTexture", 968, crate::Address(glIsTexture as *const ())),
+    (b"glInterleavedArrays", 1157, crate::Address(glInterleavedArrays as *const ())),
+    (b"glInvalidateFramebuffer", 1025, crate::Address(glInvalidateFramebuffer as *const ())),
+    (b"glInvalidateSubFramebuffer", 1026, crate::Address(glInvalidateSubFramebuffer as *const ())),
+    (b"glIsEnabled", 1076, crate::Address(glIsEnabled as *const ())),
+    (b"glIsEnabledIndexedEXT", 1078, crate::Address(glIsEnabledIndexedEXT as *const ())),
+    (b"glIsEnabledi", 1077, crate::Address(glIsEnabledi as *const ())),
+    (b"glIsEnablediEXT", 1079, crate::Address(glIsEnablediEXT as *const ())),
+    (b"glIsEnablediNV", 1080, crate::Address(glIsEnablediNV as *const ())),
+    (b"glIsEnablediOES", 1081, crate::Address(glIsEnablediOES as *const ())),
+    (b"glIsFramebuffer", 971, crate::Address(glIsFramebuffer as *const ())),
+    (b"glIsFramebufferEXT", 972, crate::Address(glIsFramebufferEXT as *const ())),
+    (b"glIsList", 966, crate::Address(glIsList as *const ())),
+    (b"glIsTexture", 970, crate::Address(glIsTexture as *const ())),
     (b"glLightModelf", 540, crate::Address(glLightModelf as *const ())),
     (b"glLightModelfv", 541, crate::Address(glLightModelfv as *const ())),
     (b"glLightModeli", 542, crate::Address(glLightModeli as *const ())),
@@ -2835,9 +3072,9 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1100] = [
     (b"glMultiTexCoordP3uiv", 421, crate::Address(glMultiTexCoordP3uiv as *const ())),
     (b"glMultiTexCoordP4ui", 422, crate::Address(glMultiTexCoordP4ui as *const ())),
     (b"glMultiTexCoordP4uiv", 423, crate::Address(glMultiTexCoordP4uiv as *const ())),
-    (b"glNamedFramebufferDrawBuffer", 981, crate::Address(glNamedFramebufferDrawBuffer as *const ())),
-    (b"glNamedFramebufferDrawBuffers", 982, crate::Address(glNamedFramebufferDrawBuffers as *const ())),
-    (b"glNamedFramebufferReadBuffer", 983, crate::Address(glNamedFramebufferReadBuffer as *const ())),
+    (b"glNamedFramebufferDrawBuffer", 983, crate::Address(glNamedFramebufferDrawBuffer as *const ())),
+    (b"glNamedFramebufferDrawBuffers", 984, crate::Address(glNamedFramebufferDrawBuffers as *const ())),
+    (b"glNamedFramebufferReadBuffer", 985, crate::Address(glNamedFramebufferReadBuffer as *const ())),
     (b"glNewList", 960, crate::Address(glNewList as *const ())),
     (b"glNormal3b", 66, crate::Address(glNormal3b as *const ())),
     (b"glNormal3bv", 67, crate::Address(glNormal3bv as *const ())),
@@ -2853,11 +3090,14 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1100] = [
     (b"glNormal3sv", 75, crate::Address(glNormal3sv as *const ())),
     (b"glNormalP3ui", 438, crate::Address(glNormalP3ui as *const ())),
     (b"glNormalP3uiv", 439, crate::Address(glNormalP3uiv as *const ())),
+    (b"glNormalPointer", 1167, crate::Address(glNormalPointer as *const ())),
     (b"glOrtho", 477, crate::Address(glOrtho as *const ())),
     (b"glPassThrough", 728, crate::Address(glPassThrough as *const ())),
     (b"glPixelMapfv", 740, crate::Address(glPixelMapfv as *const ())),
     (b"glPixelMapuiv", 741, crate::Address(glPixelMapuiv as *const ())),
     (b"glPixelMapusv", 742, crate::Address(glPixelMapusv as *const ())),
+    (b"glPixelStoref", 1149, crate::Address(glPixelStoref as *const ())),
+    (b"glPixelStorei", 1150, crate::Address(glPixelStorei as *const ())),
     (b"glPixelTransferf", 743, crate::Address(glPixelTransferf as *const ())),
     (b"glPixelTransferi", 744, crate::Address(glPixelTransferi as *const ())),
     (b"glPixelZoom", 745, crate::Address(glPixelZoom as *const ())),
@@ -2881,6 +3121,7 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1100] = [
     (b"glPolygonOffsetClampEXT", 748, crate::Address(glPolygonOffsetClampEXT as *const ())),
     (b"glPolygonStipple", 749, crate::Address(glPolygonStipple as *const ())),
     (b"glPopAttrib", 590, crate::Address(glPopAttrib as *const ())),
+    (b"glPopClientAttrib", 1152, crate::Address(glPopClientAttrib as *const ())),
     (b"glPopMatrix", 479, crate::Address(glPopMatrix as *const ())),
     (b"glPopName", 727, crate::Address(glPopName as *const ())),
     (b"glPrimitiveRestartIndex", 764, crate::Address(glPrimitiveRestartIndex as *const ())),
@@ -2897,6 +3138,7 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1100] = [
     (b"glProvokingVertex", 577, crate::Address(glProvokingVertex as *const ())),
     (b"glProvokingVertexEXT", 578, crate::Address(glProvokingVertexEXT as *const ())),
     (b"glPushAttrib", 589, crate::Address(glPushAttrib as *const ())),
+    (b"glPushClientAttrib", 1151, crate::Address(glPushClientAttrib as *const ())),
     (b"glPushMatrix", 478, crate::Address(glPushMatrix as *const ())),
     (b"glPushName", 726, crate::Address(glPushName as *const ())),
     (b"glRasterPos2d", 591, crate::Address(glRasterPos2d as *const ())),
@@ -2923,12 +3165,12 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1100] = [
     (b"glRasterPos4iv", 612, crate::Address(glRasterPos4iv as *const ())),
     (b"glRasterPos4s", 613, crate::Address(glRasterPos4s as *const ())),
     (b"glRasterPos4sv", 614, crate::Address(glRasterPos4sv as *const ())),
-    (b"glReadBuffer", 980, crate::Address(glReadBuffer as *const ())),
-    (b"glReadPixels", 1034, crate::Address(glReadPixels as *const ())),
-    (b"glReadnPixels", 1035, crate::Address(glReadnPixels as *const ())),
-    (b"glReadnPixelsARB", 1036, crate::Address(glReadnPixelsARB as *const ())),
-    (b"glReadnPixelsEXT", 1037, crate::Address(glReadnPixelsEXT as *const ())),
-    (b"glReadnPixelsKHR", 1038, crate::Address(glReadnPixelsKHR as *const ())),
+    (b"glReadBuffer", 982, crate::Address(glReadBuffer as *const ())),
+    (b"glReadPixels", 1036, crate::Address(glReadPixels as *const ())),
+    (b"glReadnPixels", 1037, crate::Address(glReadnPixels as *const ())),
+    (b"glReadnPixelsARB", 1038, crate::Address(glReadnPixelsARB as *const ())),
+    (b"glReadnPixelsEXT", 1039, crate::Address(glReadnPixelsEXT as *const ())),
+    (b"glReadnPixelsKHR", 1040, crate::Address(glReadnPixelsKHR as *const ())),
     (b"glRectd", 946, crate::Address(glRectd as *const ())),
     (b"glRectdv", 947, crate::Address(glRectdv as *const ())),
     (b"glRectf", 948, crate::Address(glRectf as *const ())),
@@ -2938,6 +3180,11 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1100] = [
     (b"glRects", 952, crate::Address(glRects as *const ())),
     (b"glRectsv", 953, crate::Address(glRectsv as *const ())),
     (b"glRenderMode", 663, crate::Address(glRenderMode as *const ())),
+    (b"glRenderbufferStorage", 1134, crate::Address(glRenderbufferStorage as *const ())),
+    (b"glRenderbufferStorageEXT", 1135, crate::Address(glRenderbufferStorageEXT as *const ())),
+    (b"glRenderbufferStorageMultisample", 1136, crate::Address(glRenderbufferStorageMultisample as *const ())),
+    (b"glRenderbufferStorageMultisampleEXT", 1137, crate::Address(glRenderbufferStorageMultisampleEXT as *const ())),
+    (b"glRenderbufferStorageMultisampleNV", 1138, crate::Address(glRenderbufferStorageMultisampleNV as *const ())),
     (b"glRotated", 470, crate::Address(glRotated as *const ())),
     (b"glRotatef", 471, crate::Address(glRotatef as *const ())),
     (b"glSampleCoverage", 752, crate::Address(glSampleCoverage as *const ())),
@@ -2990,6 +3237,9 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1100] = [
     (b"glSecondaryColor3usvEXT", 221, crate::Address(glSecondaryColor3usvEXT as *const ())),
     (b"glSecondaryColorP3ui", 444, crate::Address(glSecondaryColorP3ui as *const ())),
     (b"glSecondaryColorP3uiv", 445, crate::Address(glSecondaryColorP3uiv as *const ())),
+    (b"glSecondaryColorPointer", 1159, crate::Address(glSecondaryColorPointer as *const ())),
+    (b"glSecondaryColorPointerEXT", 1160, crate::Address(glSecondaryColorPointerEXT as *const ())),
+    (b"glSelectBuffer", 1127, crate::Address(glSelectBuffer as *const ())),
     (b"glShadeModel", 568, crate::Address(glShadeModel as *const ())),
     (b"glStencilFunc", 757, crate::Address(glStencilFunc as *const ())),
     (b"glStencilFuncSeparate", 758, crate::Address(glStencilFuncSeparate as *const ())),
@@ -3046,6 +3296,7 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1100] = [
     (b"glTexCoordP3uiv", 429, crate::Address(glTexCoordP3uiv as *const ())),
     (b"glTexCoordP4ui", 430, crate::Address(glTexCoordP4ui as *const ())),
     (b"glTexCoordP4uiv", 431, crate::Address(glTexCoordP4uiv as *const ())),
+    (b"glTexCoordPointer", 1161, crate::Address(glTexCoordPointer as *const ())),
     (b"glTexEnvf", 571, crate::Address(glTexEnvf as *const ())),
     (b"glTexEnvfv", 572, crate::Address(glTexEnvfv as *const ())),
     (b"glTexEnvi", 573, crate::Address(glTexEnvi as *const ())),
@@ -3356,12 +3607,15 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1100] = [
     (b"glVertexAttribP3uiv", 451, crate::Address(glVertexAttribP3uiv as *const ())),
     (b"glVertexAttribP4ui", 452, crate::Address(glVertexAttribP4ui as *const ())),
     (b"glVertexAttribP4uiv", 453, crate::Address(glVertexAttribP4uiv as *const ())),
+    (b"glVertexAttribPointer", 1168, crate::Address(glVertexAttribPointer as *const ())),
+    (b"glVertexAttribPointerARB", 1169, crate::Address(glVertexAttribPointerARB as *const ())),
     (b"glVertexP2ui", 432, crate::Address(glVertexP2ui as *const ())),
     (b"glVertexP2uiv", 433, crate::Address(glVertexP2uiv as *const ())),
     (b"glVertexP3ui", 434, crate::Address(glVertexP3ui as *const ())),
     (b"glVertexP3uiv", 435, crate::Address(glVertexP3uiv as *const ())),
     (b"glVertexP4ui", 436, crate::Address(glVertexP4ui as *const ())),
     (b"glVertexP4uiv", 437, crate::Address(glVertexP4uiv as *const ())),
+    (b"glVertexPointer", 1162, crate::Address(glVertexPointer as *const ())),
     (b"glViewport", 498, crate::Address(glViewport as *const ())),
     (b"glViewportArrayv", 509, crate::Address(glViewportArrayv as *const ())),
     (b"glViewportArrayvNV", 510, crate::Address(glViewportArrayvNV as *const ())),
@@ -3420,18 +3674,18 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1100] = [
     (b"glWindowPos3sv", 660, crate::Address(glWindowPos3sv as *const ())),
     (b"glWindowPos3svARB", 661, crate::Address(glWindowPos3svARB as *const ())),
     (b"glWindowPos3svMESA", 662, crate::Address(glWindowPos3svMESA as *const ())),
-    (b"glXCreateContext", 1079, crate::Address(glXCreateContext as *const ())),
-    (b"glXCreateContextAttribsARB", 1081, crate::Address(glXCreateContextAttribsARB as *const ())),
-    (b"glXCreateContextWithConfigSGIX", 1082, crate::Address(glXCreateContextWithConfigSGIX as *const ())),
-    (b"glXCreateNewContext", 1080, crate::Address(glXCreateNewContext as *const ())),
-    (b"glXDestroyContext", 1083, crate::Address(glXDestroyContext as *const ())),
-    (b"glXGetProcAddress", 1084, crate::Address(glXGetProcAddress as *const ())),
-    (b"glXGetProcAddressARB", 1085, crate::Address(glXGetProcAddressARB as *const ())),
-    (b"glXMakeContextCurrent", 1077, crate::Address(glXMakeContextCurrent as *const ())),
-    (b"glXMakeCurrent", 1076, crate::Address(glXMakeCurrent as *const ())),
-    (b"glXMakeCurrentReadSGI", 1078, crate::Address(glXMakeCurrentReadSGI as *const ())),
-    (b"glXSwapBuffers", 1074, crate::Address(glXSwapBuffers as *const ())),
-    (b"glXSwapBuffersMscOML", 1075, crate::Address(glXSwapBuffersMscOML as *const ())),
+    (b"glXCreateContext", 1179, crate::Address(glXCreateContext as *const ())),
+    (b"glXCreateContextAttribsARB", 1181, crate::Address(glXCreateContextAttribsARB as *const ())),
+    (b"glXCreateContextWithConfigSGIX", 1182, crate::Address(glXCreateContextWithConfigSGIX as *const ())),
+    (b"glXCreateNewContext", 1180, crate::Address(glXCreateNewContext as *const ())),
+    (b"glXDestroyContext", 1183, crate::Address(glXDestroyContext as *const ())),
+    (b"glXGetProcAddress", 1184, crate::Address(glXGetProcAddress as *const ())),
+    (b"glXGetProcAddressARB", 1185, crate::Address(glXGetProcAddressARB as *const ())),
+    (b"glXMakeContextCurrent", 1177, crate::Address(glXMakeContextCurrent as *const ())),
+    (b"glXMakeCurrent", 1176, crate::Address(glXMakeCurrent as *const ())),
+    (b"glXMakeCurrentReadSGI", 1178, crate::Address(glXMakeCurrentReadSGI as *const ())),
+    (b"glXSwapBuffers", 1174, crate::Address(glXSwapBuffers as *const ())),
+    (b"glXSwapBuffersMscOML", 1175, crate::Address(glXSwapBuffersMscOML as *const ())),
 ];
 
 export! { 0, glVertex2d, first_glVertex2d, hook_glVertex2d, (x: f64, y: f64) -> (), {
@@ -11562,543 +11816,1139 @@ export! { 964, glDeleteLists, first_glDeleteLists, hook_glDeleteLists, (list: u3
     // SAFETY: the program's own arguments.
     unsafe { special::glDeleteLists(list, range) }
 } }
-export! { 965, glBindTexture, first_glBindTexture, hook_glBindTexture, (target: u32, texture: u32) -> (), {
+export! { 965, glGenLists, first_glGenLists, hook_glGenLists, (range: i32) -> u32, {
+    // SAFETY: the program's own arguments.
+    unsafe { special::glGenLists(range) }
+} }
+export! { 966, glIsList, first_glIsList, hook_glIsList, (list: u32) -> u8, {
+    // SAFETY: the program's own arguments.
+    unsafe { special::glIsList(list) }
+} }
+export! { 967, glBindTexture, first_glBindTexture, hook_glBindTexture, (target: u32, texture: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBindTexture(target, texture) }
 } }
-export! { 966, glBindTextureEXT, first_glBindTextureEXT, hook_glBindTextureEXT, (target: u32, texture: u32) -> (), {
+export! { 968, glBindTextureEXT, first_glBindTextureEXT, hook_glBindTextureEXT, (target: u32, texture: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBindTexture(target, texture) }
 } }
-export! { 967, glDeleteTextures, first_glDeleteTextures, hook_glDeleteTextures, (n: i32, textures: Ptr) -> (), {
+export! { 969, glDeleteTextures, first_glDeleteTextures, hook_glDeleteTextures, (n: i32, textures: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDeleteTextures(n, textures) }
 } }
-export! { 968, glIsTexture, first_glIsTexture, hook_glIsTexture, (texture: u32) -> u8, {
+export! { 970, glIsTexture, first_glIsTexture, hook_glIsTexture, (texture: u32) -> u8, {
     // SAFETY: the program's own arguments.
     unsafe { special::glIsTexture(texture) }
 } }
-export! { 969, glIsFramebuffer, first_glIsFramebuffer, hook_glIsFramebuffer, (framebuffer: u32) -> u8, {
+export! { 971, glIsFramebuffer, first_glIsFramebuffer, hook_glIsFramebuffer, (framebuffer: u32) -> u8, {
     // SAFETY: the program's own arguments.
     unsafe { special::glIsFramebuffer(framebuffer) }
 } }
-export! { 970, glIsFramebufferEXT, first_glIsFramebufferEXT, hook_glIsFramebufferEXT, (framebuffer: u32) -> u8, {
+export! { 972, glIsFramebufferEXT, first_glIsFramebufferEXT, hook_glIsFramebufferEXT, (framebuffer: u32) -> u8, {
     // SAFETY: the program's own arguments.
     unsafe { special::glIsFramebuffer(framebuffer) }
 } }
-export! { 971, glBindFramebuffer, first_glBindFramebuffer, hook_glBindFramebuffer, (target: u32, framebuffer: u32) -> (), {
+export! { 973, glBindFramebuffer, first_glBindFramebuffer, hook_glBindFramebuffer, (target: u32, framebuffer: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBindFramebuffer(target, framebuffer) }
 } }
-export! { 972, glBindFramebufferEXT, first_glBindFramebufferEXT, hook_glBindFramebufferEXT, (target: u32, framebuffer: u32) -> (), {
+export! { 974, glBindFramebufferEXT, first_glBindFramebufferEXT, hook_glBindFramebufferEXT, (target: u32, framebuffer: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBindFramebufferEXT(target, framebuffer) }
 } }
-export! { 973, glDeleteFramebuffers, first_glDeleteFramebuffers, hook_glDeleteFramebuffers, (n: i32, framebuffers: Ptr) -> (), {
+export! { 975, glDeleteFramebuffers, first_glDeleteFramebuffers, hook_glDeleteFramebuffers, (n: i32, framebuffers: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDeleteFramebuffers(n, framebuffers) }
 } }
-export! { 974, glDeleteFramebuffersEXT, first_glDeleteFramebuffersEXT, hook_glDeleteFramebuffersEXT, (n: i32, framebuffers: Ptr) -> (), {
+export! { 976, glDeleteFramebuffersEXT, first_glDeleteFramebuffersEXT, hook_glDeleteFramebuffersEXT, (n: i32, framebuffers: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDeleteFramebuffers(n, framebuffers) }
 } }
-export! { 975, glDrawBuffer, first_glDrawBuffer, hook_glDrawBuffer, (buf: u32) -> (), {
+export! { 977, glDrawBuffer, first_glDrawBuffer, hook_glDrawBuffer, (buf: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDrawBuffer(buf) }
 } }
-export! { 976, glDrawBuffers, first_glDrawBuffers, hook_glDrawBuffers, (n: i32, bufs: Ptr) -> (), {
+export! { 978, glDrawBuffers, first_glDrawBuffers, hook_glDrawBuffers, (n: i32, bufs: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDrawBuffers(n, bufs) }
 } }
-export! { 977, glDrawBuffersARB, first_glDrawBuffersARB, hook_glDrawBuffersARB, (n: i32, bufs: Ptr) -> (), {
+export! { 979, glDrawBuffersARB, first_glDrawBuffersARB, hook_glDrawBuffersARB, (n: i32, bufs: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDrawBuffers(n, bufs) }
 } }
-export! { 978, glDrawBuffersATI, first_glDrawBuffersATI, hook_glDrawBuffersATI, (n: i32, bufs: Ptr) -> (), {
+export! { 980, glDrawBuffersATI, first_glDrawBuffersATI, hook_glDrawBuffersATI, (n: i32, bufs: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDrawBuffers(n, bufs) }
 } }
-export! { 979, glDrawBuffersEXT, first_glDrawBuffersEXT, hook_glDrawBuffersEXT, (n: i32, bufs: Ptr) -> (), {
+export! { 981, glDrawBuffersEXT, first_glDrawBuffersEXT, hook_glDrawBuffersEXT, (n: i32, bufs: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDrawBuffers(n, bufs) }
 } }
-export! { 980, glReadBuffer, first_glReadBuffer, hook_glReadBuffer, (src: u32) -> (), {
+export! { 982, glReadBuffer, first_glReadBuffer, hook_glReadBuffer, (src: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glReadBuffer(src) }
 } }
-export! { 981, glNamedFramebufferDrawBuffer, first_glNamedFramebufferDrawBuffer, hook_glNamedFramebufferDrawBuffer, (framebuffer: u32, buf: u32) -> (), {
+export! { 983, glNamedFramebufferDrawBuffer, first_glNamedFramebufferDrawBuffer, hook_glNamedFramebufferDrawBuffer, (framebuffer: u32, buf: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glNamedFramebufferDrawBuffer(framebuffer, buf) }
 } }
-export! { 982, glNamedFramebufferDrawBuffers, first_glNamedFramebufferDrawBuffers, hook_glNamedFramebufferDrawBuffers, (framebuffer: u32, n: i32, bufs: Ptr) -> (), {
+export! { 984, glNamedFramebufferDrawBuffers, first_glNamedFramebufferDrawBuffers, hook_glNamedFramebufferDrawBuffers, (framebuffer: u32, n: i32, bufs: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glNamedFramebufferDrawBuffers(framebuffer, n, bufs) }
 } }
-export! { 983, glNamedFramebufferReadBuffer, first_glNamedFramebufferReadBuffer, hook_glNamedFramebufferReadBuffer, (framebuffer: u32, src: u32) -> (), {
+export! { 985, glNamedFramebufferReadBuffer, first_glNamedFramebufferReadBuffer, hook_glNamedFramebufferReadBuffer, (framebuffer: u32, src: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glNamedFramebufferReadBuffer(framebuffer, src) }
 } }
-export! { 984, glFramebufferDrawBufferEXT, first_glFramebufferDrawBufferEXT, hook_glFramebufferDrawBufferEXT, (framebuffer: u32, mode: u32) -> (), {
+export! { 986, glFramebufferDrawBufferEXT, first_glFramebufferDrawBufferEXT, hook_glFramebufferDrawBufferEXT, (framebuffer: u32, mode: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glFramebufferDrawBufferEXT(framebuffer, mode) }
 } }
-export! { 985, glFramebufferDrawBuffersEXT, first_glFramebufferDrawBuffersEXT, hook_glFramebufferDrawBuffersEXT, (framebuffer: u32, n: i32, bufs: Ptr) -> (), {
+export! { 987, glFramebufferDrawBuffersEXT, first_glFramebufferDrawBuffersEXT, hook_glFramebufferDrawBuffersEXT, (framebuffer: u32, n: i32, bufs: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glFramebufferDrawBuffersEXT(framebuffer, n, bufs) }
 } }
-export! { 986, glFramebufferReadBufferEXT, first_glFramebufferReadBufferEXT, hook_glFramebufferReadBufferEXT, (framebuffer: u32, mode: u32) -> (), {
+export! { 988, glFramebufferReadBufferEXT, first_glFramebufferReadBufferEXT, hook_glFramebufferReadBufferEXT, (framebuffer: u32, mode: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glFramebufferReadBufferEXT(framebuffer, mode) }
 } }
-export! { 987, glBlitFramebuffer, first_glBlitFramebuffer, hook_glBlitFramebuffer, (srcX0: i32, srcY0: i32, srcX1: i32, srcY1: i32, dstX0: i32, dstY0: i32, dstX1: i32, dstY1: i32, mask: u32, filter: u32) -> (), {
+export! { 989, glBlitFramebuffer, first_glBlitFramebuffer, hook_glBlitFramebuffer, (srcX0: i32, srcY0: i32, srcX1: i32, srcY1: i32, dstX0: i32, dstY0: i32, dstX1: i32, dstY1: i32, mask: u32, filter: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBlitFramebuffer(srcX0, srcY0, srcX1, srcY1, dstX0, dstY0, dstX1, dstY1, mask, filter) }
 } }
-export! { 988, glBlitFramebufferEXT, first_glBlitFramebufferEXT, hook_glBlitFramebufferEXT, (srcX0: i32, srcY0: i32, srcX1: i32, srcY1: i32, dstX0: i32, dstY0: i32, dstX1: i32, dstY1: i32, mask: u32, filter: u32) -> (), {
+export! { 990, glBlitFramebufferEXT, first_glBlitFramebufferEXT, hook_glBlitFramebufferEXT, (srcX0: i32, srcY0: i32, srcX1: i32, srcY1: i32, dstX0: i32, dstY0: i32, dstX1: i32, dstY1: i32, mask: u32, filter: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBlitFramebuffer(srcX0, srcY0, srcX1, srcY1, dstX0, dstY0, dstX1, dstY1, mask, filter) }
 } }
-export! { 989, glBlitFramebufferNV, first_glBlitFramebufferNV, hook_glBlitFramebufferNV, (srcX0: i32, srcY0: i32, srcX1: i32, srcY1: i32, dstX0: i32, dstY0: i32, dstX1: i32, dstY1: i32, mask: u32, filter: u32) -> (), {
+export! { 991, glBlitFramebufferNV, first_glBlitFramebufferNV, hook_glBlitFramebufferNV, (srcX0: i32, srcY0: i32, srcX1: i32, srcY1: i32, dstX0: i32, dstY0: i32, dstX1: i32, dstY1: i32, mask: u32, filter: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBlitFramebuffer(srcX0, srcY0, srcX1, srcY1, dstX0, dstY0, dstX1, dstY1, mask, filter) }
 } }
-export! { 990, glBlitNamedFramebuffer, first_glBlitNamedFramebuffer, hook_glBlitNamedFramebuffer, (readFramebuffer: u32, drawFramebuffer: u32, srcX0: i32, srcY0: i32, srcX1: i32, srcY1: i32, dstX0: i32, dstY0: i32, dstX1: i32, dstY1: i32, mask: u32, filter: u32) -> (), {
+export! { 992, glBlitNamedFramebuffer, first_glBlitNamedFramebuffer, hook_glBlitNamedFramebuffer, (readFramebuffer: u32, drawFramebuffer: u32, srcX0: i32, srcY0: i32, srcX1: i32, srcY1: i32, dstX0: i32, dstY0: i32, dstX1: i32, dstY1: i32, mask: u32, filter: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBlitNamedFramebuffer(readFramebuffer, drawFramebuffer, srcX0, srcY0, srcX1, srcY1, dstX0, dstY0, dstX1, dstY1, mask, filter) }
 } }
-export! { 991, glClearNamedFramebufferfv, first_glClearNamedFramebufferfv, hook_glClearNamedFramebufferfv, (framebuffer: u32, buffer: u32, drawbuffer: i32, value: Ptr) -> (), {
+export! { 993, glClearNamedFramebufferfv, first_glClearNamedFramebufferfv, hook_glClearNamedFramebufferfv, (framebuffer: u32, buffer: u32, drawbuffer: i32, value: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glClearNamedFramebufferfv(framebuffer, buffer, drawbuffer, value) }
 } }
-export! { 992, glClearNamedFramebufferiv, first_glClearNamedFramebufferiv, hook_glClearNamedFramebufferiv, (framebuffer: u32, buffer: u32, drawbuffer: i32, value: Ptr) -> (), {
+export! { 994, glClearNamedFramebufferiv, first_glClearNamedFramebufferiv, hook_glClearNamedFramebufferiv, (framebuffer: u32, buffer: u32, drawbuffer: i32, value: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glClearNamedFramebufferiv(framebuffer, buffer, drawbuffer, value) }
 } }
-export! { 993, glClearNamedFramebufferuiv, first_glClearNamedFramebufferuiv, hook_glClearNamedFramebufferuiv, (framebuffer: u32, buffer: u32, drawbuffer: i32, value: Ptr) -> (), {
+export! { 995, glClearNamedFramebufferuiv, first_glClearNamedFramebufferuiv, hook_glClearNamedFramebufferuiv, (framebuffer: u32, buffer: u32, drawbuffer: i32, value: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glClearNamedFramebufferuiv(framebuffer, buffer, drawbuffer, value) }
 } }
-export! { 994, glClearNamedFramebufferfi, first_glClearNamedFramebufferfi, hook_glClearNamedFramebufferfi, (framebuffer: u32, buffer: u32, drawbuffer: i32, depth: f32, stencil: i32) -> (), {
+export! { 996, glClearNamedFramebufferfi, first_glClearNamedFramebufferfi, hook_glClearNamedFramebufferfi, (framebuffer: u32, buffer: u32, drawbuffer: i32, depth: f32, stencil: i32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glClearNamedFramebufferfi(framebuffer, buffer, drawbuffer, depth, stencil) }
 } }
-export! { 995, glGetIntegerv, first_glGetIntegerv, hook_glGetIntegerv, (pname: u32, data: Ptr) -> (), {
+export! { 997, glGetIntegerv, first_glGetIntegerv, hook_glGetIntegerv, (pname: u32, data: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetIntegerv(pname, data) }
 } }
-export! { 996, glGetBooleanv, first_glGetBooleanv, hook_glGetBooleanv, (pname: u32, data: Ptr) -> (), {
+export! { 998, glGetBooleanv, first_glGetBooleanv, hook_glGetBooleanv, (pname: u32, data: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetBooleanv(pname, data) }
 } }
-export! { 997, glGetFloatv, first_glGetFloatv, hook_glGetFloatv, (pname: u32, data: Ptr) -> (), {
+export! { 999, glGetFloatv, first_glGetFloatv, hook_glGetFloatv, (pname: u32, data: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetFloatv(pname, data) }
 } }
-export! { 998, glGetDoublev, first_glGetDoublev, hook_glGetDoublev, (pname: u32, data: Ptr) -> (), {
+export! { 1000, glGetDoublev, first_glGetDoublev, hook_glGetDoublev, (pname: u32, data: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetDoublev(pname, data) }
 } }
-export! { 999, glGetInteger64v, first_glGetInteger64v, hook_glGetInteger64v, (pname: u32, data: Ptr) -> (), {
+export! { 1001, glGetInteger64v, first_glGetInteger64v, hook_glGetInteger64v, (pname: u32, data: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetInteger64v(pname, data) }
 } }
-export! { 1000, glGetInteger64vAPPLE, first_glGetInteger64vAPPLE, hook_glGetInteger64vAPPLE, (pname: u32, params: Ptr) -> (), {
+export! { 1002, glGetInteger64vAPPLE, first_glGetInteger64vAPPLE, hook_glGetInteger64vAPPLE, (pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetInteger64v(pname, params) }
 } }
-export! { 1001, glGetInteger64vEXT, first_glGetInteger64vEXT, hook_glGetInteger64vEXT, (pname: u32, data: Ptr) -> (), {
+export! { 1003, glGetInteger64vEXT, first_glGetInteger64vEXT, hook_glGetInteger64vEXT, (pname: u32, data: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetInteger64v(pname, data) }
 } }
-export! { 1002, glFramebufferTexture, first_glFramebufferTexture, hook_glFramebufferTexture, (target: u32, attachment: u32, texture: u32, level: i32) -> (), {
+export! { 1004, glFramebufferTexture, first_glFramebufferTexture, hook_glFramebufferTexture, (target: u32, attachment: u32, texture: u32, level: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glFramebufferTexture(target, attachment, texture, level) })
 } }
-export! { 1003, glFramebufferTextureARB, first_glFramebufferTextureARB, hook_glFramebufferTextureARB, (target: u32, attachment: u32, texture: u32, level: i32) -> (), {
+export! { 1005, glFramebufferTextureARB, first_glFramebufferTextureARB, hook_glFramebufferTextureARB, (target: u32, attachment: u32, texture: u32, level: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glFramebufferTextureARB(target, attachment, texture, level) })
 } }
-export! { 1004, glFramebufferTextureEXT, first_glFramebufferTextureEXT, hook_glFramebufferTextureEXT, (target: u32, attachment: u32, texture: u32, level: i32) -> (), {
+export! { 1006, glFramebufferTextureEXT, first_glFramebufferTextureEXT, hook_glFramebufferTextureEXT, (target: u32, attachment: u32, texture: u32, level: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glFramebufferTextureEXT(target, attachment, texture, level) })
 } }
-export! { 1005, glFramebufferTextureOES, first_glFramebufferTextureOES, hook_glFramebufferTextureOES, (target: u32, attachment: u32, texture: u32, level: i32) -> (), {
+export! { 1007, glFramebufferTextureOES, first_glFramebufferTextureOES, hook_glFramebufferTextureOES, (target: u32, attachment: u32, texture: u32, level: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glFramebufferTextureOES(target, attachment, texture, level) })
 } }
-export! { 1006, glFramebufferTexture1D, first_glFramebufferTexture1D, hook_glFramebufferTexture1D, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32) -> (), {
+export! { 1008, glFramebufferTexture1D, first_glFramebufferTexture1D, hook_glFramebufferTexture1D, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glFramebufferTexture1D(target, attachment, textarget, texture, level) })
 } }
-export! { 1007, glFramebufferTexture1DEXT, first_glFramebufferTexture1DEXT, hook_glFramebufferTexture1DEXT, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32) -> (), {
+export! { 1009, glFramebufferTexture1DEXT, first_glFramebufferTexture1DEXT, hook_glFramebufferTexture1DEXT, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glFramebufferTexture1DEXT(target, attachment, textarget, texture, level) })
 } }
-export! { 1008, glFramebufferTexture2D, first_glFramebufferTexture2D, hook_glFramebufferTexture2D, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32) -> (), {
+export! { 1010, glFramebufferTexture2D, first_glFramebufferTexture2D, hook_glFramebufferTexture2D, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glFramebufferTexture2D(target, attachment, textarget, texture, level) })
 } }
-export! { 1009, glFramebufferTexture2DEXT, first_glFramebufferTexture2DEXT, hook_glFramebufferTexture2DEXT, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32) -> (), {
+export! { 1011, glFramebufferTexture2DEXT, first_glFramebufferTexture2DEXT, hook_glFramebufferTexture2DEXT, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glFramebufferTexture2DEXT(target, attachment, textarget, texture, level) })
 } }
-export! { 1010, glFramebufferTexture3D, first_glFramebufferTexture3D, hook_glFramebufferTexture3D, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32, zoffset: i32) -> (), {
+export! { 1012, glFramebufferTexture3D, first_glFramebufferTexture3D, hook_glFramebufferTexture3D, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32, zoffset: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glFramebufferTexture3D(target, attachment, textarget, texture, level, zoffset) })
 } }
-export! { 1011, glFramebufferTexture3DEXT, first_glFramebufferTexture3DEXT, hook_glFramebufferTexture3DEXT, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32, zoffset: i32) -> (), {
+export! { 1013, glFramebufferTexture3DEXT, first_glFramebufferTexture3DEXT, hook_glFramebufferTexture3DEXT, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32, zoffset: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glFramebufferTexture3DEXT(target, attachment, textarget, texture, level, zoffset) })
 } }
-export! { 1012, glFramebufferTextureLayer, first_glFramebufferTextureLayer, hook_glFramebufferTextureLayer, (target: u32, attachment: u32, texture: u32, level: i32, layer: i32) -> (), {
+export! { 1014, glFramebufferTextureLayer, first_glFramebufferTextureLayer, hook_glFramebufferTextureLayer, (target: u32, attachment: u32, texture: u32, level: i32, layer: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glFramebufferTextureLayer(target, attachment, texture, level, layer) })
 } }
-export! { 1013, glFramebufferTextureLayerARB, first_glFramebufferTextureLayerARB, hook_glFramebufferTextureLayerARB, (target: u32, attachment: u32, texture: u32, level: i32, layer: i32) -> (), {
+export! { 1015, glFramebufferTextureLayerARB, first_glFramebufferTextureLayerARB, hook_glFramebufferTextureLayerARB, (target: u32, attachment: u32, texture: u32, level: i32, layer: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glFramebufferTextureLayerARB(target, attachment, texture, level, layer) })
 } }
-export! { 1014, glFramebufferTextureLayerEXT, first_glFramebufferTextureLayerEXT, hook_glFramebufferTextureLayerEXT, (target: u32, attachment: u32, texture: u32, level: i32, layer: i32) -> (), {
+export! { 1016, glFramebufferTextureLayerEXT, first_glFramebufferTextureLayerEXT, hook_glFramebufferTextureLayerEXT, (target: u32, attachment: u32, texture: u32, level: i32, layer: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glFramebufferTextureLayerEXT(target, attachment, texture, level, layer) })
 } }
-export! { 1015, glFramebufferRenderbuffer, first_glFramebufferRenderbuffer, hook_glFramebufferRenderbuffer, (target: u32, attachment: u32, renderbuffertarget: u32, renderbuffer: u32) -> (), {
+export! { 1017, glFramebufferRenderbuffer, first_glFramebufferRenderbuffer, hook_glFramebufferRenderbuffer, (target: u32, attachment: u32, renderbuffertarget: u32, renderbuffer: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glFramebufferRenderbuffer(target, attachment, renderbuffertarget, renderbuffer) })
 } }
-export! { 1016, glFramebufferRenderbufferEXT, first_glFramebufferRenderbufferEXT, hook_glFramebufferRenderbufferEXT, (target: u32, attachment: u32, renderbuffertarget: u32, renderbuffer: u32) -> (), {
+export! { 1018, glFramebufferRenderbufferEXT, first_glFramebufferRenderbufferEXT, hook_glFramebufferRenderbufferEXT, (target: u32, attachment: u32, renderbuffertarget: u32, renderbuffer: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glFramebufferRenderbufferEXT(target, attachment, renderbuffertarget, renderbuffer) })
 } }
-export! { 1017, glGetFramebufferAttachmentParameteriv, first_glGetFramebufferAttachmentParameteriv, hook_glGetFramebufferAttachmentParameteriv, (target: u32, attachment: u32, pname: u32, params: Ptr) -> (), {
+export! { 1019, glGetFramebufferAttachmentParameteriv, first_glGetFramebufferAttachmentParameteriv, hook_glGetFramebufferAttachmentParameteriv, (target: u32, attachment: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glGetFramebufferAttachmentParameteriv(target, attachment, pname, params) })
 } }
-export! { 1018, glGetFramebufferAttachmentParameterivEXT, first_glGetFramebufferAttachmentParameterivEXT, hook_glGetFramebufferAttachmentParameterivEXT, (target: u32, attachment: u32, pname: u32, params: Ptr) -> (), {
+export! { 1020, glGetFramebufferAttachmentParameterivEXT, first_glGetFramebufferAttachmentParameterivEXT, hook_glGetFramebufferAttachmentParameterivEXT, (target: u32, attachment: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glGetFramebufferAttachmentParameterivEXT(target, attachment, pname, params) })
 } }
-export! { 1019, glCheckFramebufferStatus, first_glCheckFramebufferStatus, hook_glCheckFramebufferStatus, (target: u32) -> u32, {
+export! { 1021, glCheckFramebufferStatus, first_glCheckFramebufferStatus, hook_glCheckFramebufferStatus, (target: u32) -> u32, {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glCheckFramebufferStatus(target) })
 } }
-export! { 1020, glCheckFramebufferStatusEXT, first_glCheckFramebufferStatusEXT, hook_glCheckFramebufferStatusEXT, (target: u32) -> u32, {
+export! { 1022, glCheckFramebufferStatusEXT, first_glCheckFramebufferStatusEXT, hook_glCheckFramebufferStatusEXT, (target: u32) -> u32, {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glCheckFramebufferStatusEXT(target) })
 } }
-export! { 1021, glFramebufferParameteri, first_glFramebufferParameteri, hook_glFramebufferParameteri, (target: u32, pname: u32, param: i32) -> (), {
+export! { 1023, glFramebufferParameteri, first_glFramebufferParameteri, hook_glFramebufferParameteri, (target: u32, pname: u32, param: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glFramebufferParameteri(target, pname, param) })
 } }
-export! { 1022, glGetFramebufferParameteriv, first_glGetFramebufferParameteriv, hook_glGetFramebufferParameteriv, (target: u32, pname: u32, params: Ptr) -> (), {
+export! { 1024, glGetFramebufferParameteriv, first_glGetFramebufferParameteriv, hook_glGetFramebufferParameteriv, (target: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glGetFramebufferParameteriv(target, pname, params) })
 } }
-export! { 1023, glInvalidateFramebuffer, first_glInvalidateFramebuffer, hook_glInvalidateFramebuffer, (target: u32, numAttachments: i32, attachments: Ptr) -> (), {
+export! { 1025, glInvalidateFramebuffer, first_glInvalidateFramebuffer, hook_glInvalidateFramebuffer, (target: u32, numAttachments: i32, attachments: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glInvalidateFramebuffer(target, numAttachments, attachments) })
 } }
-export! { 1024, glInvalidateSubFramebuffer, first_glInvalidateSubFramebuffer, hook_glInvalidateSubFramebuffer, (target: u32, numAttachments: i32, attachments: Ptr, x: i32, y: i32, width: i32, height: i32) -> (), {
+export! { 1026, glInvalidateSubFramebuffer, first_glInvalidateSubFramebuffer, hook_glInvalidateSubFramebuffer, (target: u32, numAttachments: i32, attachments: Ptr, x: i32, y: i32, width: i32, height: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glInvalidateSubFramebuffer(target, numAttachments, attachments, x, y, width, height) })
 } }
-export! { 1025, glDiscardFramebufferEXT, first_glDiscardFramebufferEXT, hook_glDiscardFramebufferEXT, (target: u32, numAttachments: i32, attachments: Ptr) -> (), {
+export! { 1027, glDiscardFramebufferEXT, first_glDiscardFramebufferEXT, hook_glDiscardFramebufferEXT, (target: u32, numAttachments: i32, attachments: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glDiscardFramebufferEXT(target, numAttachments, attachments) })
 } }
-export! { 1026, glCopyTexImage1D, first_glCopyTexImage1D, hook_glCopyTexImage1D, (target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, border: i32) -> (), {
+export! { 1028, glCopyTexImage1D, first_glCopyTexImage1D, hook_glCopyTexImage1D, (target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, border: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::copy(target, x, width, &mut |gl| unsafe { gl.glCopyTexImage1D(target, level, internalformat, x, y, width, border) })
 } }
-export! { 1027, glCopyTexImage1DEXT, first_glCopyTexImage1DEXT, hook_glCopyTexImage1DEXT, (target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, border: i32) -> (), {
+export! { 1029, glCopyTexImage1DEXT, first_glCopyTexImage1DEXT, hook_glCopyTexImage1DEXT, (target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, border: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::copy(target, x, width, &mut |gl| unsafe { gl.glCopyTexImage1DEXT(target, level, internalformat, x, y, width, border) })
 } }
-export! { 1028, glCopyTexImage2D, first_glCopyTexImage2D, hook_glCopyTexImage2D, (target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, height: i32, border: i32) -> (), {
+export! { 1030, glCopyTexImage2D, first_glCopyTexImage2D, hook_glCopyTexImage2D, (target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, height: i32, border: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::copy(target, x, width, &mut |gl| unsafe { gl.glCopyTexImage2D(target, level, internalformat, x, y, width, height, border) })
 } }
-export! { 1029, glCopyTexImage2DEXT, first_glCopyTexImage2DEXT, hook_glCopyTexImage2DEXT, (target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, height: i32, border: i32) -> (), {
+export! { 1031, glCopyTexImage2DEXT, first_glCopyTexImage2DEXT, hook_glCopyTexImage2DEXT, (target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, height: i32, border: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::copy(target, x, width, &mut |gl| unsafe { gl.glCopyTexImage2DEXT(target, level, internalformat, x, y, width, height, border) })
 } }
-export! { 1030, glCopyTexSubImage1D, first_glCopyTexSubImage1D, hook_glCopyTexSubImage1D, (target: u32, level: i32, xoffset: i32, x: i32, y: i32, width: i32) -> (), {
+export! { 1032, glCopyTexSubImage1D, first_glCopyTexSubImage1D, hook_glCopyTexSubImage1D, (target: u32, level: i32, xoffset: i32, x: i32, y: i32, width: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::copy(target, x, width, &mut |gl| unsafe { gl.glCopyTexSubImage1D(target, level, xoffset, x, y, width) })
 } }
-export! { 1031, glCopyTexSubImage1DEXT, first_glCopyTexSubImage1DEXT, hook_glCopyTexSubImage1DEXT, (target: u32, level: i32, xoffset: i32, x: i32, y: i32, width: i32) -> (), {
+export! { 1033, glCopyTexSubImage1DEXT, first_glCopyTexSubImage1DEXT, hook_glCopyTexSubImage1DEXT, (target: u32, level: i32, xoffset: i32, x: i32, y: i32, width: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::copy(target, x, width, &mut |gl| unsafe { gl.glCopyTexSubImage1DEXT(target, level, xoffset, x, y, width) })
 } }
-export! { 1032, glCopyTexSubImage2D, first_glCopyTexSubImage2D, hook_glCopyTexSubImage2D, (target: u32, level: i32, xoffset: i32, yoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
+export! { 1034, glCopyTexSubImage2D, first_glCopyTexSubImage2D, hook_glCopyTexSubImage2D, (target: u32, level: i32, xoffset: i32, yoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::copy(target, x, width, &mut |gl| unsafe { gl.glCopyTexSubImage2D(target, level, xoffset, yoffset, x, y, width, height) })
 } }
-export! { 1033, glCopyTexSubImage2DEXT, first_glCopyTexSubImage2DEXT, hook_glCopyTexSubImage2DEXT, (target: u32, level: i32, xoffset: i32, yoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
+export! { 1035, glCopyTexSubImage2DEXT, first_glCopyTexSubImage2DEXT, hook_glCopyTexSubImage2DEXT, (target: u32, level: i32, xoffset: i32, yoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::copy(target, x, width, &mut |gl| unsafe { gl.glCopyTexSubImage2DEXT(target, level, xoffset, yoffset, x, y, width, height) })
 } }
-export! { 1034, glReadPixels, first_glReadPixels, hook_glReadPixels, (x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
+export! { 1036, glReadPixels, first_glReadPixels, hook_glReadPixels, (x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
     // SAFETY: the program's own call.
-    hooks::read(x, width, &mut |gl| unsafe { gl.glReadPixels(x, y, width, height, format, type_, pixels) })
+    hooks::read_now(x, width, &mut |gl| unsafe { gl.glReadPixels(x, y, width, height, format, type_, pixels) })
 } }
-export! { 1035, glReadnPixels, first_glReadnPixels, hook_glReadnPixels, (x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, bufSize: i32, data: Ptr) -> (), {
+export! { 1037, glReadnPixels, first_glReadnPixels, hook_glReadnPixels, (x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, bufSize: i32, data: Ptr) -> (), {
     // SAFETY: the program's own call.
-    hooks::read(x, width, &mut |gl| unsafe { gl.glReadnPixels(x, y, width, height, format, type_, bufSize, data) })
+    hooks::read_now(x, width, &mut |gl| unsafe { gl.glReadnPixels(x, y, width, height, format, type_, bufSize, data) })
 } }
-export! { 1036, glReadnPixelsARB, first_glReadnPixelsARB, hook_glReadnPixelsARB, (x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, bufSize: i32, data: Ptr) -> (), {
+export! { 1038, glReadnPixelsARB, first_glReadnPixelsARB, hook_glReadnPixelsARB, (x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, bufSize: i32, data: Ptr) -> (), {
     // SAFETY: the program's own call.
-    hooks::read(x, width, &mut |gl| unsafe { gl.glReadnPixelsARB(x, y, width, height, format, type_, bufSize, data) })
+    hooks::read_now(x, width, &mut |gl| unsafe { gl.glReadnPixelsARB(x, y, width, height, format, type_, bufSize, data) })
 } }
-export! { 1037, glReadnPixelsEXT, first_glReadnPixelsEXT, hook_glReadnPixelsEXT, (x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, bufSize: i32, data: Ptr) -> (), {
+export! { 1039, glReadnPixelsEXT, first_glReadnPixelsEXT, hook_glReadnPixelsEXT, (x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, bufSize: i32, data: Ptr) -> (), {
     // SAFETY: the program's own call.
-    hooks::read(x, width, &mut |gl| unsafe { gl.glReadnPixelsEXT(x, y, width, height, format, type_, bufSize, data) })
+    hooks::read_now(x, width, &mut |gl| unsafe { gl.glReadnPixelsEXT(x, y, width, height, format, type_, bufSize, data) })
 } }
-export! { 1038, glReadnPixelsKHR, first_glReadnPixelsKHR, hook_glReadnPixelsKHR, (x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, bufSize: i32, data: Ptr) -> (), {
+export! { 1040, glReadnPixelsKHR, first_glReadnPixelsKHR, hook_glReadnPixelsKHR, (x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, bufSize: i32, data: Ptr) -> (), {
     // SAFETY: the program's own call.
-    hooks::read(x, width, &mut |gl| unsafe { gl.glReadnPixelsKHR(x, y, width, height, format, type_, bufSize, data) })
+    hooks::read_now(x, width, &mut |gl| unsafe { gl.glReadnPixelsKHR(x, y, width, height, format, type_, bufSize, data) })
 } }
-export! { 1039, glCopyTexSubImage3D, first_glCopyTexSubImage3D, hook_glCopyTexSubImage3D, (target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
+export! { 1041, glCopyTexSubImage3D, first_glCopyTexSubImage3D, hook_glCopyTexSubImage3D, (target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyTexSubImage3D(target, level, xoffset, yoffset, zoffset, x, y, width, height) })
 } }
-export! { 1040, glCopyTexSubImage3DEXT, first_glCopyTexSubImage3DEXT, hook_glCopyTexSubImage3DEXT, (target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
+export! { 1042, glCopyTexSubImage3DEXT, first_glCopyTexSubImage3DEXT, hook_glCopyTexSubImage3DEXT, (target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyTexSubImage3DEXT(target, level, xoffset, yoffset, zoffset, x, y, width, height) })
 } }
-export! { 1041, glCopyTextureSubImage1D, first_glCopyTextureSubImage1D, hook_glCopyTextureSubImage1D, (texture: u32, level: i32, xoffset: i32, x: i32, y: i32, width: i32) -> (), {
+export! { 1043, glCopyTextureSubImage1D, first_glCopyTextureSubImage1D, hook_glCopyTextureSubImage1D, (texture: u32, level: i32, xoffset: i32, x: i32, y: i32, width: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyTextureSubImage1D(texture, level, xoffset, x, y, width) })
 } }
-export! { 1042, glCopyTextureSubImage2D, first_glCopyTextureSubImage2D, hook_glCopyTextureSubImage2D, (texture: u32, level: i32, xoffset: i32, yoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
+export! { 1044, glCopyTextureSubImage2D, first_glCopyTextureSubImage2D, hook_glCopyTextureSubImage2D, (texture: u32, level: i32, xoffset: i32, yoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyTextureSubImage2D(texture, level, xoffset, yoffset, x, y, width, height) })
 } }
-export! { 1043, glCopyTextureSubImage3D, first_glCopyTextureSubImage3D, hook_glCopyTextureSubImage3D, (texture: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
+export! { 1045, glCopyTextureSubImage3D, first_glCopyTextureSubImage3D, hook_glCopyTextureSubImage3D, (texture: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyTextureSubImage3D(texture, level, xoffset, yoffset, zoffset, x, y, width, height) })
 } }
-export! { 1044, glCopyMultiTexImage1DEXT, first_glCopyMultiTexImage1DEXT, hook_glCopyMultiTexImage1DEXT, (texunit: u32, target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, border: i32) -> (), {
+export! { 1046, glCopyMultiTexImage1DEXT, first_glCopyMultiTexImage1DEXT, hook_glCopyMultiTexImage1DEXT, (texunit: u32, target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, border: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyMultiTexImage1DEXT(texunit, target, level, internalformat, x, y, width, border) })
 } }
-export! { 1045, glCopyMultiTexImage2DEXT, first_glCopyMultiTexImage2DEXT, hook_glCopyMultiTexImage2DEXT, (texunit: u32, target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, height: i32, border: i32) -> (), {
+export! { 1047, glCopyMultiTexImage2DEXT, first_glCopyMultiTexImage2DEXT, hook_glCopyMultiTexImage2DEXT, (texunit: u32, target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, height: i32, border: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyMultiTexImage2DEXT(texunit, target, level, internalformat, x, y, width, height, border) })
 } }
-export! { 1046, glCopyTextureImage1DEXT, first_glCopyTextureImage1DEXT, hook_glCopyTextureImage1DEXT, (texture: u32, target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, border: i32) -> (), {
+export! { 1048, glCopyTextureImage1DEXT, first_glCopyTextureImage1DEXT, hook_glCopyTextureImage1DEXT, (texture: u32, target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, border: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyTextureImage1DEXT(texture, target, level, internalformat, x, y, width, border) })
 } }
-export! { 1047, glCopyTextureImage2DEXT, first_glCopyTextureImage2DEXT, hook_glCopyTextureImage2DEXT, (texture: u32, target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, height: i32, border: i32) -> (), {
+export! { 1049, glCopyTextureImage2DEXT, first_glCopyTextureImage2DEXT, hook_glCopyTextureImage2DEXT, (texture: u32, target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, height: i32, border: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyTextureImage2DEXT(texture, target, level, internalformat, x, y, width, height, border) })
 } }
-export! { 1048, glCopyColorTable, first_glCopyColorTable, hook_glCopyColorTable, (target: u32, internalformat: u32, x: i32, y: i32, width: i32) -> (), {
+export! { 1050, glCopyColorTable, first_glCopyColorTable, hook_glCopyColorTable, (target: u32, internalformat: u32, x: i32, y: i32, width: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyColorTable(target, internalformat, x, y, width) })
 } }
-export! { 1049, glCopyColorTableSGI, first_glCopyColorTableSGI, hook_glCopyColorTableSGI, (target: u32, internalformat: u32, x: i32, y: i32, width: i32) -> (), {
+export! { 1051, glCopyColorTableSGI, first_glCopyColorTableSGI, hook_glCopyColorTableSGI, (target: u32, internalformat: u32, x: i32, y: i32, width: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyColorTableSGI(target, internalformat, x, y, width) })
 } }
-export! { 1050, glCopyConvolutionFilter1D, first_glCopyConvolutionFilter1D, hook_glCopyConvolutionFilter1D, (target: u32, internalformat: u32, x: i32, y: i32, width: i32) -> (), {
+export! { 1052, glCopyConvolutionFilter1D, first_glCopyConvolutionFilter1D, hook_glCopyConvolutionFilter1D, (target: u32, internalformat: u32, x: i32, y: i32, width: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyConvolutionFilter1D(target, internalformat, x, y, width) })
 } }
-export! { 1051, glCopyConvolutionFilter1DEXT, first_glCopyConvolutionFilter1DEXT, hook_glCopyConvolutionFilter1DEXT, (target: u32, internalformat: u32, x: i32, y: i32, width: i32) -> (), {
+export! { 1053, glCopyConvolutionFilter1DEXT, first_glCopyConvolutionFilter1DEXT, hook_glCopyConvolutionFilter1DEXT, (target: u32, internalformat: u32, x: i32, y: i32, width: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyConvolutionFilter1DEXT(target, internalformat, x, y, width) })
 } }
-export! { 1052, glCopyConvolutionFilter2D, first_glCopyConvolutionFilter2D, hook_glCopyConvolutionFilter2D, (target: u32, internalformat: u32, x: i32, y: i32, width: i32, height: i32) -> (), {
+export! { 1054, glCopyConvolutionFilter2D, first_glCopyConvolutionFilter2D, hook_glCopyConvolutionFilter2D, (target: u32, internalformat: u32, x: i32, y: i32, width: i32, height: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyConvolutionFilter2D(target, internalformat, x, y, width, height) })
 } }
-export! { 1053, glCopyConvolutionFilter2DEXT, first_glCopyConvolutionFilter2DEXT, hook_glCopyConvolutionFilter2DEXT, (target: u32, internalformat: u32, x: i32, y: i32, width: i32, height: i32) -> (), {
+export! { 1055, glCopyConvolutionFilter2DEXT, first_glCopyConvolutionFilter2DEXT, hook_glCopyConvolutionFilter2DEXT, (target: u32, internalformat: u32, x: i32, y: i32, width: i32, height: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyConvolutionFilter2DEXT(target, internalformat, x, y, width, height) })
 } }
-export! { 1054, glFinish, first_glFinish, hook_glFinish, () -> (), {
+export! { 1056, glFinish, first_glFinish, hook_glFinish, () -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glFinish() }
 } }
-export! { 1055, glFlush, first_glFlush, hook_glFlush, () -> (), {
+export! { 1057, glFlush, first_glFlush, hook_glFlush, () -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glFlush() }
 } }
-export! { 1056, glGetError, first_glGetError, hook_glGetError, () -> u32, {
+export! { 1058, glGetError, first_glGetError, hook_glGetError, () -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetError() }
 } }
-export! { 1057, glBeginQuery, first_glBeginQuery, hook_glBeginQuery, (target: u32, id: u32) -> (), {
+export! { 1059, glBeginQuery, first_glBeginQuery, hook_glBeginQuery, (target: u32, id: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBeginQuery(target, id) }
 } }
-export! { 1058, glBeginQueryARB, first_glBeginQueryARB, hook_glBeginQueryARB, (target: u32, id: u32) -> (), {
+export! { 1060, glBeginQueryARB, first_glBeginQueryARB, hook_glBeginQueryARB, (target: u32, id: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBeginQuery(target, id) }
 } }
-export! { 1059, glEndQuery, first_glEndQuery, hook_glEndQuery, (target: u32) -> (), {
+export! { 1061, glEndQuery, first_glEndQuery, hook_glEndQuery, (target: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glEndQuery(target) }
 } }
-export! { 1060, glEndQueryARB, first_glEndQueryARB, hook_glEndQueryARB, (target: u32) -> (), {
+export! { 1062, glEndQueryARB, first_glEndQueryARB, hook_glEndQueryARB, (target: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glEndQuery(target) }
 } }
-export! { 1061, glDeleteQueries, first_glDeleteQueries, hook_glDeleteQueries, (n: i32, ids: Ptr) -> (), {
+export! { 1063, glDeleteQueries, first_glDeleteQueries, hook_glDeleteQueries, (n: i32, ids: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDeleteQueries(n, ids) }
 } }
-export! { 1062, glDeleteQueriesARB, first_glDeleteQueriesARB, hook_glDeleteQueriesARB, (n: i32, ids: Ptr) -> (), {
+export! { 1064, glDeleteQueriesARB, first_glDeleteQueriesARB, hook_glDeleteQueriesARB, (n: i32, ids: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDeleteQueries(n, ids) }
 } }
-export! { 1063, glGetQueryiv, first_glGetQueryiv, hook_glGetQueryiv, (target: u32, pname: u32, params: Ptr) -> (), {
+export! { 1065, glGetQueryiv, first_glGetQueryiv, hook_glGetQueryiv, (target: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryiv(target, pname, params) }
 } }
-export! { 1064, glGetQueryivARB, first_glGetQueryivARB, hook_glGetQueryivARB, (target: u32, pname: u32, params: Ptr) -> (), {
+export! { 1066, glGetQueryivARB, first_glGetQueryivARB, hook_glGetQueryivARB, (target: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryiv(target, pname, params) }
 } }
-export! { 1065, glGetQueryObjectiv, first_glGetQueryObjectiv, hook_glGetQueryObjectiv, (id: u32, pname: u32, params: Ptr) -> (), {
+export! { 1067, glGetQueryObjectiv, first_glGetQueryObjectiv, hook_glGetQueryObjectiv, (id: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryObjectiv(id, pname, params) }
 } }
-export! { 1066, glGetQueryObjectivARB, first_glGetQueryObjectivARB, hook_glGetQueryObjectivARB, (id: u32, pname: u32, params: Ptr) -> (), {
+export! { 1068, glGetQueryObjectivARB, first_glGetQueryObjectivARB, hook_glGetQueryObjectivARB, (id: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryObjectiv(id, pname, params) }
 } }
-export! { 1067, glGetQueryObjectivEXT, first_glGetQueryObjectivEXT, hook_glGetQueryObjectivEXT, (id: u32, pname: u32, params: Ptr) -> (), {
+export! { 1069, glGetQueryObjectivEXT, first_glGetQueryObjectivEXT, hook_glGetQueryObjectivEXT, (id: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryObjectiv(id, pname, params) }
 } }
-export! { 1068, glGetQueryObjectuiv, first_glGetQueryObjectuiv, hook_glGetQueryObjectuiv, (id: u32, pname: u32, params: Ptr) -> (), {
+export! { 1070, glGetQueryObjectuiv, first_glGetQueryObjectuiv, hook_glGetQueryObjectuiv, (id: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryObjectuiv(id, pname, params) }
 } }
-export! { 1069, glGetQueryObjectuivARB, first_glGetQueryObjectuivARB, hook_glGetQueryObjectuivARB, (id: u32, pname: u32, params: Ptr) -> (), {
+export! { 1071, glGetQueryObjectuivARB, first_glGetQueryObjectuivARB, hook_glGetQueryObjectuivARB, (id: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryObjectuiv(id, pname, params) }
 } }
-export! { 1070, glGetQueryObjecti64v, first_glGetQueryObjecti64v, hook_glGetQueryObjecti64v, (id: u32, pname: u32, params: Ptr) -> (), {
+export! { 1072, glGetQueryObjecti64v, first_glGetQueryObjecti64v, hook_glGetQueryObjecti64v, (id: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryObjecti64v(id, pname, params) }
 } }
-export! { 1071, glGetQueryObjecti64vEXT, first_glGetQueryObjecti64vEXT, hook_glGetQueryObjecti64vEXT, (id: u32, pname: u32, params: Ptr) -> (), {
+export! { 1073, glGetQueryObjecti64vEXT, first_glGetQueryObjecti64vEXT, hook_glGetQueryObjecti64vEXT, (id: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryObjecti64v(id, pname, params) }
 } }
-export! { 1072, glGetQueryObjectui64v, first_glGetQueryObjectui64v, hook_glGetQueryObjectui64v, (id: u32, pname: u32, params: Ptr) -> (), {
+export! { 1074, glGetQueryObjectui64v, first_glGetQueryObjectui64v, hook_glGetQueryObjectui64v, (id: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryObjectui64v(id, pname, params) }
 } }
-export! { 1073, glGetQueryObjectui64vEXT, first_glGetQueryObjectui64vEXT, hook_glGetQueryObjectui64vEXT, (id: u32, pname: u32, params: Ptr) -> (), {
+export! { 1075, glGetQueryObjectui64vEXT, first_glGetQueryObjectui64vEXT, hook_glGetQueryObjectui64vEXT, (id: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryObjectui64v(id, pname, params) }
 } }
-export! { 1074, glXSwapBuffers, first_glXSwapBuffers, hook_glXSwapBuffers, (dpy: Ptr, drawable: c_ulong) -> (), {
+export! { 1076, glIsEnabled, first_glIsEnabled, hook_glIsEnabled, (cap: u32) -> u8, {
+    hooks::ask();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glIsEnabled(cap) }
+} }
+export! { 1077, glIsEnabledi, first_glIsEnabledi, hook_glIsEnabledi, (target: u32, index: u32) -> u8, {
+    hooks::ask();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glIsEnabledi(target, index) }
+} }
+export! { 1078, glIsEnabledIndexedEXT, first_glIsEnabledIndexedEXT, hook_glIsEnabledIndexedEXT, (target: u32, index: u32) -> u8, {
+    hooks::ask();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glIsEnabledIndexedEXT(target, index) }
+} }
+export! { 1079, glIsEnablediEXT, first_glIsEnablediEXT, hook_glIsEnablediEXT, (target: u32, index: u32) -> u8, {
+    hooks::ask();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glIsEnablediEXT(target, index) }
+} }
+export! { 1080, glIsEnablediNV, first_glIsEnablediNV, hook_glIsEnablediNV, (target: u32, index: u32) -> u8, {
+    hooks::ask();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glIsEnablediNV(target, index) }
+} }
+export! { 1081, glIsEnablediOES, first_glIsEnablediOES, hook_glIsEnablediOES, (target: u32, index: u32) -> u8, {
+    hooks::ask();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glIsEnablediOES(target, index) }
+} }
+export! { 1082, glGetTexGendv, first_glGetTexGendv, hook_glGetTexGendv, (coord: u32, pname: u32, params: Ptr) -> (), {
+    hooks::ask();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glGetTexGendv(coord, pname, params) };
+} }
+export! { 1083, glGetTexGenfv, first_glGetTexGenfv, hook_glGetTexGenfv, (coord: u32, pname: u32, params: Ptr) -> (), {
+    hooks::ask();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glGetTexGenfv(coord, pname, params) };
+} }
+export! { 1084, glGetTexGeniv, first_glGetTexGeniv, hook_glGetTexGeniv, (coord: u32, pname: u32, params: Ptr) -> (), {
+    hooks::ask();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glGetTexGeniv(coord, pname, params) };
+} }
+export! { 1085, glGetTexEnvfv, first_glGetTexEnvfv, hook_glGetTexEnvfv, (target: u32, pname: u32, params: Ptr) -> (), {
+    hooks::ask();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glGetTexEnvfv(target, pname, params) };
+} }
+export! { 1086, glGetTexEnviv, first_glGetTexEnviv, hook_glGetTexEnviv, (target: u32, pname: u32, params: Ptr) -> (), {
+    hooks::ask();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glGetTexEnviv(target, pname, params) };
+} }
+export! { 1087, glGetLightfv, first_glGetLightfv, hook_glGetLightfv, (light: u32, pname: u32, params: Ptr) -> (), {
+    hooks::ask();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glGetLightfv(light, pname, params) };
+} }
+export! { 1088, glGetLightiv, first_glGetLightiv, hook_glGetLightiv, (light: u32, pname: u32, params: Ptr) -> (), {
+    hooks::ask();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glGetLightiv(light, pname, params) };
+} }
+export! { 1089, glGetMaterialfv, first_glGetMaterialfv, hook_glGetMaterialfv, (face: u32, pname: u32, params: Ptr) -> (), {
+    hooks::ask();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glGetMaterialfv(face, pname, params) };
+} }
+export! { 1090, glGetMaterialiv, first_glGetMaterialiv, hook_glGetMaterialiv, (face: u32, pname: u32, params: Ptr) -> (), {
+    hooks::ask();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glGetMaterialiv(face, pname, params) };
+} }
+export! { 1091, glGetTexParameterfv, first_glGetTexParameterfv, hook_glGetTexParameterfv, (target: u32, pname: u32, params: Ptr) -> (), {
+    hooks::ask();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glGetTexParameterfv(target, pname, params) };
+} }
+export! { 1092, glGetTexParameteriv, first_glGetTexParameteriv, hook_glGetTexParameteriv, (target: u32, pname: u32, params: Ptr) -> (), {
+    hooks::ask();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glGetTexParameteriv(target, pname, params) };
+} }
+export! { 1093, glGetTexLevelParameterfv, first_glGetTexLevelParameterfv, hook_glGetTexLevelParameterfv, (target: u32, level: i32, pname: u32, params: Ptr) -> (), {
+    hooks::ask();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glGetTexLevelParameterfv(target, level, pname, params) };
+} }
+export! { 1094, glGetTexLevelParameteriv, first_glGetTexLevelParameteriv, hook_glGetTexLevelParameteriv, (target: u32, level: i32, pname: u32, params: Ptr) -> (), {
+    hooks::ask();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glGetTexLevelParameteriv(target, level, pname, params) };
+} }
+export! { 1095, glGetClipPlane, first_glGetClipPlane, hook_glGetClipPlane, (plane: u32, equation: Ptr) -> (), {
+    hooks::ask();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glGetClipPlane(plane, equation) };
+} }
+export! { 1096, glGetMapdv, first_glGetMapdv, hook_glGetMapdv, (target: u32, query: u32, v: Ptr) -> (), {
+    hooks::ask();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glGetMapdv(target, query, v) };
+} }
+export! { 1097, glGetMapfv, first_glGetMapfv, hook_glGetMapfv, (target: u32, query: u32, v: Ptr) -> (), {
+    hooks::ask();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glGetMapfv(target, query, v) };
+} }
+export! { 1098, glGetMapiv, first_glGetMapiv, hook_glGetMapiv, (target: u32, query: u32, v: Ptr) -> (), {
+    hooks::ask();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glGetMapiv(target, query, v) };
+} }
+export! { 1099, glGetPixelMapfv, first_glGetPixelMapfv, hook_glGetPixelMapfv, (map: u32, values: Ptr) -> (), {
+    hooks::ask();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glGetPixelMapfv(map, values) };
+} }
+export! { 1100, glGetPixelMapuiv, first_glGetPixelMapuiv, hook_glGetPixelMapuiv, (map: u32, values: Ptr) -> (), {
+    hooks::ask();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glGetPixelMapuiv(map, values) };
+} }
+export! { 1101, glGetPixelMapusv, first_glGetPixelMapusv, hook_glGetPixelMapusv, (map: u32, values: Ptr) -> (), {
+    hooks::ask();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glGetPixelMapusv(map, values) };
+} }
+export! { 1102, glGetPolygonStipple, first_glGetPolygonStipple, hook_glGetPolygonStipple, (mask: Ptr) -> (), {
+    hooks::ask();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glGetPolygonStipple(mask) };
+} }
+export! { 1103, glGetTexImage, first_glGetTexImage, hook_glGetTexImage, (target: u32, level: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
+    hooks::ask();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glGetTexImage(target, level, format, type_, pixels) };
+} }
+export! { 1104, glGetnTexImage, first_glGetnTexImage, hook_glGetnTexImage, (target: u32, level: i32, format: u32, type_: u32, bufSize: i32, pixels: Ptr) -> (), {
+    hooks::ask();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glGetnTexImage(target, level, format, type_, bufSize, pixels) };
+} }
+export! { 1105, glGetPointerv, first_glGetPointerv, hook_glGetPointerv, (pname: u32, params: Ptr) -> (), {
+    hooks::ask();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glGetPointerv(pname, params) };
+} }
+export! { 1106, glGetPointervEXT, first_glGetPointervEXT, hook_glGetPointervEXT, (pname: u32, params: Ptr) -> (), {
+    hooks::ask();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glGetPointervEXT(pname, params) };
+} }
+export! { 1107, glGetPointervKHR, first_glGetPointervKHR, hook_glGetPointervKHR, (pname: u32, params: Ptr) -> (), {
+    hooks::ask();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glGetPointervKHR(pname, params) };
+} }
+export! { 1108, glGetIntegeri_v, first_glGetIntegeri_v, hook_glGetIntegeri_v, (target: u32, index: u32, data: Ptr) -> (), {
+    hooks::ask();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glGetIntegeri_v(target, index, data) };
+} }
+export! { 1109, glGetIntegerIndexedvEXT, first_glGetIntegerIndexedvEXT, hook_glGetIntegerIndexedvEXT, (target: u32, index: u32, data: Ptr) -> (), {
+    hooks::ask();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glGetIntegerIndexedvEXT(target, index, data) };
+} }
+export! { 1110, glGetUniformfv, first_glGetUniformfv, hook_glGetUniformfv, (program: u32, location: i32, params: Ptr) -> (), {
+    hooks::ask();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glGetUniformfv(program, location, params) };
+} }
+export! { 1111, glGetUniformfvARB, first_glGetUniformfvARB, hook_glGetUniformfvARB, (programObj: u32, location: i32, params: Ptr) -> (), {
+    hooks::ask();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glGetUniformfvARB(programObj, location, params) };
+} }
+export! { 1112, glGetUniformiv, first_glGetUniformiv, hook_glGetUniformiv, (program: u32, location: i32, params: Ptr) -> (), {
+    hooks::ask();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glGetUniformiv(program, location, params) };
+} }
+export! { 1113, glGetUniformivARB, first_glGetUniformivARB, hook_glGetUniformivARB, (programObj: u32, location: i32, params: Ptr) -> (), {
+    hooks::ask();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glGetUniformivARB(programObj, location, params) };
+} }
+export! { 1114, glGetVertexAttribdv, first_glGetVertexAttribdv, hook_glGetVertexAttribdv, (index: u32, pname: u32, params: Ptr) -> (), {
+    hooks::ask();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glGetVertexAttribdv(index, pname, params) };
+} }
+export! { 1115, glGetVertexAttribdvARB, first_glGetVertexAttribdvARB, hook_glGetVertexAttribdvARB, (index: u32, pname: u32, params: Ptr) -> (), {
+    hooks::ask();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glGetVertexAttribdvARB(index, pname, params) };
+} }
+export! { 1116, glGetVertexAttribdvNV, first_glGetVertexAttribdvNV, hook_glGetVertexAttribdvNV, (index: u32, pname: u32, params: Ptr) -> (), {
+    hooks::ask();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glGetVertexAttribdvNV(index, pname, params) };
+} }
+export! { 1117, glGetVertexAttribfv, first_glGetVertexAttribfv, hook_glGetVertexAttribfv, (index: u32, pname: u32, params: Ptr) -> (), {
+    hooks::ask();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glGetVertexAttribfv(index, pname, params) };
+} }
+export! { 1118, glGetVertexAttribfvARB, first_glGetVertexAttribfvARB, hook_glGetVertexAttribfvARB, (index: u32, pname: u32, params: Ptr) -> (), {
+    hooks::ask();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glGetVertexAttribfvARB(index, pname, params) };
+} }
+export! { 1119, glGetVertexAttribfvNV, first_glGetVertexAttribfvNV, hook_glGetVertexAttribfvNV, (index: u32, pname: u32, params: Ptr) -> (), {
+    hooks::ask();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glGetVertexAttribfvNV(index, pname, params) };
+} }
+export! { 1120, glGetVertexAttribiv, first_glGetVertexAttribiv, hook_glGetVertexAttribiv, (index: u32, pname: u32, params: Ptr) -> (), {
+    hooks::ask();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glGetVertexAttribiv(index, pname, params) };
+} }
+export! { 1121, glGetVertexAttribivARB, first_glGetVertexAttribivARB, hook_glGetVertexAttribivARB, (index: u32, pname: u32, params: Ptr) -> (), {
+    hooks::ask();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glGetVertexAttribivARB(index, pname, params) };
+} }
+export! { 1122, glGetVertexAttribivNV, first_glGetVertexAttribivNV, hook_glGetVertexAttribivNV, (index: u32, pname: u32, params: Ptr) -> (), {
+    hooks::ask();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glGetVertexAttribivNV(index, pname, params) };
+} }
+export! { 1123, glGetVertexAttribPointerv, first_glGetVertexAttribPointerv, hook_glGetVertexAttribPointerv, (index: u32, pname: u32, pointer: Ptr) -> (), {
+    hooks::ask();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glGetVertexAttribPointerv(index, pname, pointer) };
+} }
+export! { 1124, glGetVertexAttribPointervARB, first_glGetVertexAttribPointervARB, hook_glGetVertexAttribPointervARB, (index: u32, pname: u32, pointer: Ptr) -> (), {
+    hooks::ask();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glGetVertexAttribPointervARB(index, pname, pointer) };
+} }
+export! { 1125, glGetVertexAttribPointervNV, first_glGetVertexAttribPointervNV, hook_glGetVertexAttribPointervNV, (index: u32, pname: u32, pointer: Ptr) -> (), {
+    hooks::ask();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glGetVertexAttribPointervNV(index, pname, pointer) };
+} }
+export! { 1126, glFeedbackBuffer, first_glFeedbackBuffer, hook_glFeedbackBuffer, (size: i32, type_: u32, buffer: Ptr) -> (), {
+    hooks::ask();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glFeedbackBuffer(size, type_, buffer) };
+} }
+export! { 1127, glSelectBuffer, first_glSelectBuffer, hook_glSelectBuffer, (size: i32, buffer: Ptr) -> (), {
+    hooks::ask();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glSelectBuffer(size, buffer) };
+} }
+export! { 1128, glGenTextures, first_glGenTextures, hook_glGenTextures, (n: i32, textures: Ptr) -> (), {
+    hooks::ask();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glGenTextures(n, textures) };
+} }
+export! { 1129, glGenFramebuffers, first_glGenFramebuffers, hook_glGenFramebuffers, (n: i32, framebuffers: Ptr) -> (), {
+    hooks::ask();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glGenFramebuffers(n, framebuffers) };
+} }
+export! { 1130, glGenFramebuffersEXT, first_glGenFramebuffersEXT, hook_glGenFramebuffersEXT, (n: i32, framebuffers: Ptr) -> (), {
+    hooks::ask();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glGenFramebuffersEXT(n, framebuffers) };
+} }
+export! { 1131, glGenRenderbuffers, first_glGenRenderbuffers, hook_glGenRenderbuffers, (n: i32, renderbuffers: Ptr) -> (), {
+    hooks::ask();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glGenRenderbuffers(n, renderbuffers) };
+} }
+export! { 1132, glGenRenderbuffersEXT, first_glGenRenderbuffersEXT, hook_glGenRenderbuffersEXT, (n: i32, renderbuffers: Ptr) -> (), {
+    hooks::ask();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glGenRenderbuffersEXT(n, renderbuffers) };
+} }
+export! { 1133, glBindRenderbuffer, first_glBindRenderbuffer, hook_glBindRenderbuffer, (target: u32, renderbuffer: u32) -> (), {
+    hooks::ask();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glBindRenderbuffer(target, renderbuffer) };
+} }
+export! { 1134, glRenderbufferStorage, first_glRenderbufferStorage, hook_glRenderbufferStorage, (target: u32, internalformat: u32, width: i32, height: i32) -> (), {
+    hooks::ask();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glRenderbufferStorage(target, internalformat, width, height) };
+} }
+export! { 1135, glRenderbufferStorageEXT, first_glRenderbufferStorageEXT, hook_glRenderbufferStorageEXT, (target: u32, internalformat: u32, width: i32, height: i32) -> (), {
+    hooks::ask();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glRenderbufferStorageEXT(target, internalformat, width, height) };
+} }
+export! { 1136, glRenderbufferStorageMultisample, first_glRenderbufferStorageMultisample, hook_glRenderbufferStorageMultisample, (target: u32, samples: i32, internalformat: u32, width: i32, height: i32) -> (), {
+    hooks::ask();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glRenderbufferStorageMultisample(target, samples, internalformat, width, height) };
+} }
+export! { 1137, glRenderbufferStorageMultisampleEXT, first_glRenderbufferStorageMultisampleEXT, hook_glRenderbufferStorageMultisampleEXT, (target: u32, samples: i32, internalformat: u32, width: i32, height: i32) -> (), {
+    hooks::ask();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glRenderbufferStorageMultisampleEXT(target, samples, internalformat, width, height) };
+} }
+export! { 1138, glRenderbufferStorageMultisampleNV, first_glRenderbufferStorageMultisampleNV, hook_glRenderbufferStorageMultisampleNV, (target: u32, samples: i32, internalformat: u32, width: i32, height: i32) -> (), {
+    hooks::ask();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glRenderbufferStorageMultisampleNV(target, samples, internalformat, width, height) };
+} }
+export! { 1139, glDeleteRenderbuffers, first_glDeleteRenderbuffers, hook_glDeleteRenderbuffers, (n: i32, renderbuffers: Ptr) -> (), {
+    hooks::ask();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glDeleteRenderbuffers(n, renderbuffers) };
+} }
+export! { 1140, glDeleteRenderbuffersEXT, first_glDeleteRenderbuffersEXT, hook_glDeleteRenderbuffersEXT, (n: i32, renderbuffers: Ptr) -> (), {
+    hooks::ask();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glDeleteRenderbuffersEXT(n, renderbuffers) };
+} }
+export! { 1141, glBindBuffer, first_glBindBuffer, hook_glBindBuffer, (target: u32, buffer: u32) -> (), {
+    hooks::ask();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glBindBuffer(target, buffer) };
+} }
+export! { 1142, glBindBufferARB, first_glBindBufferARB, hook_glBindBufferARB, (target: u32, buffer: u32) -> (), {
+    hooks::ask();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glBindBufferARB(target, buffer) };
+} }
+export! { 1143, glBufferData, first_glBufferData, hook_glBufferData, (target: u32, size: isize, data: Ptr, usage: u32) -> (), {
+    hooks::ask();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glBufferData(target, size, data, usage) };
+} }
+export! { 1144, glBufferDataARB, first_glBufferDataARB, hook_glBufferDataARB, (target: u32, size: isize, data: Ptr, usage: u32) -> (), {
+    hooks::ask();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glBufferDataARB(target, size, data, usage) };
+} }
+export! { 1145, glBufferSubData, first_glBufferSubData, hook_glBufferSubData, (target: u32, offset: isize, size: isize, data: Ptr) -> (), {
+    hooks::ask();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glBufferSubData(target, offset, size, data) };
+} }
+export! { 1146, glBufferSubDataARB, first_glBufferSubDataARB, hook_glBufferSubDataARB, (target: u32, offset: isize, size: isize, data: Ptr) -> (), {
+    hooks::ask();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glBufferSubDataARB(target, offset, size, data) };
+} }
+export! { 1147, glDeleteBuffers, first_glDeleteBuffers, hook_glDeleteBuffers, (n: i32, buffers: Ptr) -> (), {
+    hooks::ask();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glDeleteBuffers(n, buffers) };
+} }
+export! { 1148, glDeleteBuffersARB, first_glDeleteBuffersARB, hook_glDeleteBuffersARB, (n: i32, buffers: Ptr) -> (), {
+    hooks::ask();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glDeleteBuffersARB(n, buffers) };
+} }
+export! { 1149, glPixelStoref, first_glPixelStoref, hook_glPixelStoref, (pname: u32, param: f32) -> (), {
+    hooks::ask();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glPixelStoref(pname, param) };
+} }
+export! { 1150, glPixelStorei, first_glPixelStorei, hook_glPixelStorei, (pname: u32, param: i32) -> (), {
+    hooks::ask();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glPixelStorei(pname, param) };
+} }
+export! { 1151, glPushClientAttrib, first_glPushClientAttrib, hook_glPushClientAttrib, (mask: u32) -> (), {
+    hooks::ask();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glPushClientAttrib(mask) };
+} }
+export! { 1152, glPopClientAttrib, first_glPopClientAttrib, hook_glPopClientAttrib, () -> (), {
+    hooks::ask();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glPopClientAttrib() };
+} }
+export! { 1153, glEnableClientState, first_glEnableClientState, hook_glEnableClientState, (array: u32) -> (), {
+    hooks::ask();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glEnableClientState(array) };
+} }
+export! { 1154, glDisableClientState, first_glDisableClientState, hook_glDisableClientState, (array: u32) -> (), {
+    hooks::ask();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glDisableClientState(array) };
+} }
+export! { 1155, glClientActiveTexture, first_glClientActiveTexture, hook_glClientActiveTexture, (texture: u32) -> (), {
+    hooks::ask();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glClientActiveTexture(texture) };
+} }
+export! { 1156, glClientActiveTextureARB, first_glClientActiveTextureARB, hook_glClientActiveTextureARB, (texture: u32) -> (), {
+    hooks::ask();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glClientActiveTextureARB(texture) };
+} }
+export! { 1157, glInterleavedArrays, first_glInterleavedArrays, hook_glInterleavedArrays, (format: u32, stride: i32, pointer: Ptr) -> (), {
+    hooks::ask();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glInterleavedArrays(format, stride, pointer) };
+} }
+export! { 1158, glColorPointer, first_glColorPointer, hook_glColorPointer, (size: i32, type_: u32, stride: i32, pointer: Ptr) -> (), {
+    hooks::ask();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glColorPointer(size, type_, stride, pointer) };
+} }
+export! { 1159, glSecondaryColorPointer, first_glSecondaryColorPointer, hook_glSecondaryColorPointer, (size: i32, type_: u32, stride: i32, pointer: Ptr) -> (), {
+    hooks::ask();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glSecondaryColorPointer(size, type_, stride, pointer) };
+} }
+export! { 1160, glSecondaryColorPointerEXT, first_glSecondaryColorPointerEXT, hook_glSecondaryColorPointerEXT, (size: i32, type_: u32, stride: i32, pointer: Ptr) -> (), {
+    hooks::ask();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glSecondaryColorPointerEXT(size, type_, stride, pointer) };
+} }
+export! { 1161, glTexCoordPointer, first_glTexCoordPointer, hook_glTexCoordPointer, (size: i32, type_: u32, stride: i32, pointer: Ptr) -> (), {
+    hooks::ask();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glTexCoordPointer(size, type_, stride, pointer) };
+} }
+export! { 1162, glVertexPointer, first_glVertexPointer, hook_glVertexPointer, (size: i32, type_: u32, stride: i32, pointer: Ptr) -> (), {
+    hooks::ask();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glVertexPointer(size, type_, stride, pointer) };
+} }
+export! { 1163, glEdgeFlagPointer, first_glEdgeFlagPointer, hook_glEdgeFlagPointer, (stride: i32, pointer: Ptr) -> (), {
+    hooks::ask();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glEdgeFlagPointer(stride, pointer) };
+} }
+export! { 1164, glFogCoordPointer, first_glFogCoordPointer, hook_glFogCoordPointer, (type_: u32, stride: i32, pointer: Ptr) -> (), {
+    hooks::ask();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glFogCoordPointer(type_, stride, pointer) };
+} }
+export! { 1165, glFogCoordPointerEXT, first_glFogCoordPointerEXT, hook_glFogCoordPointerEXT, (type_: u32, stride: i32, pointer: Ptr) -> (), {
+    hooks::ask();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glFogCoordPointerEXT(type_, stride, pointer) };
+} }
+export! { 1166, glIndexPointer, first_glIndexPointer, hook_glIndexPointer, (type_: u32, stride: i32, pointer: Ptr) -> (), {
+    hooks::ask();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glIndexPointer(type_, stride, pointer) };
+} }
+export! { 1167, glNormalPointer, first_glNormalPointer, hook_glNormalPointer, (type_: u32, stride: i32, pointer: Ptr) -> (), {
+    hooks::ask();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glNormalPointer(type_, stride, pointer) };
+} }
+export! { 1168, glVertexAttribPointer, first_glVertexAttribPointer, hook_glVertexAttribPointer, (index: u32, size: i32, type_: u32, normalized: u8, stride: i32, pointer: Ptr) -> (), {
+    hooks::ask();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glVertexAttribPointer(index, size, type_, normalized, stride, pointer) };
+} }
+export! { 1169, glVertexAttribPointerARB, first_glVertexAttribPointerARB, hook_glVertexAttribPointerARB, (index: u32, size: i32, type_: u32, normalized: u8, stride: i32, pointer: Ptr) -> (), {
+    hooks::ask();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glVertexAttribPointerARB(index, size, type_, normalized, stride, pointer) };
+} }
+export! { 1170, glEnableVertexAttribArray, first_glEnableVertexAttribArray, hook_glEnableVertexAttribArray, (index: u32) -> (), {
+    hooks::ask();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glEnableVertexAttribArray(index) };
+} }
+export! { 1171, glEnableVertexAttribArrayARB, first_glEnableVertexAttribArrayARB, hook_glEnableVertexAttribArrayARB, (index: u32) -> (), {
+    hooks::ask();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glEnableVertexAttribArrayARB(index) };
+} }
+export! { 1172, glDisableVertexAttribArray, first_glDisableVertexAttribArray, hook_glDisableVertexAttribArray, (index: u32) -> (), {
+    hooks::ask();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glDisableVertexAttribArray(index) };
+} }
+export! { 1173, glDisableVertexAttribArrayARB, first_glDisableVertexAttribArrayARB, hook_glDisableVertexAttribArrayARB, (index: u32) -> (), {
+    hooks::ask();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glDisableVertexAttribArrayARB(index) };
+} }
+export! { 1174, glXSwapBuffers, first_glXSwapBuffers, hook_glXSwapBuffers, (dpy: Ptr, drawable: c_ulong) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glXSwapBuffers(dpy, drawable) }
 } }
-export! { 1075, glXSwapBuffersMscOML, first_glXSwapBuffersMscOML, hook_glXSwapBuffersMscOML, (dpy: Ptr, drawable: c_ulong, target_msc: i64, divisor: i64, remainder: i64) -> i64, {
+export! { 1175, glXSwapBuffersMscOML, first_glXSwapBuffersMscOML, hook_glXSwapBuffersMscOML, (dpy: Ptr, drawable: c_ulong, target_msc: i64, divisor: i64, remainder: i64) -> i64, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXSwapBuffersMscOML(dpy, drawable, target_msc, divisor, remainder) }
 } }
-export! { 1076, glXMakeCurrent, first_glXMakeCurrent, hook_glXMakeCurrent, (dpy: Ptr, drawable: c_ulong, ctx: Ptr) -> i32, {
+export! { 1176, glXMakeCurrent, first_glXMakeCurrent, hook_glXMakeCurrent, (dpy: Ptr, drawable: c_ulong, ctx: Ptr) -> i32, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXMakeCurrent(dpy, drawable, ctx) }
 } }
-export! { 1077, glXMakeContextCurrent, first_glXMakeContextCurrent, hook_glXMakeContextCurrent, (dpy: Ptr, draw: c_ulong, read: c_ulong, ctx: Ptr) -> i32, {
+export! { 1177, glXMakeContextCurrent, first_glXMakeContextCurrent, hook_glXMakeContextCurrent, (dpy: Ptr, draw: c_ulong, read: c_ulong, ctx: Ptr) -> i32, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXMakeContextCurrent(dpy, draw, read, ctx) }
 } }
-export! { 1078, glXMakeCurrentReadSGI, first_glXMakeCurrentReadSGI, hook_glXMakeCurrentReadSGI, (dpy: Ptr, draw: c_ulong, read: c_ulong, ctx: Ptr) -> i32, {
+export! { 1178, glXMakeCurrentReadSGI, first_glXMakeCurrentReadSGI, hook_glXMakeCurrentReadSGI, (dpy: Ptr, draw: c_ulong, read: c_ulong, ctx: Ptr) -> i32, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXMakeCurrentReadSGI(dpy, draw, read, ctx) }
 } }
-export! { 1079, glXCreateContext, first_glXCreateContext, hook_glXCreateContext, (dpy: Ptr, vis: Ptr, share: Ptr, direct: i32) -> Ptr, {
+export! { 1179, glXCreateContext, first_glXCreateContext, hook_glXCreateContext, (dpy: Ptr, vis: Ptr, share: Ptr, direct: i32) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXCreateContext(dpy, vis, share, direct) }
 } }
-export! { 1080, glXCreateNewContext, first_glXCreateNewContext, hook_glXCreateNewContext, (dpy: Ptr, config: Ptr, kind: i32, share: Ptr, direct: i32) -> Ptr, {
+export! { 1180, glXCreateNewContext, first_glXCreateNewContext, hook_glXCreateNewContext, (dpy: Ptr, config: Ptr, kind: i32, share: Ptr, direct: i32) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXCreateNewContext(dpy, config, kind, share, direct) }
 } }
-export! { 1081, glXCreateContextAttribsARB, first_glXCreateContextAttribsARB, hook_glXCreateContextAttribsARB, (dpy: Ptr, config: Ptr, share: Ptr, direct: i32, attribs: Ptr) -> Ptr, {
+export! { 1181, glXCreateContextAttribsARB, first_glXCreateContextAttribsARB, hook_glXCreateContextAttribsARB, (dpy: Ptr, config: Ptr, share: Ptr, direct: i32, attribs: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXCreateContextAttribsARB(dpy, config, share, direct, attribs) }
 } }
-export! { 1082, glXCreateContextWithConfigSGIX, first_glXCreateContextWithConfigSGIX, hook_glXCreateContextWithConfigSGIX, (dpy: Ptr, config: Ptr, kind: i32, share: Ptr, direct: i32) -> Ptr, {
+export! { 1182, glXCreateContextWithConfigSGIX, first_glXCreateContextWithConfigSGIX, hook_glXCreateContextWithConfigSGIX, (dpy: Ptr, config: Ptr, kind: i32, share: Ptr, direct: i32) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXCreateContextWithConfigSGIX(dpy, config, kind, share, direct) }
 } }
-export! { 1083, glXDestroyContext, first_glXDestroyContext, hook_glXDestroyContext, (dpy: Ptr, ctx: Ptr) -> (), {
+export! { 1183, glXDestroyContext, first_glXDestroyContext, hook_glXDestroyContext, (dpy: Ptr, ctx: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glXDestroyContext(dpy, ctx) }
 } }
-export! { 1084, glXGetProcAddress, first_glXGetProcAddress, hook_glXGetProcAddress, (name: Ptr) -> Ptr, {
+export! { 1184, glXGetProcAddress, first_glXGetProcAddress, hook_glXGetProcAddress, (name: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXGetProcAddress(name) }
 } }
-export! { 1085, glXGetProcAddressARB, first_glXGetProcAddressARB, hook_glXGetProcAddressARB, (name: Ptr) -> Ptr, {
+export! { 1185, glXGetProcAddressARB, first_glXGetProcAddressARB, hook_glXGetProcAddressARB, (name: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXGetProcAddressARB(name) }
 } }
-export! { 1087, eglSwapBuffers, first_eglSwapBuffers, hook_eglSwapBuffers, (dpy: Ptr, surface: Ptr) -> u32, {
+export! { 1187, eglSwapBuffers, first_eglSwapBuffers, hook_eglSwapBuffers, (dpy: Ptr, surface: Ptr) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglSwapBuffers(dpy, surface) }
 } }
-export! { 1088, eglSwapBuffersWithDamageKHR, first_eglSwapBuffersWithDamageKHR, hook_eglSwapBuffersWithDamageKHR, (dpy: Ptr, surface: Ptr, rects: Ptr, n: i32) -> u32, {
+export! { 1188, eglSwapBuffersWithDamageKHR, first_eglSwapBuffersWithDamageKHR, hook_eglSwapBuffersWithDamageKHR, (dpy: Ptr, surface: Ptr, rects: Ptr, n: i32) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglSwapBuffersWithDamageKHR(dpy, surface, rects, n) }
 } }
-export! { 1089, eglSwapBuffersWithDamageEXT, first_eglSwapBuffersWithDamageEXT, hook_eglSwapBuffersWithDamageEXT, (dpy: Ptr, surface: Ptr, rects: Ptr, n: i32) -> u32, {
+export! { 1189, eglSwapBuffersWithDamageEXT, first_eglSwapBuffersWithDamageEXT, hook_eglSwapBuffersWithDamageEXT, (dpy: Ptr, surface: Ptr, rects: Ptr, n: i32) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglSwapBuffersWithDamageEXT(dpy, surface, rects, n) }
 } }
-export! { 1090, eglMakeCurrent, first_eglMakeCurrent, hook_eglMakeCurrent, (dpy: Ptr, draw: Ptr, read: Ptr, ctx: Ptr) -> u32, {
+export! { 1190, eglMakeCurrent, first_eglMakeCurrent, hook_eglMakeCurrent, (dpy: Ptr, draw: Ptr, read: Ptr, ctx: Ptr) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglMakeCurrent(dpy, draw, read, ctx) }
 } }
-export! { 1091, eglCreateContext, first_eglCreateContext, hook_eglCreateContext, (dpy: Ptr, config: Ptr, share: Ptr, attribs: Ptr) -> Ptr, {
+export! { 1191, eglCreateContext, first_eglCreateContext, hook_eglCreateContext, (dpy: Ptr, config: Ptr, share: Ptr, attribs: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglCreateContext(dpy, config, share, attribs) }
 } }
-export! { 1092, eglDestroyContext, first_eglDestroyContext, hook_eglDestroyContext, (dpy: Ptr, ctx: Ptr) -> u32, {
+export! { 1192, eglDestroyContext, first_eglDestroyContext, hook_eglDestroyContext, (dpy: Ptr, ctx: Ptr) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglDestroyContext(dpy, ctx) }
 } }
-export! { 1093, eglReleaseThread, first_eglReleaseThread, hook_eglReleaseThread, () -> u32, {
+export! { 1193, eglReleaseThread, first_eglReleaseThread, hook_eglReleaseThread, () -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglReleaseThread() }
 } }
-export! { 1094, eglGetProcAddress, first_eglGetProcAddress, hook_eglGetProcAddress, (name: Ptr) -> Ptr, {
+export! { 1194, eglGetProcAddress, first_eglGetProcAddress, hook_eglGetProcAddress, (name: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglGetProcAddress(name) }
 } }
-export! { 1099, OSMesaMakeCurrent, first_OSMesaMakeCurrent, hook_OSMesaMakeCurrent, (ctx: Ptr, buffer: Ptr, kind: u32, width: i32, height: i32) -> u8, {
+export! { 1199, OSMesaMakeCurrent, first_OSMesaMakeCurrent, hook_OSMesaMakeCurrent, (ctx: Ptr, buffer: Ptr, kind: u32, width: i32, height: i32) -> u8, {
     // SAFETY: the program's own arguments.
     unsafe { special::OSMesaMakeCurrent(ctx, buffer, kind, width, height) }
 } }
-export! { 1100, OSMesaCreateContext, first_OSMesaCreateContext, hook_OSMesaCreateContext, (format: u32, share: Ptr) -> Ptr, {
+export! { 1200, OSMesaCreateContext, first_OSMesaCreateContext, hook_OSMesaCreateContext, (format: u32, share: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::OSMesaCreateContext(format, share) }
 } }
-export! { 1101, OSMesaCreateContextExt, first_OSMesaCreateContextExt, hook_OSMesaCreateContextExt, (format: u32, depth: i32, stencil: i32, accum: i32, share: Ptr) -> Ptr, {
+export! { 1201, OSMesaCreateContextExt, first_OSMesaCreateContextExt, hook_OSMesaCreateContextExt, (format: u32, depth: i32, stencil: i32, accum: i32, share: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::OSMesaCreateContextExt(format, depth, stencil, accum, share) }
 } }
-export! { 1102, OSMesaCreateContextAttribs, first_OSMesaCreateContextAttribs, hook_OSMesaCreateContextAttribs, (attribs: Ptr, share: Ptr) -> Ptr, {
+export! { 1202, OSMesaCreateContextAttribs, first_OSMesaCreateContextAttribs, hook_OSMesaCreateContextAttribs, (attribs: Ptr, share: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::OSMesaCreateContextAttribs(attribs, share) }
 } }
-export! { 1103, OSMesaDestroyContext, first_OSMesaDestroyContext, hook_OSMesaDestroyContext, (ctx: Ptr) -> (), {
+export! { 1203, OSMesaDestroyContext, first_OSMesaDestroyContext, hook_OSMesaDestroyContext, (ctx: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::OSMesaDestroyContext(ctx) }
 } }
-export! { 1104, OSMesaGetProcAddress, first_OSMesaGetProcAddress, hook_OSMesaGetProcAddress, (name: Ptr) -> Ptr, {
+export! { 1204, OSMesaGetProcAddress, first_OSMesaGetProcAddress, hook_OSMesaGetProcAddress, (name: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::OSMesaGetProcAddress(name) }
 } }

@@ -61,6 +61,14 @@ pub(crate) fn copy(target: u32, x: i32, width: i32, call: &mut dyn FnMut(&'stati
     }
 }
 
+/// A command that no list compiles is about to be called: what comes before it has to have happened.
+#[inline]
+pub(crate) fn ask() {
+    if context::peek(|l| l.executes()) == Some(true) {
+        enter(|gl, l| l.catch_up(gl));
+    }
+}
+
 /// A command on the current matrix or its stack is about to be called.
 #[inline]
 pub(crate) fn matrix(command: Command) {
@@ -131,8 +139,16 @@ pub(crate) fn read(x: i32, width: i32, call: &mut dyn FnMut(&'static Real)) {
     }
 }
 
+/// As [`read`], of a command that no list compiles.
+pub(crate) fn read_now(x: i32, width: i32, call: &mut dyn FnMut(&'static Real)) {
+    if enter(|gl, l| l.read_now(gl, x, width, &mut || call(gl.real()))).is_none() {
+        call(real());
+    }
+}
+
 /// A call about the framebuffer bound at `target`: about the true one where that is the program's 0.
 pub(crate) fn hide<R>(target: u32, call: &mut dyn FnMut(&'static Real) -> R) -> R {
+    ask();
     let mut answer = None;
     enter(|gl, l| l.with_true_zero(gl, target, &mut || answer = Some(call(gl.real()))));
     answer.unwrap_or_else(|| call(real()))

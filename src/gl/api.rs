@@ -338,8 +338,34 @@ impl Gl {
 
     /// glDeleteLists of one list.
     pub fn delete_list(&self, list: u32) {
+        self.delete_lists(list, 1);
+    }
+
+    /// glDeleteLists
+    pub fn delete_lists(&self, first: u32, count: u32) {
         // SAFETY: a context is current.
-        unsafe { self.real.glDeleteLists(list, 1) };
+        unsafe { self.real.glDeleteLists(first, count as i32) };
+    }
+
+    /// glBlitFramebuffer with its arguments in order, moved to the right by pixels in the source and in the destination.
+    pub fn blit(&self, arguments: &[u32; 10], from: i32, to: i32) {
+        let [a, b, c, d, e, f, g, h, mask, filter] = *arguments;
+        let at = |x: u32, by: i32| (x as i32).wrapping_add(by);
+        // SAFETY: a context is current.
+        unsafe {
+            self.real.glBlitFramebuffer(
+                at(a, from),
+                b as i32,
+                at(c, from),
+                d as i32,
+                at(e, to),
+                f as i32,
+                at(g, to),
+                h as i32,
+                mask,
+                filter,
+            )
+        };
     }
 
     /// glBitmap without a picture: moves the raster position by (dx, dy) window pixels.

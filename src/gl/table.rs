@@ -4,7 +4,7 @@ use super::real::{Ptr, Real};
 use core::ffi::{CStr, c_ulong};
 
 /// Number of commands in the table.
-pub const COUNT: usize = 1158;
+pub const COUNT: usize = 1235;
 
 /// Index of each command in the table.
 pub mod slot {
@@ -973,199 +973,276 @@ pub mod slot {
     pub const glCallList: usize = 962;
     pub const glCallLists: usize = 963;
     pub const glDeleteLists: usize = 964;
-    pub const glBindTexture: usize = 965;
-    pub const glBindTextureEXT: usize = 966;
-    pub const glDeleteTextures: usize = 967;
-    pub const glIsTexture: usize = 968;
-    pub const glIsFramebuffer: usize = 969;
-    pub const glIsFramebufferEXT: usize = 970;
-    pub const glBindFramebuffer: usize = 971;
-    pub const glBindFramebufferEXT: usize = 972;
-    pub const glDeleteFramebuffers: usize = 973;
-    pub const glDeleteFramebuffersEXT: usize = 974;
-    pub const glDrawBuffer: usize = 975;
-    pub const glDrawBuffers: usize = 976;
-    pub const glDrawBuffersARB: usize = 977;
-    pub const glDrawBuffersATI: usize = 978;
-    pub const glDrawBuffersEXT: usize = 979;
-    pub const glReadBuffer: usize = 980;
-    pub const glNamedFramebufferDrawBuffer: usize = 981;
-    pub const glNamedFramebufferDrawBuffers: usize = 982;
-    pub const glNamedFramebufferReadBuffer: usize = 983;
-    pub const glFramebufferDrawBufferEXT: usize = 984;
-    pub const glFramebufferDrawBuffersEXT: usize = 985;
-    pub const glFramebufferReadBufferEXT: usize = 986;
-    pub const glBlitFramebuffer: usize = 987;
-    pub const glBlitFramebufferEXT: usize = 988;
-    pub const glBlitFramebufferNV: usize = 989;
-    pub const glBlitNamedFramebuffer: usize = 990;
-    pub const glClearNamedFramebufferfv: usize = 991;
-    pub const glClearNamedFramebufferiv: usize = 992;
-    pub const glClearNamedFramebufferuiv: usize = 993;
-    pub const glClearNamedFramebufferfi: usize = 994;
-    pub const glGetIntegerv: usize = 995;
-    pub const glGetBooleanv: usize = 996;
-    pub const glGetFloatv: usize = 997;
-    pub const glGetDoublev: usize = 998;
-    pub const glGetInteger64v: usize = 999;
-    pub const glGetInteger64vAPPLE: usize = 1000;
-    pub const glGetInteger64vEXT: usize = 1001;
-    pub const glFramebufferTexture: usize = 1002;
-    pub const glFramebufferTextureARB: usize = 1003;
-    pub const glFramebufferTextureEXT: usize = 1004;
-    pub const glFramebufferTextureOES: usize = 1005;
-    pub const glFramebufferTexture1D: usize = 1006;
-    pub const glFramebufferTexture1DEXT: usize = 1007;
-    pub const glFramebufferTexture2D: usize = 1008;
-    pub const glFramebufferTexture2DEXT: usize = 1009;
-    pub const glFramebufferTexture3D: usize = 1010;
-    pub const glFramebufferTexture3DEXT: usize = 1011;
-    pub const glFramebufferTextureLayer: usize = 1012;
-    pub const glFramebufferTextureLayerARB: usize = 1013;
-    pub const glFramebufferTextureLayerEXT: usize = 1014;
-    pub const glFramebufferRenderbuffer: usize = 1015;
-    pub const glFramebufferRenderbufferEXT: usize = 1016;
-    pub const glGetFramebufferAttachmentParameteriv: usize = 1017;
-    pub const glGetFramebufferAttachmentParameterivEXT: usize = 1018;
-    pub const glCheckFramebufferStatus: usize = 1019;
-    pub const glCheckFramebufferStatusEXT: usize = 1020;
-    pub const glFramebufferParameteri: usize = 1021;
-    pub const glGetFramebufferParameteriv: usize = 1022;
-    pub const glInvalidateFramebuffer: usize = 1023;
-    pub const glInvalidateSubFramebuffer: usize = 1024;
-    pub const glDiscardFramebufferEXT: usize = 1025;
-    pub const glCopyTexImage1D: usize = 1026;
-    pub const glCopyTexImage1DEXT: usize = 1027;
-    pub const glCopyTexImage2D: usize = 1028;
-    pub const glCopyTexImage2DEXT: usize = 1029;
-    pub const glCopyTexSubImage1D: usize = 1030;
-    pub const glCopyTexSubImage1DEXT: usize = 1031;
-    pub const glCopyTexSubImage2D: usize = 1032;
-    pub const glCopyTexSubImage2DEXT: usize = 1033;
-    pub const glReadPixels: usize = 1034;
-    pub const glReadnPixels: usize = 1035;
-    pub const glReadnPixelsARB: usize = 1036;
-    pub const glReadnPixelsEXT: usize = 1037;
-    pub const glReadnPixelsKHR: usize = 1038;
-    pub const glCopyTexSubImage3D: usize = 1039;
-    pub const glCopyTexSubImage3DEXT: usize = 1040;
-    pub const glCopyTextureSubImage1D: usize = 1041;
-    pub const glCopyTextureSubImage2D: usize = 1042;
-    pub const glCopyTextureSubImage3D: usize = 1043;
-    pub const glCopyMultiTexImage1DEXT: usize = 1044;
-    pub const glCopyMultiTexImage2DEXT: usize = 1045;
-    pub const glCopyTextureImage1DEXT: usize = 1046;
-    pub const glCopyTextureImage2DEXT: usize = 1047;
-    pub const glCopyColorTable: usize = 1048;
-    pub const glCopyColorTableSGI: usize = 1049;
-    pub const glCopyConvolutionFilter1D: usize = 1050;
-    pub const glCopyConvolutionFilter1DEXT: usize = 1051;
-    pub const glCopyConvolutionFilter2D: usize = 1052;
-    pub const glCopyConvolutionFilter2DEXT: usize = 1053;
-    pub const glFinish: usize = 1054;
-    pub const glFlush: usize = 1055;
-    pub const glGetError: usize = 1056;
-    pub const glBeginQuery: usize = 1057;
-    pub const glBeginQueryARB: usize = 1058;
-    pub const glEndQuery: usize = 1059;
-    pub const glEndQueryARB: usize = 1060;
-    pub const glDeleteQueries: usize = 1061;
-    pub const glDeleteQueriesARB: usize = 1062;
-    pub const glGetQueryiv: usize = 1063;
-    pub const glGetQueryivARB: usize = 1064;
-    pub const glGetQueryObjectiv: usize = 1065;
-    pub const glGetQueryObjectivARB: usize = 1066;
-    pub const glGetQueryObjectivEXT: usize = 1067;
-    pub const glGetQueryObjectuiv: usize = 1068;
-    pub const glGetQueryObjectuivARB: usize = 1069;
-    pub const glGetQueryObjecti64v: usize = 1070;
-    pub const glGetQueryObjecti64vEXT: usize = 1071;
-    pub const glGetQueryObjectui64v: usize = 1072;
-    pub const glGetQueryObjectui64vEXT: usize = 1073;
-    pub const glXSwapBuffers: usize = 1074;
-    pub const glXSwapBuffersMscOML: usize = 1075;
-    pub const glXMakeCurrent: usize = 1076;
-    pub const glXMakeContextCurrent: usize = 1077;
-    pub const glXMakeCurrentReadSGI: usize = 1078;
-    pub const glXCreateContext: usize = 1079;
-    pub const glXCreateNewContext: usize = 1080;
-    pub const glXCreateContextAttribsARB: usize = 1081;
-    pub const glXCreateContextWithConfigSGIX: usize = 1082;
-    pub const glXDestroyContext: usize = 1083;
-    pub const glXGetProcAddress: usize = 1084;
-    pub const glXGetProcAddressARB: usize = 1085;
-    pub const glXQueryDrawable: usize = 1086;
-    pub const eglSwapBuffers: usize = 1087;
-    pub const eglSwapBuffersWithDamageKHR: usize = 1088;
-    pub const eglSwapBuffersWithDamageEXT: usize = 1089;
-    pub const eglMakeCurrent: usize = 1090;
-    pub const eglCreateContext: usize = 1091;
-    pub const eglDestroyContext: usize = 1092;
-    pub const eglReleaseThread: usize = 1093;
-    pub const eglGetProcAddress: usize = 1094;
-    pub const eglQuerySurface: usize = 1095;
-    pub const eglQueryContext: usize = 1096;
-    pub const eglGetCurrentContext: usize = 1097;
-    pub const glXGetCurrentContext: usize = 1098;
-    pub const OSMesaMakeCurrent: usize = 1099;
-    pub const OSMesaCreateContext: usize = 1100;
-    pub const OSMesaCreateContextExt: usize = 1101;
-    pub const OSMesaCreateContextAttribs: usize = 1102;
-    pub const OSMesaDestroyContext: usize = 1103;
-    pub const OSMesaGetProcAddress: usize = 1104;
-    pub const glGetTexLevelParameteriv: usize = 1105;
-    pub const glCopyImageSubData: usize = 1106;
-    pub const glIsList: usize = 1107;
-    pub const glGetString: usize = 1108;
-    pub const glGetStringi: usize = 1109;
-    pub const glIsEnabled: usize = 1110;
-    pub const glIsEnabledi: usize = 1111;
-    pub const glGetIntegeri_v: usize = 1112;
-    pub const glGetTexGeniv: usize = 1113;
-    pub const glGetTexGenfv: usize = 1114;
-    pub const glGetTexEnviv: usize = 1115;
-    pub const glGetLightfv: usize = 1116;
-    pub const glGetTexParameteriv: usize = 1117;
-    pub const glGetMaterialfv: usize = 1118;
-    pub const glGenQueries: usize = 1119;
-    pub const glGenTextures: usize = 1120;
-    pub const glTexImage2DMultisample: usize = 1121;
-    pub const glTexImage3DMultisample: usize = 1122;
-    pub const glGenFramebuffers: usize = 1123;
-    pub const glGenRenderbuffers: usize = 1124;
-    pub const glBindRenderbuffer: usize = 1125;
-    pub const glRenderbufferStorage: usize = 1126;
-    pub const glRenderbufferStorageMultisample: usize = 1127;
-    pub const glDeleteRenderbuffers: usize = 1128;
-    pub const glCreateShader: usize = 1129;
-    pub const glShaderSource: usize = 1130;
-    pub const glCompileShader: usize = 1131;
-    pub const glGetShaderiv: usize = 1132;
-    pub const glGetShaderInfoLog: usize = 1133;
-    pub const glCreateProgram: usize = 1134;
-    pub const glAttachShader: usize = 1135;
-    pub const glLinkProgram: usize = 1136;
-    pub const glGetProgramiv: usize = 1137;
-    pub const glGetProgramInfoLog: usize = 1138;
-    pub const glDeleteShader: usize = 1139;
-    pub const glDeleteProgram: usize = 1140;
-    pub const glGetUniformLocation: usize = 1141;
-    pub const glGetUniformBlockIndex: usize = 1142;
-    pub const glUniformBlockBinding: usize = 1143;
-    pub const glBindBufferBase: usize = 1144;
-    pub const glBindBufferRange: usize = 1145;
-    pub const glGenBuffers: usize = 1146;
-    pub const glBindBuffer: usize = 1147;
-    pub const glBufferData: usize = 1148;
-    pub const glBufferSubData: usize = 1149;
-    pub const glDeleteBuffers: usize = 1150;
-    pub const glBindAttribLocation: usize = 1151;
-    pub const glProgramParameteri: usize = 1152;
-    pub const glGenVertexArrays: usize = 1153;
-    pub const glBindVertexArray: usize = 1154;
-    pub const glGenSamplers: usize = 1155;
-    pub const glBindSampler: usize = 1156;
-    pub const glPixelStorei: usize = 1157;
+    pub const glGenLists: usize = 965;
+    pub const glIsList: usize = 966;
+    pub const glBindTexture: usize = 967;
+    pub const glBindTextureEXT: usize = 968;
+    pub const glDeleteTextures: usize = 969;
+    pub const glIsTexture: usize = 970;
+    pub const glIsFramebuffer: usize = 971;
+    pub const glIsFramebufferEXT: usize = 972;
+    pub const glBindFramebuffer: usize = 973;
+    pub const glBindFramebufferEXT: usize = 974;
+    pub const glDeleteFramebuffers: usize = 975;
+    pub const glDeleteFramebuffersEXT: usize = 976;
+    pub const glDrawBuffer: usize = 977;
+    pub const glDrawBuffers: usize = 978;
+    pub const glDrawBuffersARB: usize = 979;
+    pub const glDrawBuffersATI: usize = 980;
+    pub const glDrawBuffersEXT: usize = 981;
+    pub const glReadBuffer: usize = 982;
+    pub const glNamedFramebufferDrawBuffer: usize = 983;
+    pub const glNamedFramebufferDrawBuffers: usize = 984;
+    pub const glNamedFramebufferReadBuffer: usize = 985;
+    pub const glFramebufferDrawBufferEXT: usize = 986;
+    pub const glFramebufferDrawBuffersEXT: usize = 987;
+    pub const glFramebufferReadBufferEXT: usize = 988;
+    pub const glBlitFramebuffer: usize = 989;
+    pub const glBlitFramebufferEXT: usize = 990;
+    pub const glBlitFramebufferNV: usize = 991;
+    pub const glBlitNamedFramebuffer: usize = 992;
+    pub const glClearNamedFramebufferfv: usize = 993;
+    pub const glClearNamedFramebufferiv: usize = 994;
+    pub const glClearNamedFramebufferuiv: usize = 995;
+    pub const glClearNamedFramebufferfi: usize = 996;
+    pub const glGetIntegerv: usize = 997;
+    pub const glGetBooleanv: usize = 998;
+    pub const glGetFloatv: usize = 999;
+    pub const glGetDoublev: usize = 1000;
+    pub const glGetInteger64v: usize = 1001;
+    pub const glGetInteger64vAPPLE: usize = 1002;
+    pub const glGetInteger64vEXT: usize = 1003;
+    pub const glFramebufferTexture: usize = 1004;
+    pub const glFramebufferTextureARB: usize = 1005;
+    pub const glFramebufferTextureEXT: usize = 1006;
+    pub const glFramebufferTextureOES: usize = 1007;
+    pub const glFramebufferTexture1D: usize = 1008;
+    pub const glFramebufferTexture1DEXT: usize = 1009;
+    pub const glFramebufferTexture2D: usize = 1010;
+    pub const glFramebufferTexture2DEXT: usize = 1011;
+    pub const glFramebufferTexture3D: usize = 1012;
+    pub const glFramebufferTexture3DEXT: usize = 1013;
+    pub const glFramebufferTextureLayer: usize = 1014;
+    pub const glFramebufferTextureLayerARB: usize = 1015;
+    pub const glFramebufferTextureLayerEXT: usize = 1016;
+    pub const glFramebufferRenderbuffer: usize = 1017;
+    pub const glFramebufferRenderbufferEXT: usize = 1018;
+    pub const glGetFramebufferAttachmentParameteriv: usize = 1019;
+    pub const glGetFramebufferAttachmentParameterivEXT: usize = 1020;
+    pub const glCheckFramebufferStatus: usize = 1021;
+    pub const glCheckFramebufferStatusEXT: usize = 1022;
+    pub const glFramebufferParameteri: usize = 1023;
+    pub const glGetFramebufferParameteriv: usize = 1024;
+    pub const glInvalidateFramebuffer: usize = 1025;
+    pub const glInvalidateSubFramebuffer: usize = 1026;
+    pub const glDiscardFramebufferEXT: usize = 1027;
+    pub const glCopyTexImage1D: usize = 1028;
+    pub const glCopyTexImage1DEXT: usize = 1029;
+    pub const glCopyTexImage2D: usize = 1030;
+    pub const glCopyTexImage2DEXT: usize = 1031;
+    pub const glCopyTexSubImage1D: usize = 1032;
+    pub const glCopyTexSubImage1DEXT: usize = 1033;
+    pub const glCopyTexSubImage2D: usize = 1034;
+    pub const glCopyTexSubImage2DEXT: usize = 1035;
+    pub const glReadPixels: usize = 1036;
+    pub const glReadnPixels: usize = 1037;
+    pub const glReadnPixelsARB: usize = 1038;
+    pub const glReadnPixelsEXT: usize = 1039;
+    pub const glReadnPixelsKHR: usize = 1040;
+    pub const glCopyTexSubImage3D: usize = 1041;
+    pub const glCopyTexSubImage3DEXT: usize = 1042;
+    pub const glCopyTextureSubImage1D: usize = 1043;
+    pub const glCopyTextureSubImage2D: usize = 1044;
+    pub const glCopyTextureSubImage3D: usize = 1045;
+    pub const glCopyMultiTexImage1DEXT: usize = 1046;
+    pub const glCopyMultiTexImage2DEXT: usize = 1047;
+    pub const glCopyTextureImage1DEXT: usize = 1048;
+    pub const glCopyTextureImage2DEXT: usize = 1049;
+    pub const glCopyColorTable: usize = 1050;
+    pub const glCopyColorTableSGI: usize = 1051;
+    pub const glCopyConvolutionFilter1D: usize = 1052;
+    pub const glCopyConvolutionFilter1DEXT: usize = 1053;
+    pub const glCopyConvolutionFilter2D: usize = 1054;
+    pub const glCopyConvolutionFilter2DEXT: usize = 1055;
+    pub const glFinish: usize = 1056;
+    pub const glFlush: usize = 1057;
+    pub const glGetError: usize = 1058;
+    pub const glBeginQuery: usize = 1059;
+    pub const glBeginQueryARB: usize = 1060;
+    pub const glEndQuery: usize = 1061;
+    pub const glEndQueryARB: usize = 1062;
+    pub const glDeleteQueries: usize = 1063;
+    pub const glDeleteQueriesARB: usize = 1064;
+    pub const glGetQueryiv: usize = 1065;
+    pub const glGetQueryivARB: usize = 1066;
+    pub const glGetQueryObjectiv: usize = 1067;
+    pub const glGetQueryObjectivARB: usize = 1068;
+    pub const glGetQueryObjectivEXT: usize = 1069;
+    pub const glGetQueryObjectuiv: usize = 1070;
+    pub const glGetQueryObjectuivARB: usize = 1071;
+    pub const glGetQueryObjecti64v: usize = 1072;
+    pub const glGetQueryObjecti64vEXT: usize = 1073;
+    pub const glGetQueryObjectui64v: usize = 1074;
+    pub const glGetQueryObjectui64vEXT: usize = 1075;
+    pub const glIsEnabled: usize = 1076;
+    pub const glIsEnabledi: usize = 1077;
+    pub const glIsEnabledIndexedEXT: usize = 1078;
+    pub const glIsEnablediEXT: usize = 1079;
+    pub const glIsEnablediNV: usize = 1080;
+    pub const glIsEnablediOES: usize = 1081;
+    pub const glGetTexGendv: usize = 1082;
+    pub const glGetTexGenfv: usize = 1083;
+    pub const glGetTexGeniv: usize = 1084;
+    pub const glGetTexEnvfv: usize = 1085;
+    pub const glGetTexEnviv: usize = 1086;
+    pub const glGetLightfv: usize = 1087;
+    pub const glGetLightiv: usize = 1088;
+    pub const glGetMaterialfv: usize = 1089;
+    pub const glGetMaterialiv: usize = 1090;
+    pub const glGetTexParameterfv: usize = 1091;
+    pub const glGetTexParameteriv: usize = 1092;
+    pub const glGetTexLevelParameterfv: usize = 1093;
+    pub const glGetTexLevelParameteriv: usize = 1094;
+    pub const glGetClipPlane: usize = 1095;
+    pub const glGetMapdv: usize = 1096;
+    pub const glGetMapfv: usize = 1097;
+    pub const glGetMapiv: usize = 1098;
+    pub const glGetPixelMapfv: usize = 1099;
+    pub const glGetPixelMapuiv: usize = 1100;
+    pub const glGetPixelMapusv: usize = 1101;
+    pub const glGetPolygonStipple: usize = 1102;
+    pub const glGetTexImage: usize = 1103;
+    pub const glGetnTexImage: usize = 1104;
+    pub const glGetPointerv: usize = 1105;
+    pub const glGetPointervEXT: usize = 1106;
+    pub const glGetPointervKHR: usize = 1107;
+    pub const glGetIntegeri_v: usize = 1108;
+    pub const glGetIntegerIndexedvEXT: usize = 1109;
+    pub const glGetUniformfv: usize = 1110;
+    pub const glGetUniformfvARB: usize = 1111;
+    pub const glGetUniformiv: usize = 1112;
+    pub const glGetUniformivARB: usize = 1113;
+    pub const glGetVertexAttribdv: usize = 1114;
+    pub const glGetVertexAttribdvARB: usize = 1115;
+    pub const glGetVertexAttribdvNV: usize = 1116;
+    pub const glGetVertexAttribfv: usize = 1117;
+    pub const glGetVertexAttribfvARB: usize = 1118;
+    pub const glGetVertexAttribfvNV: usize = 1119;
+    pub const glGetVertexAttribiv: usize = 1120;
+    pub const glGetVertexAttribivARB: usize = 1121;
+    pub const glGetVertexAttribivNV: usize = 1122;
+    pub const glGetVertexAttribPointerv: usize = 1123;
+    pub const glGetVertexAttribPointervARB: usize = 1124;
+    pub const glGetVertexAttribPointervNV: usize = 1125;
+    pub const glFeedbackBuffer: usize = 1126;
+    pub const glSelectBuffer: usize = 1127;
+    pub const glGenTextures: usize = 1128;
+    pub const glGenFramebuffers: usize = 1129;
+    pub const glGenFramebuffersEXT: usize = 1130;
+    pub const glGenRenderbuffers: usize = 1131;
+    pub const glGenRenderbuffersEXT: usize = 1132;
+    pub const glBindRenderbuffer: usize = 1133;
+    pub const glRenderbufferStorage: usize = 1134;
+    pub const glRenderbufferStorageEXT: usize = 1135;
+    pub const glRenderbufferStorageMultisample: usize = 1136;
+    pub const glRenderbufferStorageMultisampleEXT: usize = 1137;
+    pub const glRenderbufferStorageMultisampleNV: usize = 1138;
+    pub const glDeleteRenderbuffers: usize = 1139;
+    pub const glDeleteRenderbuffersEXT: usize = 1140;
+    pub const glBindBuffer: usize = 1141;
+    pub const glBindBufferARB: usize = 1142;
+    pub const glBufferData: usize = 1143;
+    pub const glBufferDataARB: usize = 1144;
+    pub const glBufferSubData: usize = 1145;
+    pub const glBufferSubDataARB: usize = 1146;
+    pub const glDeleteBuffers: usize = 1147;
+    pub const glDeleteBuffersARB: usize = 1148;
+    pub const glPixelStoref: usize = 1149;
+    pub const glPixelStorei: usize = 1150;
+    pub const glPushClientAttrib: usize = 1151;
+    pub const glPopClientAttrib: usize = 1152;
+    pub const glEnableClientState: usize = 1153;
+    pub const glDisableClientState: usize = 1154;
+    pub const glClientActiveTexture: usize = 1155;
+    pub const glClientActiveTextureARB: usize = 1156;
+    pub const glInterleavedArrays: usize = 1157;
+    pub const glColorPointer: usize = 1158;
+    pub const glSecondaryColorPointer: usize = 1159;
+    pub const glSecondaryColorPointerEXT: usize = 1160;
+    pub const glTexCoordPointer: usize = 1161;
+    pub const glVertexPointer: usize = 1162;
+    pub const glEdgeFlagPointer: usize = 1163;
+    pub const glFogCoordPointer: usize = 1164;
+    pub const glFogCoordPointerEXT: usize = 1165;
+    pub const glIndexPointer: usize = 1166;
+    pub const glNormalPointer: usize = 1167;
+    pub const glVertexAttribPointer: usize = 1168;
+    pub const glVertexAttribPointerARB: usize = 1169;
+    pub const glEnableVertexAttribArray: usize = 1170;
+    pub const glEnableVertexAttribArrayARB: usize = 1171;
+    pub const glDisableVertexAttribArray: usize = 1172;
+    pub const glDisableVertexAttribArrayARB: usize = 1173;
+    pub const glXSwapBuffers: usize = 1174;
+    pub const glXSwapBuffersMscOML: usize = 1175;
+    pub const glXMakeCurrent: usize = 1176;
+    pub const glXMakeContextCurrent: usize = 1177;
+    pub const glXMakeCurrentReadSGI: usize = 1178;
+    pub const glXCreateContext: usize = 1179;
+    pub const glXCreateNewContext: usize = 1180;
+    pub const glXCreateContextAttribsARB: usize = 1181;
+    pub const glXCreateContextWithConfigSGIX: usize = 1182;
+    pub const glXDestroyContext: usize = 1183;
+    pub const glXGetProcAddress: usize = 1184;
+    pub const glXGetProcAddressARB: usize = 1185;
+    pub const glXQueryDrawable: usize = 1186;
+    pub const eglSwapBuffers: usize = 1187;
+    pub const eglSwapBuffersWithDamageKHR: usize = 1188;
+    pub const eglSwapBuffersWithDamageEXT: usize = 1189;
+    pub const eglMakeCurrent: usize = 1190;
+    pub const eglCreateContext: usize = 1191;
+    pub const eglDestroyContext: usize = 1192;
+    pub const eglReleaseThread: usize = 1193;
+    pub const eglGetProcAddress: usize = 1194;
+    pub const eglQuerySurface: usize = 1195;
+    pub const eglQueryContext: usize = 1196;
+    pub const eglGetCurrentContext: usize = 1197;
+    pub const glXGetCurrentContext: usize = 1198;
+    pub const OSMesaMakeCurrent: usize = 1199;
+    pub const OSMesaCreateContext: usize = 1200;
+    pub const OSMesaCreateContextExt: usize = 1201;
+    pub const OSMesaCreateContextAttribs: usize = 1202;
+    pub const OSMesaDestroyContext: usize = 1203;
+    pub const OSMesaGetProcAddress: usize = 1204;
+    pub const glCopyImageSubData: usize = 1205;
+    pub const glGetString: usize = 1206;
+    pub const glGetStringi: usize = 1207;
+    pub const glGenQueries: usize = 1208;
+    pub const glTexImage2DMultisample: usize = 1209;
+    pub const glTexImage3DMultisample: usize = 1210;
+    pub const glCreateShader: usize = 1211;
+    pub const glShaderSource: usize = 1212;
+    pub const glCompileShader: usize = 1213;
+    pub const glGetShaderiv: usize = 1214;
+    pub const glGetShaderInfoLog: usize = 1215;
+    pub const glCreateProgram: usize = 1216;
+    pub const glAttachShader: usize = 1217;
+    pub const glLinkProgram: usize = 1218;
+    pub const glGetProgramiv: usize = 1219;
+    pub const glGetProgramInfoLog: usize = 1220;
+    pub const glDeleteShader: usize = 1221;
+    pub const glDeleteProgram: usize = 1222;
+    pub const glGetUniformLocation: usize = 1223;
+    pub const glGetUniformBlockIndex: usize = 1224;
+    pub const glUniformBlockBinding: usize = 1225;
+    pub const glBindBufferBase: usize = 1226;
+    pub const glBindBufferRange: usize = 1227;
+    pub const glGenBuffers: usize = 1228;
+    pub const glBindAttribLocation: usize = 1229;
+    pub const glProgramParameteri: usize = 1230;
+    pub const glGenVertexArrays: usize = 1231;
+    pub const glBindVertexArray: usize = 1232;
+    pub const glGenSamplers: usize = 1233;
+    pub const glBindSampler: usize = 1234;
 }
 
 /// Name of each command.
@@ -2135,6 +2212,8 @@ pub static NAMES: [&CStr; COUNT] = [
     c"glCallList",
     c"glCallLists",
     c"glDeleteLists",
+    c"glGenLists",
+    c"glIsList",
     c"glBindTexture",
     c"glBindTextureEXT",
     c"glDeleteTextures",
@@ -2244,6 +2323,104 @@ pub static NAMES: [&CStr; COUNT] = [
     c"glGetQueryObjecti64vEXT",
     c"glGetQueryObjectui64v",
     c"glGetQueryObjectui64vEXT",
+    c"glIsEnabled",
+    c"glIsEnabledi",
+    c"glIsEnabledIndexedEXT",
+    c"glIsEnablediEXT",
+    c"glIsEnablediNV",
+    c"glIsEnablediOES",
+    c"glGetTexGendv",
+    c"glGetTexGenfv",
+    c"glGetTexGeniv",
+    c"glGetTexEnvfv",
+    c"glGetTexEnviv",
+    c"glGetLightfv",
+    c"glGetLightiv",
+    c"glGetMaterialfv",
+    c"glGetMaterialiv",
+    c"glGetTexParameterfv",
+    c"glGetTexParameteriv",
+    c"glGetTexLevelParameterfv",
+    c"glGetTexLevelParameteriv",
+    c"glGetClipPlane",
+    c"glGetMapdv",
+    c"glGetMapfv",
+    c"glGetMapiv",
+    c"glGetPixelMapfv",
+    c"glGetPixelMapuiv",
+    c"glGetPixelMapusv",
+    c"glGetPolygonStipple",
+    c"glGetTexImage",
+    c"glGetnTexImage",
+    c"glGetPointerv",
+    c"glGetPointervEXT",
+    c"glGetPointervKHR",
+    c"glGetIntegeri_v",
+    c"glGetIntegerIndexedvEXT",
+    c"glGetUniformfv",
+    c"glGetUniformfvARB",
+    c"glGetUniformiv",
+    c"glGetUniformivARB",
+    c"glGetVertexAttribdv",
+    c"glGetVertexAttribdvARB",
+    c"glGetVertexAttribdvNV",
+    c"glGetVertexAttribfv",
+    c"glGetVertexAttribfvARB",
+    c"glGetVertexAttribfvNV",
+    c"glGetVertexAttribiv",
+    c"glGetVertexAttribivARB",
+    c"glGetVertexAttribivNV",
+    c"glGetVertexAttribPointerv",
+    c"glGetVertexAttribPointervARB",
+    c"glGetVertexAttribPointervNV",
+    c"glFeedbackBuffer",
+    c"glSelectBuffer",
+    c"glGenTextures",
+    c"glGenFramebuffers",
+    c"glGenFramebuffersEXT",
+    c"glGenRenderbuffers",
+    c"glGenRenderbuffersEXT",
+    c"glBindRenderbuffer",
+    c"glRenderbufferStorage",
+    c"glRenderbufferStorageEXT",
+    c"glRenderbufferStorageMultisample",
+    c"glRenderbufferStorageMultisampleEXT",
+    c"glRenderbufferStorageMultisampleNV",
+    c"glDeleteRenderbuffers",
+    c"glDeleteRenderbuffersEXT",
+    c"glBindBuffer",
+    c"glBindBufferARB",
+    c"glBufferData",
+    c"glBufferDataARB",
+    c"glBufferSubData",
+    c"glBufferSubDataARB",
+    c"glDeleteBuffers",
+    c"glDeleteBuffersARB",
+    c"glPixelStoref",
+    c"glPixelStorei",
+    c"glPushClientAttrib",
+    c"glPopClientAttrib",
+    c"glEnableClientState",
+    c"glDisableClientState",
+    c"glClientActiveTexture",
+    c"glClientActiveTextureARB",
+    c"glInterleavedArrays",
+    c"glColorPointer",
+    c"glSecondaryColorPointer",
+    c"glSecondaryColorPointerEXT",
+    c"glTexCoordPointer",
+    c"glVertexPointer",
+    c"glEdgeFlagPointer",
+    c"glFogCoordPointer",
+    c"glFogCoordPointerEXT",
+    c"glIndexPointer",
+    c"glNormalPointer",
+    c"glVertexAttribPointer",
+    c"glVertexAttribPointerARB",
+    c"glEnableVertexAttribArray",
+    c"glEnableVertexAttribArrayARB",
+    c"glDisableVertexAttribArray",
+    c"glDisableVertexAttribArrayARB",
     c"glXSwapBuffers",
     c"glXSwapBuffersMscOML",
     c"glXMakeCurrent",
@@ -2275,30 +2452,12 @@ pub static NAMES: [&CStr; COUNT] = [
     c"OSMesaCreateContextAttribs",
     c"OSMesaDestroyContext",
     c"OSMesaGetProcAddress",
-    c"glGetTexLevelParameteriv",
     c"glCopyImageSubData",
-    c"glIsList",
     c"glGetString",
     c"glGetStringi",
-    c"glIsEnabled",
-    c"glIsEnabledi",
-    c"glGetIntegeri_v",
-    c"glGetTexGeniv",
-    c"glGetTexGenfv",
-    c"glGetTexEnviv",
-    c"glGetLightfv",
-    c"glGetTexParameteriv",
-    c"glGetMaterialfv",
     c"glGenQueries",
-    c"glGenTextures",
     c"glTexImage2DMultisample",
     c"glTexImage3DMultisample",
-    c"glGenFramebuffers",
-    c"glGenRenderbuffers",
-    c"glBindRenderbuffer",
-    c"glRenderbufferStorage",
-    c"glRenderbufferStorageMultisample",
-    c"glDeleteRenderbuffers",
     c"glCreateShader",
     c"glShaderSource",
     c"glCompileShader",
@@ -2317,17 +2476,12 @@ pub static NAMES: [&CStr; COUNT] = [
     c"glBindBufferBase",
     c"glBindBufferRange",
     c"glGenBuffers",
-    c"glBindBuffer",
-    c"glBufferData",
-    c"glBufferSubData",
-    c"glDeleteBuffers",
     c"glBindAttribLocation",
     c"glProgramParameteri",
     c"glGenVertexArrays",
     c"glBindVertexArray",
     c"glGenSamplers",
     c"glBindSampler",
-    c"glPixelStorei",
 ];
 
 real_functions! {
@@ -3296,6 +3450,8 @@ real_functions! {
     glCallList(list: u32);
     glCallLists(n: i32, type_: u32, lists: Ptr);
     glDeleteLists(list: u32, range: i32);
+    glGenLists(range: i32) -> u32 = 0;
+    glIsList(list: u32) -> u8 = 0;
     glBindTexture(target: u32, texture: u32);
     glBindTextureEXT(target: u32, texture: u32);
     glDeleteTextures(n: i32, textures: Ptr);
@@ -3405,6 +3561,104 @@ real_functions! {
     glGetQueryObjecti64vEXT(id: u32, pname: u32, params: Ptr);
     glGetQueryObjectui64v(id: u32, pname: u32, params: Ptr);
     glGetQueryObjectui64vEXT(id: u32, pname: u32, params: Ptr);
+    glIsEnabled(cap: u32) -> u8 = 0;
+    glIsEnabledi(target: u32, index: u32) -> u8 = 0;
+    glIsEnabledIndexedEXT(target: u32, index: u32) -> u8 = 0;
+    glIsEnablediEXT(target: u32, index: u32) -> u8 = 0;
+    glIsEnablediNV(target: u32, index: u32) -> u8 = 0;
+    glIsEnablediOES(target: u32, index: u32) -> u8 = 0;
+    glGetTexGendv(coord: u32, pname: u32, params: Ptr);
+    glGetTexGenfv(coord: u32, pname: u32, params: Ptr);
+    glGetTexGeniv(coord: u32, pname: u32, params: Ptr);
+    glGetTexEnvfv(target: u32, pname: u32, params: Ptr);
+    glGetTexEnviv(target: u32, pname: u32, params: Ptr);
+    glGetLightfv(light: u32, pname: u32, params: Ptr);
+    glGetLightiv(light: u32, pname: u32, params: Ptr);
+    glGetMaterialfv(face: u32, pname: u32, params: Ptr);
+    glGetMaterialiv(face: u32, pname: u32, params: Ptr);
+    glGetTexParameterfv(target: u32, pname: u32, params: Ptr);
+    glGetTexParameteriv(target: u32, pname: u32, params: Ptr);
+    glGetTexLevelParameterfv(target: u32, level: i32, pname: u32, params: Ptr);
+    glGetTexLevelParameteriv(target: u32, level: i32, pname: u32, params: Ptr);
+    glGetClipPlane(plane: u32, equation: Ptr);
+    glGetMapdv(target: u32, query: u32, v: Ptr);
+    glGetMapfv(target: u32, query: u32, v: Ptr);
+    glGetMapiv(target: u32, query: u32, v: Ptr);
+    glGetPixelMapfv(map: u32, values: Ptr);
+    glGetPixelMapuiv(map: u32, values: Ptr);
+    glGetPixelMapusv(map: u32, values: Ptr);
+    glGetPolygonStipple(mask: Ptr);
+    glGetTexImage(target: u32, level: i32, format: u32, type_: u32, pixels: Ptr);
+    glGetnTexImage(target: u32, level: i32, format: u32, type_: u32, bufSize: i32, pixels: Ptr);
+    glGetPointerv(pname: u32, params: Ptr);
+    glGetPointervEXT(pname: u32, params: Ptr);
+    glGetPointervKHR(pname: u32, params: Ptr);
+    glGetIntegeri_v(target: u32, index: u32, data: Ptr);
+    glGetIntegerIndexedvEXT(target: u32, index: u32, data: Ptr);
+    glGetUniformfv(program: u32, location: i32, params: Ptr);
+    glGetUniformfvARB(programObj: u32, location: i32, params: Ptr);
+    glGetUniformiv(program: u32, location: i32, params: Ptr);
+    glGetUniformivARB(programObj: u32, location: i32, params: Ptr);
+    glGetVertexAttribdv(index: u32, pname: u32, params: Ptr);
+    glGetVertexAttribdvARB(index: u32, pname: u32, params: Ptr);
+    glGetVertexAttribdvNV(index: u32, pname: u32, params: Ptr);
+    glGetVertexAttribfv(index: u32, pname: u32, params: Ptr);
+    glGetVertexAttribfvARB(index: u32, pname: u32, params: Ptr);
+    glGetVertexAttribfvNV(index: u32, pname: u32, params: Ptr);
+    glGetVertexAttribiv(index: u32, pname: u32, params: Ptr);
+    glGetVertexAttribivARB(index: u32, pname: u32, params: Ptr);
+    glGetVertexAttribivNV(index: u32, pname: u32, params: Ptr);
+    glGetVertexAttribPointerv(index: u32, pname: u32, pointer: Ptr);
+    glGetVertexAttribPointervARB(index: u32, pname: u32, pointer: Ptr);
+    glGetVertexAttribPointervNV(index: u32, pname: u32, pointer: Ptr);
+    glFeedbackBuffer(size: i32, type_: u32, buffer: Ptr);
+    glSelectBuffer(size: i32, buffer: Ptr);
+    glGenTextures(n: i32, textures: Ptr);
+    glGenFramebuffers(n: i32, framebuffers: Ptr);
+    glGenFramebuffersEXT(n: i32, framebuffers: Ptr);
+    glGenRenderbuffers(n: i32, renderbuffers: Ptr);
+    glGenRenderbuffersEXT(n: i32, renderbuffers: Ptr);
+    glBindRenderbuffer(target: u32, renderbuffer: u32);
+    glRenderbufferStorage(target: u32, internalformat: u32, width: i32, height: i32);
+    glRenderbufferStorageEXT(target: u32, internalformat: u32, width: i32, height: i32);
+    glRenderbufferStorageMultisample(target: u32, samples: i32, internalformat: u32, width: i32, height: i32);
+    glRenderbufferStorageMultisampleEXT(target: u32, samples: i32, internalformat: u32, width: i32, height: i32);
+    glRenderbufferStorageMultisampleNV(target: u32, samples: i32, internalformat: u32, width: i32, height: i32);
+    glDeleteRenderbuffers(n: i32, renderbuffers: Ptr);
+    glDeleteRenderbuffersEXT(n: i32, renderbuffers: Ptr);
+    glBindBuffer(target: u32, buffer: u32);
+    glBindBufferARB(target: u32, buffer: u32);
+    glBufferData(target: u32, size: isize, data: Ptr, usage: u32);
+    glBufferDataARB(target: u32, size: isize, data: Ptr, usage: u32);
+    glBufferSubData(target: u32, offset: isize, size: isize, data: Ptr);
+    glBufferSubDataARB(target: u32, offset: isize, size: isize, data: Ptr);
+    glDeleteBuffers(n: i32, buffers: Ptr);
+    glDeleteBuffersARB(n: i32, buffers: Ptr);
+    glPixelStoref(pname: u32, param: f32);
+    glPixelStorei(pname: u32, param: i32);
+    glPushClientAttrib(mask: u32);
+    glPopClientAttrib();
+    glEnableClientState(array: u32);
+    glDisableClientState(array: u32);
+    glClientActiveTexture(texture: u32);
+    glClientActiveTextureARB(texture: u32);
+    glInterleavedArrays(format: u32, stride: i32, pointer: Ptr);
+    glColorPointer(size: i32, type_: u32, stride: i32, pointer: Ptr);
+    glSecondaryColorPointer(size: i32, type_: u32, stride: i32, pointer: Ptr);
+    glSecondaryColorPointerEXT(size: i32, type_: u32, stride: i32, pointer: Ptr);
+    glTexCoordPointer(size: i32, type_: u32, stride: i32, pointer: Ptr);
+    glVertexPointer(size: i32, type_: u32, stride: i32, pointer: Ptr);
+    glEdgeFlagPointer(stride: i32, pointer: Ptr);
+    glFogCoordPointer(type_: u32, stride: i32, pointer: Ptr);
+    glFogCoordPointerEXT(type_: u32, stride: i32, pointer: Ptr);
+    glIndexPointer(type_: u32, stride: i32, pointer: Ptr);
+    glNormalPointer(type_: u32, stride: i32, pointer: Ptr);
+    glVertexAttribPointer(index: u32, size: i32, type_: u32, normalized: u8, stride: i32, pointer: Ptr);
+    glVertexAttribPointerARB(index: u32, size: i32, type_: u32, normalized: u8, stride: i32, pointer: Ptr);
+    glEnableVertexAttribArray(index: u32);
+    glEnableVertexAttribArrayARB(index: u32);
+    glDisableVertexAttribArray(index: u32);
+    glDisableVertexAttribArrayARB(index: u32);
     glXSwapBuffers(dpy: Ptr, drawable: c_ulong);
     glXSwapBuffersMscOML(dpy: Ptr, drawable: c_ulong, target_msc: i64, divisor: i64, remainder: i64) -> i64 = 0;
     glXMakeCurrent(dpy: Ptr, drawable: c_ulong, ctx: Ptr) -> i32 = 0;
@@ -3436,30 +3690,12 @@ real_functions! {
     OSMesaCreateContextAttribs(attribs: Ptr, share: Ptr) -> Ptr = core::ptr::null_mut();
     OSMesaDestroyContext(ctx: Ptr);
     OSMesaGetProcAddress(name: Ptr) -> Ptr = core::ptr::null_mut();
-    glGetTexLevelParameteriv(target: u32, level: i32, pname: u32, params: Ptr);
     glCopyImageSubData(srcName: u32, srcTarget: u32, srcLevel: i32, srcX: i32, srcY: i32, srcZ: i32, dstName: u32, dstTarget: u32, dstLevel: i32, dstX: i32, dstY: i32, dstZ: i32, srcWidth: i32, srcHeight: i32, srcDepth: i32);
-    glIsList(list: u32) -> u8 = 0;
     glGetString(name: u32) -> Ptr = core::ptr::null_mut();
     glGetStringi(name: u32, index: u32) -> Ptr = core::ptr::null_mut();
-    glIsEnabled(cap: u32) -> u8 = 0;
-    glIsEnabledi(target: u32, index: u32) -> u8 = 0;
-    glGetIntegeri_v(target: u32, index: u32, data: Ptr);
-    glGetTexGeniv(coord: u32, pname: u32, params: Ptr);
-    glGetTexGenfv(coord: u32, pname: u32, params: Ptr);
-    glGetTexEnviv(target: u32, pname: u32, params: Ptr);
-    glGetLightfv(light: u32, pname: u32, params: Ptr);
-    glGetTexParameteriv(target: u32, pname: u32, params: Ptr);
-    glGetMaterialfv(face: u32, pname: u32, params: Ptr);
     glGenQueries(n: i32, ids: Ptr);
-    glGenTextures(n: i32, textures: Ptr);
     glTexImage2DMultisample(target: u32, samples: i32, internalformat: u32, width: i32, height: i32, fixedsamplelocations: u8);
     glTexImage3DMultisample(target: u32, samples: i32, internalformat: u32, width: i32, height: i32, depth: i32, fixedsamplelocations: u8);
-    glGenFramebuffers(n: i32, framebuffers: Ptr);
-    glGenRenderbuffers(n: i32, renderbuffers: Ptr);
-    glBindRenderbuffer(target: u32, renderbuffer: u32);
-    glRenderbufferStorage(target: u32, internalformat: u32, width: i32, height: i32);
-    glRenderbufferStorageMultisample(target: u32, samples: i32, internalformat: u32, width: i32, height: i32);
-    glDeleteRenderbuffers(n: i32, renderbuffers: Ptr);
     glCreateShader(type_: u32) -> u32 = 0;
     glShaderSource(shader: u32, count: i32, string: Ptr, length: Ptr);
     glCompileShader(shader: u32);
@@ -3478,17 +3714,12 @@ real_functions! {
     glBindBufferBase(target: u32, index: u32, buffer: u32);
     glBindBufferRange(target: u32, index: u32, buffer: u32, offset: isize, size: isize);
     glGenBuffers(n: i32, buffers: Ptr);
-    glBindBuffer(target: u32, buffer: u32);
-    glBufferData(target: u32, size: isize, data: Ptr, usage: u32);
-    glBufferSubData(target: u32, offset: isize, size: isize, data: Ptr);
-    glDeleteBuffers(n: i32, buffers: Ptr);
     glBindAttribLocation(program: u32, index: u32, name: Ptr);
     glProgramParameteri(program: u32, pname: u32, value: i32);
     glGenVertexArrays(n: i32, arrays: Ptr);
     glBindVertexArray(array: u32);
     glGenSamplers(count: i32, samplers: Ptr);
     glBindSampler(unit: u32, sampler: u32);
-    glPixelStorei(pname: u32, param: i32);
 }
 
 /// Makes one recorded immediate-mode call again.

@@ -258,6 +258,19 @@ impl Layer {
         gl.bind_framebuffer(c::READ_FRAMEBUFFER, self.atlas.framebuffer());
     }
 
+    /// A read that no list compiles (glReadPixels).
+    pub fn read_now(&mut self, gl: &Gl, x: i32, width: i32, call: &mut dyn FnMut()) {
+        self.catch_up(gl);
+        let mut done = false;
+        self.outside_list(gl, |layer| {
+            layer.read(gl, x, width, call);
+            done = true;
+        });
+        if !done {
+            call();
+        }
+    }
+
     /// Binds a copy of a view's tile for reading. Changes the draw framebuffer; the state is refreshed.
     pub(super) fn take_single(&mut self, gl: &Gl, view: u32) {
         if !self.atlas.has_single() {
@@ -311,6 +324,10 @@ impl Layer {
     /// glBlitFramebuffer: into every view's tile where it draws to framebuffer 0; from the same view's tile where it also reads
     /// from there. `blit` takes the x offsets of source and destination in pixels.
     pub fn blit(&mut self, gl: &Gl, blit: &mut dyn FnMut(i32, i32)) {
+        if self.compiles() {
+            self.compile(gl, Command::Of(Run::Blit), Touch::NONE);
+            return blit(0, 0);
+        }
         let (draw, read) = (self.draws_to_zero(), self.reads_from_zero());
         if !draw {
             if read {

@@ -4,7 +4,7 @@ use super::Layer;
 use crate::draw::Again;
 use crate::gl::{Gl, consts as c};
 use crate::plan::{Kind, Method};
-use crate::state::{Begin, Command, Compiling, Effect, Run, Segment, Touch};
+use crate::state::{Begin, Body, Command, Compiling, Effect, Run, Segment, Touch};
 use std::sync::PoisonError;
 
 /// GL_MAX_LIST_NESTING is at least 64; deeper calls are ignored by the driver too.
@@ -35,43 +35,89 @@ impl Layer {
         self.state.list.is_some()
     }
 
+    /// Whether what is compiled is to be executed as well.
+    pub fn executes(&self) -> bool {
+        self.state.list.as_ref().is_some_and(Compiling::executes)
+    }
+
     /// A command that is about to be compiled, and what it touches when the list is called.
     pub fn compile(&mut self, gl: &Gl, command: Command, touch: Touch) {
         let Some(list) = &mut self.state.list else {
             return;
         };
         if list.needs_split(command) {
-            let name = self
-                .lists
-                .lock()
-                .unwrap_or_else(PoisonError::into_inner)
-                .name(|name| gl.is_list(name));
-            gl.end_list();
-            gl.new_list(name, c::COMPILE);
-            list.split(name);
+            self.end_run(gl, |_, _| {});
         }
-        list.note(command, touch);
+        if let Some(list) = &mut self.state.list {
+            list.note(command, touch);
+        }
     }
 
-    /// The names of a glCallLists that was compiled, without the list base.
+    /// Ends the open run, does something outside of lists, and begins another run.
+    fn end_run(&mut self, gl: &Gl, outside: impl FnOnce(&mut Self, &mut Compiling)) {
+        let Some(mut list) = self.state.list.take() else {
+            return;
+        };
+        gl.end_list();
+        if list.used() {
+            let name = self.list_name(gl);
+            list.split(name);
+        }
+        outside(self, &mut list);
+        gl.new_list(list.name(), c::COMPILE);
+        self.state.list = Some(list);
+    }
+
+    /// Before a command that is not compiled: what GL_COMPILE_AND_EXECUTE has compiled is executed. Between glBegin and glEnd
+    /// nothing can be.
+    pub fn catch_up(&mut self, gl: &Gl) {
+        let pending = |l: &Compiling| l.executes() && l.used() && !l.between;
+        if self.state.list.as_ref().is_some_and(pending) {
+            self.end_run(gl, |layer, list| layer.execute(gl, list));
+        }
+    }
+
+    /// Does something of ours that must not be compiled, also while the program compiles a list.
+    pub(super) fn outside_list(&mut self, gl: &Gl, work: impl FnOnce(&mut Self)) {
+        match &self.state.list {
+            None => work(self),
+            Some(list) if list.between => {}
+            Some(_) => self.end_run(gl, |layer, _| work(layer)),
+        }
+    }
+
+    fn execute(&mut self, gl: &Gl, list: &mut Compiling) {
+        let runs = list.take_unexecuted();
+        self.state.refresh(gl);
+        runs.iter().for_each(|run| self.segment(gl, run, 1));
+    }
+
+    /// The names of a glCallLists that was compiled, without the list base; or what else the run needs to know.
     pub fn compiled_names(&mut self, names: &[u32]) {
         if let Some(list) = &mut self.state.list {
             list.note_names(names);
         }
     }
 
-    /// glEndList, after the driver's own: the program's list becomes one that calls its runs. Answers what is to be executed now.
-    pub fn end_list(&mut self, gl: &Gl) -> Option<u32> {
+    /// glEndList, after the driver's own: the program's list becomes one that calls its runs.
+    pub fn end_list(&mut self, gl: &Gl) {
         // The driver refuses between glBegin and glEnd.
-        if self.state.list.is_none() || gl.get_integer(c::LIST_INDEX) != 0 {
-            return None;
+        if gl.get_integer(c::LIST_INDEX) != 0 {
+            return;
         }
-        let compiling = self.state.list.take()?;
-        if compiling.enables_srgb {
+        let Some(mut list) = self.state.list.take() else {
+            return;
+        };
+        if list.enables_srgb {
             self.enable_srgb(gl);
         }
-        let (list, mode, body) = compiling.finish();
-        gl.new_list(list, c::COMPILE);
+        list.finish();
+        // Before the list has its name: it may call what had it before.
+        if list.executes() {
+            self.execute(gl, &mut list);
+        }
+        let body = list.body();
+        gl.new_list(list.list, c::COMPILE);
         for segment in body.iter() {
             gl.call_list(segment.name);
         }
@@ -80,9 +126,34 @@ impl Layer {
             .lists
             .lock()
             .unwrap_or_else(PoisonError::into_inner)
-            .define(list, body);
+            .define(list.list, body);
         unused.into_iter().for_each(|name| gl.delete_list(name));
-        (mode == c::COMPILE_AND_EXECUTE).then_some(list)
+    }
+
+    /// Whether a display list is one of ours.
+    pub fn owns_list(&self, name: u32) -> bool {
+        let lists = self.lists.lock().unwrap_or_else(PoisonError::into_inner);
+        lists.owns(name)
+    }
+
+    /// glGenLists, after the driver's own answer `first`: the names that it would have found without ours.
+    pub fn generated_lists(&mut self, gl: &Gl, first: u32, count: u32) -> u32 {
+        let lists = self.lists.clone();
+        let mut lists = lists.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut names = first;
+        match lists.free(count) {
+            Some(free) if free != first => self.outside_list(gl, |_| {
+                gl.delete_lists(first, count);
+                names = free;
+                for name in free..free + count {
+                    gl.new_list(name, c::COMPILE);
+                    gl.end_list();
+                }
+            }),
+            _ => {}
+        }
+        lists.generated(names, count);
+        names
     }
 
     /// glDeleteLists, after the driver's own.
@@ -105,23 +176,17 @@ impl Layer {
     fn execute_lists(&mut self, gl: &Gl, lists: Option<&[u32]>, call: &mut dyn FnMut()) {
         self.state.refresh(gl);
         let bodies = lists.and_then(|names| {
-            let lists = self.lists.lock().unwrap_or_else(PoisonError::into_inner);
             names
                 .iter()
-                .map(|&l| lists.body(l))
+                .map(|&l| self.body(gl, l))
                 .collect::<Option<Vec<_>>>()
         });
         let Some(bodies) = bodies else {
             return self.unknown_list(gl, call);
         };
         let segments = || bodies.iter().flat_map(|b| b.iter());
-        if !self.state.draws_to_window() {
-            let touch = segments().fold(Touch::NONE, |t, s| {
-                t | match s.run {
-                    Run::List(_) | Run::Lists => Touch::ALL,
-                    _ => s.touch,
-                }
-            });
+        if !self.state.draws_to_window() && segments().all(|s| s.run.is_plain()) {
+            let touch = segments().fold(Touch::NONE, |t, s| t | s.touch);
             call();
             self.state.touch(touch);
             return;
@@ -142,6 +207,13 @@ impl Layer {
         }
     }
 
+    /// The runs of a list; of one that does not exist none. `None`: only the driver knows what is in it.
+    fn body(&self, gl: &Gl, list: u32) -> Option<Body> {
+        let lists = self.lists.lock().unwrap_or_else(PoisonError::into_inner);
+        let known = lists.body(list);
+        known.or_else(|| (!gl.is_list(list)).then(Body::default))
+    }
+
     fn segment(&mut self, gl: &Gl, segment: &Segment, depth: u32) {
         match segment.run {
             Run::List(list) => self.nested(gl, &[list], depth),
@@ -150,11 +222,25 @@ impl Layer {
                 let names: Vec<u32> = segment.names.iter().map(|n| n.wrapping_add(base)).collect();
                 self.nested(gl, &names, depth);
             }
-            Run::DrawBuffer(buffer) if self.draws_to_zero() => {
-                self.draw_buffers(gl, &[buffer]);
+            // A wrong name: the driver answers for it.
+            Run::DrawBuffers if self.draws_to_zero() => {
+                if self.draw_buffers(gl, &segment.names).is_none() {
+                    self.with_true_zero(gl, c::DRAW_FRAMEBUFFER, &mut || {
+                        gl.call_list(segment.name)
+                    });
+                }
             }
             Run::ReadBuffer(buffer) if self.reads_from_zero() => {
-                self.read_buffer(gl, buffer);
+                if self.read_buffer(gl, buffer).is_none() {
+                    self.with_true_zero(gl, c::READ_FRAMEBUFFER, &mut || {
+                        gl.call_list(segment.name)
+                    });
+                }
+            }
+            Run::Blit => {
+                if let Ok(arguments) = <&[u32; 10]>::try_from(&*segment.names) {
+                    self.blit(gl, &mut |from, to| gl.blit(arguments, from, to));
+                }
             }
             run => self.run(
                 gl,
@@ -171,19 +257,14 @@ impl Layer {
             return;
         }
         for &list in lists {
-            let body = self
-                .lists
-                .lock()
-                .unwrap_or_else(PoisonError::into_inner)
-                .body(list);
-            match body {
+            match self.body(gl, list) {
                 Some(body) => body.iter().for_each(|s| self.segment(gl, s, depth + 1)),
                 None => self.unknown_list(gl, &mut || gl.call_list(list)),
             }
         }
     }
 
-    /// A list of which only the driver knows what is in it; mostly one that does not exist.
+    /// A list of which only the driver knows what is in it.
     fn unknown_list(&mut self, gl: &Gl, call: &mut dyn FnMut()) {
         let plan = self.plan(gl, Kind::List);
         if plan.method == Method::Once {
@@ -206,10 +287,15 @@ impl Layer {
             | Run::State
             | Run::List(_)
             | Run::Lists
-            | Run::DrawBuffer(_)
+            | Run::Blit
+            | Run::DrawBuffers
             | Run::ReadBuffer(_) => call(),
             Run::Draw => {
                 let plan = self.plan(gl, Kind::List);
+                if plan.method == Method::Once {
+                    call();
+                    return self.state.touch(touch);
+                }
                 // The list changes the current matrix, and that is the projection.
                 let projection =
                     touch.has(Touch::MATRIX) && self.state.matrix_mode == c::PROJECTION;

@@ -174,6 +174,10 @@ impl Layer {
         if self.names.hidden() || !self.state.compatibility {
             return;
         }
+        self.outside_list(gl, |layer| layer.move_names(gl));
+    }
+
+    fn move_names(&mut self, gl: &Gl) {
         self.names.hide();
         self.copies.clear(gl);
         let note = if self.remake(gl) {

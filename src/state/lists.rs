@@ -29,21 +29,31 @@ pub enum Run {
     Copy,
     /// glCallList of another list, known when it is called.
     List(u32),
-    /// glDrawBuffer, by the program's name of the buffer.
-    DrawBuffer(u32),
+    /// glDrawBuffer and glDrawBuffers: the program's names of the buffers are in [`Segment::names`].
+    DrawBuffers,
     /// glReadBuffer.
     ReadBuffer(u32),
     /// glCallLists: the names are in [`Segment::names`], without the list base.
     Lists,
+    /// glBlitFramebuffer: its arguments are in [`Segment::names`].
+    Blit,
 }
 
 impl Run {
+    /// Whether the driver's own list does what the run is to do, where nothing is drawn to framebuffer 0.
+    pub fn is_plain(self) -> bool {
+        !matches!(
+            self,
+            Run::List(_) | Run::Lists | Run::DrawBuffers | Run::ReadBuffer(_) | Run::Blit
+        )
+    }
+
     /// Whether a command of the kind `next` belongs to the run.
     fn takes(self, next: Run) -> bool {
         match (self, next) {
             (Run::Open | Run::State | Run::Draw, Run::Open) => true,
             (Run::Open, Run::State | Run::Draw) => true,
-            (Run::List(_) | Run::Lists | Run::DrawBuffer(_) | Run::ReadBuffer(_), _) => false,
+            (alone, _) if !alone.is_plain() => false,
             (a, b) => a == b,
         }
     }
@@ -58,7 +68,7 @@ pub struct Segment {
     pub name: u32,
     /// State groups that are stale after it.
     pub touch: Touch,
-    /// The names of glCallLists.
+    /// The names of glCallLists, the buffers of glDrawBuffers, the arguments of glBlitFramebuffer.
     pub names: Arc<[u32]>,
     /// What it does to the current values.
     pub immediate: Immediate,
@@ -73,16 +83,20 @@ pub struct Lists {
     bodies: HashMap<u32, Body>,
     spare: Vec<u32>,
     next: u32,
+    highest: u32,
 }
+
+/// The first name of ours.
+const TOP: u32 = u32::MAX - 1;
 
 impl Default for Lists {
     fn default() -> Self {
         Lists {
             bodies: HashMap::new(),
             spare: Vec::new(),
-            // From the top downwards: glGenLists then still answers the lowest free names (measured on Mesa 22.3), as it does
-            // without us; above a name in the middle it would go on from there.
-            next: u32::MAX - 1,
+            // From the top downwards, where no program numbers its lists.
+            next: TOP,
+            highest: 0,
         }
     }
 }
@@ -105,8 +119,33 @@ impl Lists {
         self.next + 1
     }
 
+    /// Whether a name is one of ours.
+    pub fn owns(&self, name: u32) -> bool {
+        (self.next + 1..=TOP).contains(&name) && !self.bodies.contains_key(&name)
+    }
+
+    /// Where glGenLists would go on without us: above the highest name that the program has used (measured on Mesa 22.3).
+    pub fn free(&self, count: u32) -> Option<u32> {
+        let first = self.highest + 1;
+        (self.next - first >= count).then_some(first)
+    }
+
+    /// The program has these names from glGenLists.
+    pub fn generated(&mut self, first: u32, count: u32) {
+        let last = first.saturating_add(count - 1);
+        self.used(last);
+        let empty = Body::default();
+        self.bodies
+            .extend((first..=last).map(|name| (name, empty.clone())));
+    }
+
+    fn used(&mut self, name: u32) {
+        self.highest = self.highest.max(name.min(TOP - 1));
+    }
+
     /// A list has been compiled; answers the names of the runs that nothing calls any more.
     pub fn define(&mut self, list: u32, body: Body) -> Vec<u32> {
+        self.used(list);
         let old = self.bodies.insert(list, body);
         self.release(old)
     }
@@ -147,6 +186,7 @@ pub struct Compiling {
     /// It enables GL_FRAMEBUFFER_SRGB.
     pub enables_srgb: bool,
     closed: Vec<Segment>,
+    executed: usize,
     open: Segment,
     used: bool,
     matrix_mode: Option<u32>,
@@ -196,6 +236,7 @@ impl Compiling {
             between: false,
             enables_srgb: false,
             closed: Vec::new(),
+            executed: 0,
             open: fresh(name),
             used: false,
             matrix_mode: None,
@@ -213,9 +254,43 @@ impl Compiling {
 
     /// The driver has ended the open run's list and begun another one.
     pub fn split(&mut self, name: u32) {
-        self.closed
-            .push(std::mem::replace(&mut self.open, fresh(name)));
+        let closed = std::mem::replace(&mut self.open, fresh(name));
+        self.close(closed);
         (self.used, self.matrices, self.attribs) = (false, 0, 0);
+    }
+
+    fn close(&mut self, mut segment: Segment) {
+        if self.attribs > 0 {
+            // What stays pushed must be the program's own rectangles.
+            segment.touch = segment.touch | Touch::RECTS;
+        }
+        self.closed.push(segment);
+    }
+
+    /// Whether the program wants the commands executed as well (GL_COMPILE_AND_EXECUTE).
+    pub fn executes(&self) -> bool {
+        self.mode == crate::gl::consts::COMPILE_AND_EXECUTE
+    }
+
+    /// Whether something has been compiled into the open run.
+    pub fn used(&self) -> bool {
+        self.used
+    }
+
+    /// The driver's list of the open run.
+    pub fn name(&self) -> u32 {
+        self.open.name
+    }
+
+    /// The closed runs that have not been executed yet; from now on they have.
+    pub fn take_unexecuted(&mut self) -> Vec<Segment> {
+        let runs = self
+            .closed
+            .get(self.executed..)
+            .unwrap_or_default()
+            .to_vec();
+        self.executed = self.closed.len();
+        runs
     }
 
     /// Takes note of a command that is compiled into the open run, and of what it touches.
@@ -252,10 +327,14 @@ impl Compiling {
         self.open.names = names.into();
     }
 
-    /// glEndList.
-    pub fn finish(mut self) -> (u32, u32, Body) {
-        self.closed.push(self.open);
-        (self.list, self.mode, self.closed.into())
+    /// glEndList: closes the last run.
+    pub fn finish(&mut self) {
+        self.split(0);
+    }
+
+    /// All runs, after [`Compiling::finish`].
+    pub fn body(&self) -> Body {
+        self.closed.as_slice().into()
     }
 
     fn kind(&self, command: Command) -> Run {
@@ -295,8 +374,8 @@ mod tests {
                 *last += 1;
             }
         }
-        let (_, _, body) = list.finish();
-        body.iter().map(|s| s.run).zip(counts).collect()
+        list.finish();
+        list.body().iter().map(|s| s.run).zip(counts).collect()
     }
 
     const ANY: Command = Command::Of(Run::Open);
@@ -368,7 +447,8 @@ mod tests {
         list.between = true;
         assert!(!list.needs_split(Command::Of(Run::List(3))));
         list.note(Command::Of(Run::List(3)), Touch::ALL);
-        assert_eq!(list.finish().2[0].run, Run::Draw);
+        list.finish();
+        assert_eq!(list.body()[0].run, Run::Draw);
     }
 
     #[test]

@@ -4,8 +4,10 @@
 /* Lists 1 to 8 call only lower ones, at most two in each; 101 to 112 call none: so no list is endless, whatever the base. */
 static void define(GLuint name, int parts, int may_call)
 {
-    CALL(glNewList, name, chance(97) ? PICK(GL_COMPILE, GL_COMPILE, GL_COMPILE_AND_EXECUTE) : GL_RGBA);
+    GLenum mode = chance(97) ? PICK(GL_COMPILE, GL_COMPILE, GL_COMPILE_AND_EXECUTE) : GL_RGBA;
+    CALL(glNewList, name, mode);
     R->list = (int)name;
+    R->executes = mode == GL_COMPILE_AND_EXECUTE;
     int begin = R->begin;
     for (int i = 0; i < parts; i++) {
         part();
@@ -28,7 +30,7 @@ static void define(GLuint name, int parts, int may_call)
         else if (chance(70))
             CALL(glCallLists, 2, GL_UNSIGNED_BYTE, (const GLubyte *)names);
     }
-    R->list = 0;
+    R->list = R->executes = 0;
     CALL0(glEndList);
 }
 
@@ -51,7 +53,7 @@ static void vertex_list(void)
     R->list = 111;
     vertex_calls((int)below(6));
     R->part = 0;
-    R->list = 0;
+    R->list = R->executes = 0;
     CALL0(glEndList);
 }
 
@@ -60,21 +62,23 @@ static void object_list(void)
 {
     if (R->list || R->begin)
         return;
-    CALL(glNewList, 1 + below(8), PICK(GL_COMPILE, GL_COMPILE_AND_EXECUTE));
+    GLenum mode = PICK(GL_COMPILE, GL_COMPILE_AND_EXECUTE);
+    CALL(glNewList, 1 + below(8), mode);
     R->list = 1;
+    R->executes = mode == GL_COMPILE_AND_EXECUTE;
     CALL0(glPushMatrix);
     CALL(glRotatef, within(-180, 180), 0.0f, 1.0f, 0.2f);
     if (chance(30))
-        CALL(glPushAttrib, PICK(GL_ALL_ATTRIB_BITS, GL_ENABLE_BIT, GL_CURRENT_BIT));
+        CALL(glPushAttrib, whole_mask());
     CALL(glColor3f, within(0, 1), within(0, 1), within(0, 1));
     CALL(glBegin, PICK(GL_TRIANGLES, GL_QUADS, GL_TRIANGLE_STRIP));
-    vertex_calls(8);
+    vertex_calls(R->executes ? 12 : 8);
     R->part = 0;
     CALL0(glEnd);
     if (chance(30))
         CALL0(glPopAttrib);
     CALL0(glPopMatrix);
-    R->list = 0;
+    R->list = R->executes = 0;
     CALL0(glEndList);
 }
 
@@ -97,6 +101,8 @@ static void call_list(void)
     int n = chance(97) ? (int)below(4) : -1;
     for (int k = 0; k < 3; k++) {
         int v = 1 + (int)below(8);
+        if (O.trace)
+            fprintf(R->out, "%d.%d  list %d\n", R->step, R->part, v);
         switch (type) {
         case GL_SHORT: case GL_UNSIGNED_SHORT: names.s[k] = (GLshort)v; break;
         case GL_INT: case GL_UNSIGNED_INT: names.i[k] = v; break;

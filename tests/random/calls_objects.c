@@ -1,6 +1,11 @@
 /* Framebuffer objects, occlusion queries, swaps. */
 #include "random.h"
 
+int framebuffer_bound(void)
+{
+    return bound(GL_DRAW_FRAMEBUFFER_BINDING) || bound(GL_READ_FRAMEBUFFER_BINDING);
+}
+
 static void framebuffer(void)
 {
     struct context *c = R->now;
@@ -18,7 +23,7 @@ static void framebuffer(void)
     case 4: case 5: {
         /* A whole one: a texture of its own, so that nothing is sampled that is drawn to. */
         GLint before = 0;
-        if (R->begin)
+        if (R->begin || bound(GL_ATTRIB_STACK_DEPTH)) /* see whole_mask() */
             break;
         glGetIntegerv(GL_TEXTURE_BINDING_2D, &before);
         CALL(glBindFramebuffer, target, c->framebuffers[i]);
@@ -52,7 +57,8 @@ static void framebuffer(void)
             CALL(glDeleteFramebuffers, 1, (const GLuint *)&c->framebuffers[i]);
             CALL(glGenFramebuffers, 1, &c->framebuffers[i]);
         } else {
-            CALL(glBlitFramebuffer, 0, 0, (int)below(33), (int)below(33), (int)below(20), (int)below(20), 40, 30,
+            /* An overlap is undefined. */
+            CALL(glBlitFramebuffer, 0, 0, (int)below(17), (int)below(33), 17 + (int)below(20), (int)below(20), 40, 30,
                  PICK(GL_COLOR_BUFFER_BIT, GL_COLOR_BUFFER_BIT, GL_DEPTH_BUFFER_BIT), PICK(GL_NEAREST, GL_LINEAR));
         }
     }

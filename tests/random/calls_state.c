@@ -166,10 +166,18 @@ static void fog_and_planes(void)
 
 static void current_values(void) { vertex_calls(-1); }
 
+/* Within another level all of it: Mesa 22.3 forgets at glPopAttrib what has changed since the outer glPushAttrib, and does not put
+ * back there what the inner one has not. But no buffers that may be another framebuffer's at glPopAttrib: it puts them back, or
+ * says that they are wrong, only where something of the kind has changed in between, and what counts as that is its own affair. */
+GLbitfield whole_mask(void)
+{
+    return R->list || framebuffer_bound() ? GL_ALL_ATTRIB_BITS & ~(GLbitfield)(GL_COLOR_BUFFER_BIT | GL_PIXEL_MODE_BIT) : GL_ALL_ATTRIB_BITS;
+}
+
 static void push_attrib(void)
 {
     if (chance(50))
-        CALL(glPushAttrib, chance(30) ? GL_ALL_ATTRIB_BITS
+        CALL(glPushAttrib, chance(30) || R->list || bound(GL_ATTRIB_STACK_DEPTH) || framebuffer_bound() ? whole_mask()
                            : PICK(GL_CURRENT_BIT, GL_COLOR_BUFFER_BIT, GL_TRANSFORM_BIT, GL_VIEWPORT_BIT, GL_SCISSOR_BIT,
                                   GL_ENABLE_BIT, GL_LIGHTING_BIT, GL_TEXTURE_BIT, GL_PIXEL_MODE_BIT, GL_LIST_BIT,
                                   GL_POLYGON_BIT | GL_FOG_BIT, GL_COLOR_BUFFER_BIT | GL_TRANSFORM_BIT));
@@ -189,7 +197,7 @@ static void push_client(void)
 static void deep_attrib(void)
 {
     for (uint32_t n = 1 + below(20); n; n--)
-        CALL(glPushAttrib, PICK(GL_ALL_ATTRIB_BITS, GL_ENABLE_BIT, GL_CURRENT_BIT));
+        CALL(glPushAttrib, whole_mask());
 }
 
 static void render_mode(void)

@@ -34,6 +34,7 @@ struct run {
     int step, part;
     int thread; /* 0 or 1 */
     int begin, list; /* between glBegin and glEnd; the list that is being compiled */
+    int executes;    /* with GL_COMPILE_AND_EXECUTE */
     struct context contexts[CONTEXTS], *now;
     int context_count;
     FILE *out;
@@ -43,7 +44,7 @@ struct run {
 extern __thread struct run *R;
 
 struct options {
-    int trace, verbose, rows, steps;
+    int trace, verbose, rows, flush, steps;
     unsigned without; /* bits of classes */
     const char *drop; /* ",3,5.2,": steps and parts of steps that are left out */
 };
@@ -130,6 +131,10 @@ struct generator {
 extern const struct generator state_calls[], draw_calls[], pixel_calls[], object_calls[], list_calls[];
 void any_call(void);        /* of all tables (main.c) */
 void vertex_calls(int n);   /* as between glBegin and glEnd (calls_draw.c) */
+void after_primitive(void); /* in a list (calls_draw.c) */
+GLbitfield whole_mask(void); /* what a glPushAttrib within another one pushes (calls_state.c) */
+int bound(GLenum name);     /* glGetIntegerv; 0 between glBegin and glEnd */
+int framebuffer_bound(void);
 void array_pointers(void);  /* every pointer at memory that may be read (calls_draw.c) */
 void prepare_data(void);    /* once per process (calls_draw.c) */
 void prepare_pixels(void);  /* as well (calls_pixels.c) */

@@ -262,14 +262,14 @@ pub fn entry(commands: &[Command]) -> String {
                 )
                 .unwrap();
             }
-            "matrix" | "cap" | "any" | "texture" => {
+            "matrix" | "cap" | "any" | "ask" | "texture" => {
                 let note = match class {
                     "matrix" => format!("matrix(Command::{arg})"),
-                    "any" => "any()".into(),
+                    "any" | "ask" => format!("{class}()"),
                     "texture" => "texture(target)".into(),
                     _ => format!("cap({}, {})", c.params[0].name, name.starts_with("glEnable")),
                 };
-                writeln!(o, "    hooks::{note};\n    let gl = hooks::real();\n    // SAFETY: the program's own call.\n    {call};").unwrap();
+                writeln!(o, "    hooks::{note};\n    let gl = hooks::real();\n    // SAFETY: the program's own call.\n    {call}{}", if c.ret == "()" { ";" } else { "" }).unwrap();
             }
             "raster" => {
                 let place = if name.starts_with("glWindowPos") { "Place::Window" } else { "Place::Scene" };
@@ -278,6 +278,7 @@ pub fn entry(commands: &[Command]) -> String {
             "draw" => writeln!(o, "    // SAFETY: the program's own call.\n    hooks::draw(Kind::{arg}, &mut |gl| {call})").unwrap(),
             "read" => writeln!(o, "    // SAFETY: the program's own call.\n    hooks::read(x, width, &mut |gl| {call})").unwrap(),
             "copy" => writeln!(o, "    // SAFETY: the program's own call.\n    hooks::copy(target, x, width, &mut |gl| {call})").unwrap(),
+            "now" => writeln!(o, "    // SAFETY: the program's own call.\n    hooks::read_now(x, width, &mut |gl| {call})").unwrap(),
             "hide" => {
                 writeln!(o, "    // SAFETY: the program's own call.\n    hooks::hide({}, &mut |gl| {call})", c.params[0].name).unwrap()
             }

@@ -44,7 +44,7 @@ fn scalar(c: &str) -> &'static str {
         "GLushort" | "GLhalfNV" => "u16",
         "GLfloat" | "GLclampf" => "f32",
         "GLdouble" | "GLclampd" => "f64",
-        "GLintptr" | "GLsizeiptr" => "isize",
+        "GLintptr" | "GLsizeiptr" | "GLintptrARB" | "GLsizeiptrARB" => "isize",
         "GLint64" | "GLint64EXT" => "i64",
         "GLuint64" | "GLuint64EXT" => "u64",
         "void" => "()",

@@ -1,7 +1,7 @@
 //! Immediate mode, arrays, pixels, display lists.
 
 use crate::context::{Inside, enter, inside, peek, peek_inside, real, recording, set_inside};
-use crate::hooks::compile;
+use crate::hooks::{ask, compile};
 use core::slice::from_raw_parts;
 use manyview_core::gl::api::Indices;
 use manyview_core::gl::consts::LIST_BASE;
@@ -125,6 +125,7 @@ pub(crate) unsafe fn glCopyPixels(x: i32, y: i32, width: i32, height: i32, type_
 
 pub(crate) unsafe fn glNewList(list: u32, mode: u32) {
     const COMPILE: u32 = 0x1300;
+    ask();
     let (name, mode) = match enter(|gl, l| l.new_list(gl, list, mode)).flatten() {
         Some(run) => (run, COMPILE),
         None => (list, mode),
@@ -136,14 +137,31 @@ pub(crate) unsafe fn glNewList(list: u32, mode: u32) {
 pub(crate) unsafe fn glEndList() {
     // SAFETY: the program's own call.
     unsafe { real().glEndList() };
-    if let Some(Some(list)) = enter(|gl, l| l.end_list(gl)) {
-        // GL_COMPILE_AND_EXECUTE was compiled only: executed now, in every view.
-        // SAFETY: the list was just compiled.
-        unsafe { glCallList(list) };
+    enter(|gl, l| l.end_list(gl));
+}
+
+pub(crate) unsafe fn glGenLists(range: i32) -> u32 {
+    ask();
+    // SAFETY: the program's own call.
+    let first = unsafe { real().glGenLists(range) };
+    match u32::try_from(range) {
+        Ok(count @ 1..) if first != 0 => {
+            enter(|gl, l| l.generated_lists(gl, first, count)).unwrap_or(first)
+        }
+        _ => first,
     }
 }
 
+pub(crate) unsafe fn glIsList(list: u32) -> u8 {
+    ask();
+    // SAFETY: the program's own call.
+    let is = unsafe { real().glIsList(list) };
+    // Ours are none that the program has made.
+    is & u8::from(peek(|l| l.owns_list(list)) != Some(true))
+}
+
 pub(crate) unsafe fn glDeleteLists(list: u32, range: i32) {
+    ask();
     // SAFETY: the program's own call.
     unsafe { real().glDeleteLists(list, range) };
     if let Ok(range) = u32::try_from(range) {

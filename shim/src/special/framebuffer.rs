@@ -1,7 +1,7 @@
 //! Framebuffer objects and the program's framebuffer 0.
 
 use crate::context::{enter, real};
-use crate::hooks::compile;
+use crate::hooks::{ask, compile};
 use core::slice::from_raw_parts;
 use manyview_core::gl::{Gl, Ptr, consts as c};
 use manyview_core::layer::Layer;
@@ -9,6 +9,7 @@ use manyview_core::plan::Kind;
 use manyview_core::state::{Command, Run, Touch};
 
 pub(crate) unsafe fn glBindFramebuffer(target: u32, framebuffer: u32) {
+    ask();
     // SAFETY: a name that the program or the layer made.
     let mut bind = |t, n| unsafe { real().glBindFramebuffer(t, n) };
     if enter(|_, l| l.bind_framebuffer(target, framebuffer, &mut bind)).is_none() {
@@ -17,6 +18,7 @@ pub(crate) unsafe fn glBindFramebuffer(target: u32, framebuffer: u32) {
 }
 
 pub(crate) unsafe fn glBindFramebufferEXT(target: u32, framebuffer: u32) {
+    ask();
     // SAFETY: a name that the program or the layer made.
     let mut bind = |t, n| unsafe { real().glBindFramebufferEXT(t, n) };
     if enter(|_, l| l.bind_framebuffer(target, framebuffer, &mut bind)).is_none() {
@@ -25,6 +27,7 @@ pub(crate) unsafe fn glBindFramebufferEXT(target: u32, framebuffer: u32) {
 }
 
 pub(crate) unsafe fn glDeleteFramebuffers(n: i32, framebuffers: Ptr) {
+    ask();
     let names = match usize::try_from(n) {
         Ok(n) if !framebuffers.is_null() => {
             // SAFETY: n names (the program's array), copied before the driver runs.
@@ -59,10 +62,10 @@ fn choose(
 }
 
 pub(crate) unsafe fn glDrawBuffer(buf: u32) {
-    if compile(Command::Of(Run::DrawBuffer(buf)), Touch::NONE) {
-        let translated = enter(|_, l| l.state.framebuffers.translate(buf)).flatten();
+    if compile(Command::Of(Run::DrawBuffers), Touch::NONE) {
+        enter(|_, l| l.compiled_names(&[buf]));
         // SAFETY: compiled into the program's list.
-        return unsafe { real().glDrawBuffer(translated.unwrap_or(buf)) };
+        return unsafe { real().glDrawBuffer(buf) };
     }
     // SAFETY: the program's own call.
     choose(
@@ -86,6 +89,12 @@ unsafe fn buffers(n: i32, bufs: Ptr) -> Option<Vec<u32>> {
 pub(crate) unsafe fn glDrawBuffers(n: i32, bufs: Ptr) {
     // SAFETY: the program's array.
     let names = unsafe { buffers(n, bufs) };
+    if compile(Command::Of(Run::DrawBuffers), Touch::NONE) {
+        // What has no names is wrong with any framebuffer.
+        enter(|_, l| l.compiled_names(names.as_deref().unwrap_or(&[u32::MAX])));
+        // SAFETY: compiled into the program's list.
+        return unsafe { real().glDrawBuffers(n, bufs) };
+    }
     // SAFETY: the program's own call.
     choose(
         Layer::draws_to_zero,
@@ -200,7 +209,16 @@ pub(crate) unsafe fn glBlitFramebuffer(
             filter,
         )
     };
-    if enter(|gl, l| l.blit(gl, &mut blit)).is_none() {
+    let done = enter(|gl, l| {
+        l.blit(gl, &mut blit);
+        if l.compiles() {
+            let rect = [srcX0, srcY0, srcX1, srcY1, dstX0, dstY0, dstX1, dstY1];
+            let mut arguments = rect.map(|v| v as u32).to_vec();
+            arguments.extend([mask, filter]);
+            l.compiled_names(&arguments);
+        }
+    });
+    if done.is_none() {
         blit(0, 0);
     }
 }

@@ -1,7 +1,7 @@
 //! State that the layer follows call by call, and what the program asks about.
 
 use crate::context::{check_size, draws_to_memory, enter, frame, peek, real};
-use crate::hooks::{compile, touch};
+use crate::hooks::{ask, compile, touch};
 use core::sync::atomic::{AtomicI64, Ordering::Relaxed};
 use manyview_core::gl::Ptr;
 use manyview_core::state::{Command, Touch};
@@ -43,6 +43,7 @@ pub(crate) unsafe fn glBindTexture(target: u32, texture: u32) {
 }
 
 pub(crate) unsafe fn glDeleteTextures(n: i32, textures: Ptr) {
+    ask();
     let names = match usize::try_from(n) {
         // SAFETY: n names (the program's array).
         Ok(n) if !textures.is_null() => unsafe {
@@ -80,6 +81,7 @@ pub(crate) unsafe fn glPopAttrib() {
 }
 
 pub(crate) unsafe fn glIsTexture(texture: u32) -> u8 {
+    ask();
     // SAFETY: the program's own call.
     let is = unsafe { real().glIsTexture(texture) };
     // Ours are none that the program has been given.
@@ -87,12 +89,14 @@ pub(crate) unsafe fn glIsTexture(texture: u32) -> u8 {
 }
 
 pub(crate) unsafe fn glIsFramebuffer(framebuffer: u32) -> u8 {
+    ask();
     // SAFETY: the program's own call.
     let is = unsafe { real().glIsFramebuffer(framebuffer) };
     is & u8::from(peek(|l| l.owns_framebuffer(framebuffer)) != Some(true))
 }
 
 pub(crate) unsafe fn glRenderMode(mode: u32) -> i32 {
+    ask();
     // SAFETY: the program's own call.
     let hits = unsafe { real().glRenderMode(mode) };
     peek(|l| {
@@ -117,6 +121,7 @@ pub(crate) unsafe fn glEndTransformFeedback() {
 
 /// What is special about framebuffer 0 in an answer of glGet.
 fn answer(name: u32) -> Option<i64> {
+    ask();
     peek(|l| l.answer(name)).flatten()
 }
 
@@ -166,6 +171,7 @@ pub(crate) unsafe fn glGetInteger64v(pname: u32, data: Ptr) {
 }
 
 pub(crate) unsafe fn glGetError() -> u32 {
+    ask();
     if let Some(Some(e)) = peek(|l| l.state.errors.pop_front()) {
         return e;
     }
@@ -174,6 +180,7 @@ pub(crate) unsafe fn glGetError() -> u32 {
 }
 
 pub(crate) unsafe fn glFlush() {
+    ask();
     // SAFETY: the program's own call.
     let flush = || unsafe { real().glFlush() };
     if !draws_to_memory() && enter(|_, l| l.shows_on_flush()) == Some(true) {
@@ -184,6 +191,7 @@ pub(crate) unsafe fn glFlush() {
 }
 
 pub(crate) unsafe fn glFinish() {
+    ask();
     // SAFETY: the program's own call.
     let finish = || unsafe { real().glFinish() };
     let memory = draws_to_memory();
