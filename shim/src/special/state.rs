@@ -173,6 +173,9 @@ pub(crate) unsafe fn glGetInteger64v(pname: u32, data: Ptr) {
 pub(crate) unsafe fn glGetError() -> u32 {
     ask();
     if let Some(Some(e)) = peek(|l| l.state.errors.pop_front()) {
+        // As long as it had been in the driver's queue, the driver would have recorded no other.
+        // SAFETY: no arguments.
+        unsafe { real().glGetError() };
         return e;
     }
     // SAFETY: the program's own call.
