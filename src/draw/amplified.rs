@@ -377,6 +377,13 @@ impl Around {
             fixed.program_point_size,
             patches.point_size,
         );
+        if key.target.amplifier != Amplifier::Instanced
+            && !matches!(key.target.primitive, Primitive::Points | Primitive::Lines)
+        {
+            // Measured on llvmpipe 22.3: with smooth lines enabled, a geometry shader's triangles lose their colour.
+            set(c::LINE_SMOOTH, fixed.surroundings.line_smooth, false);
+            set(c::POINT_SMOOTH, fixed.surroundings.point_smooth, false);
+        }
         for i in 0..8u32 {
             set(
                 c::CLIP_DISTANCE0 + i,
