@@ -20,7 +20,7 @@ LONG_PACKAGES := gltron xscreensaver-gl
 # Only for those who make the pictures of the documents again.
 PICTURE_PACKAGES := netpbm
 
-.PHONY: help build demos demo pictures test test-long test-full lint packages install uninstall clean
+.PHONY: help build demos demo pictures test test-long test-full programs lint packages install uninstall clean
 
 help: ## list the targets
 	@sed -n 's/^\([a-z-]*\):.*## /\1	/p' $(MAKEFILE_LIST) | expand -t 20
@@ -62,16 +62,19 @@ test: packages build demos ## run the tests
 test-long: packages build demos ## run the tests that take long as well
 	@sh scripts/packages.sh --optional $(LONG_PACKAGES)
 	@if $(CARGO) nextest --version >/dev/null 2>&1; \
-	then $(CARGO) nextest run --release --no-tests=warn --workspace --run-ignored all -E 'not test(/^full_/)'; \
-	else $(CARGO) test --release --workspace --lib --bins --tests -- --include-ignored --skip full_; fi
+	then $(CARGO) nextest run --release --no-tests=warn --workspace --run-ignored all -E 'not test(/^(full|programs)_/)'; \
+	else $(CARGO) test --release --workspace --lib --bins --tests -- --include-ignored --skip full_ --skip programs_; fi
 	$(CARGO) test --release -p manyview --doc
 
-test-full: packages build demos ## run all tests, also all of piglit's (half an hour)
+test-full: packages build demos ## run all tests but those of programs, also all of piglit's (half an hour)
 	@sh scripts/packages.sh --optional $(LONG_PACKAGES)
 	@if $(CARGO) nextest --version >/dev/null 2>&1; \
-	then $(CARGO) nextest run --release --no-fail-fast --no-tests=warn --workspace --run-ignored all; \
-	else $(CARGO) test --release --no-fail-fast --workspace --lib --bins --tests -- --include-ignored; fi
+	then $(CARGO) nextest run --release --no-fail-fast --no-tests=warn --workspace --run-ignored all -E 'not test(/^programs_/)'; \
+	else $(CARGO) test --release --no-fail-fast --workspace --lib --bins --tests -- --include-ignored --skip programs_; fi
 	$(CARGO) test --release -p manyview --doc
+
+programs: packages build ## run real programs with and without the layer; writes docs/compatibility.md (an hour)
+	$(CARGO) test --release --test programs programs_ -- --ignored --nocapture
 
 lint: rust ## check format, clippy and documentation
 	$(CARGO) fmt --all --check
@@ -100,7 +103,7 @@ install: ## install to PREFIX after `make build` (default /usr/local)
 	for shader in $(wildcard shaders/*.wgsl); do \
 		install -m 644 $$shader $(DESTDIR)$(PREFIX)/share/manyview/shaders/ || exit 1; done
 	install -m 644 README.md ARCHITECTURE.md CHANGELOG.md LICENSE $(DESTDIR)$(PREFIX)/share/doc/manyview/
-	install -m 644 docs/mirror.png $(DESTDIR)$(PREFIX)/share/doc/manyview/docs/
+	install -m 644 docs/mirror.png docs/compatibility.md $(DESTDIR)$(PREFIX)/share/doc/manyview/docs/
 
 uninstall: ## remove what install has put to PREFIX
 	rm -f $(DESTDIR)$(PREFIX)/bin/manyview

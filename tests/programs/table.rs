@@ -1,0 +1,83 @@
+//! Which programs: programs.toml.
+
+use serde::Deserialize;
+use std::collections::BTreeMap;
+
+/// One program.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Program {
+    /// Also of its folder in target/programs.
+    pub(crate) name: String,
+    /// Debian package.
+    pub(crate) package: String,
+    /// Program and arguments.
+    pub(crate) command: Vec<String>,
+    #[serde(default)]
+    pub(crate) api: Api,
+    /// What it draws with, in the words of the zoo.
+    pub(crate) draws: String,
+    /// How long it is recorded.
+    #[serde(default = "seconds")]
+    pub(crate) seconds: u64,
+    /// At most so many frames.
+    #[serde(default = "frames")]
+    pub(crate) frames: u64,
+    /// Variables.
+    #[serde(default)]
+    pub(crate) env: BTreeMap<String, String>,
+    /// Why it fails, if it does.
+    pub(crate) known: Option<String>,
+}
+
+/// Where the context comes from.
+#[derive(Clone, Copy, Default, Deserialize)]
+#[serde(rename_all = "UPPERCASE")]
+pub(crate) enum Api {
+    #[default]
+    Glx,
+    Egl,
+}
+
+impl Api {
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Self::Glx => "GLX",
+            Self::Egl => "EGL",
+        }
+    }
+
+    /// apitrace's name of it.
+    pub(crate) fn traced(self) -> &'static str {
+        match self {
+            Self::Glx => "gl",
+            Self::Egl => "egl",
+        }
+    }
+
+    /// What repeats a trace of it.
+    pub(crate) fn retrace(self) -> &'static str {
+        match self {
+            Self::Glx => "glretrace",
+            Self::Egl => "eglretrace",
+        }
+    }
+}
+
+fn seconds() -> u64 {
+    10
+}
+
+fn frames() -> u64 {
+    500
+}
+
+/// All of them, in the order of the file.
+pub(crate) fn read() -> Vec<Program> {
+    #[derive(Deserialize)]
+    struct Table {
+        program: Vec<Program>,
+    }
+    let table: Table = toml::from_str(include_str!("programs.toml")).expect("programs.toml");
+    table.program
+}
