@@ -213,24 +213,24 @@ fn random_calls_side_by_side() {
 
 #[test]
 #[ignore = "differences remain"]
-fn random_calls_in_layers() {
+fn full_random_calls_in_layers() {
     compare(Api::Egl, "layers", 10_000..10_100);
 }
 
 #[test]
 #[ignore = "differences remain"]
-fn random_calls_in_windows() {
+fn full_random_calls_in_windows() {
     compare(Api::Glx, "side-by-side", 20_000..20_050);
 }
 
 #[test]
 #[ignore = "differences remain"]
-fn random_calls_in_memory() {
+fn full_random_calls_in_memory() {
     compare(Api::OsMesa, "side-by-side", 30_000..30_050);
 }
 
 #[test]
 #[ignore = "minutes"]
-fn ten_thousand_random_sequences() {
+fn full_ten_thousand_random_sequences() {
     compare(Api::Egl, "side-by-side", 100_000..110_000);
 }
