@@ -14,6 +14,8 @@ pub(super) struct Copies {
     textures: HashMap<u32, Copy>,
     /// Textures of the context can make their mipmaps by themselves, as those of fixed function do.
     mipmaps: bool,
+    /// Texture units of the context that are looked at.
+    units: u32,
 }
 
 /// One texture per view, the program's own texture for its own view.
@@ -55,10 +57,12 @@ fn binding(target: u32) -> Option<u32> {
 
 impl Copies {
     /// For a context with or without fixed function.
-    pub(super) fn new(compatibility: bool) -> Copies {
+    pub(super) fn new(gl: &Gl, compatibility: bool) -> Copies {
+        let units = gl.get_integer(c::MAX_COMBINED_TEXTURE_IMAGE_UNITS);
         Copies {
             textures: HashMap::new(),
             mipmaps: compatibility,
+            units: units.clamp(1, 32) as u32,
         }
     }
 
@@ -91,11 +95,8 @@ impl Copies {
             return Vec::new();
         }
         let active = gl.get_integer(c::ACTIVE_TEXTURE) as u32;
-        let units = gl
-            .get_integer(c::MAX_COMBINED_TEXTURE_IMAGE_UNITS)
-            .clamp(1, 32) as u32;
         let mut bound = Vec::new();
-        for unit in (0..units).map(|u| c::TEXTURE0 + u) {
+        for unit in (0..self.units).map(|u| c::TEXTURE0 + u) {
             gl.active_texture(unit);
             for (target, binding) in TARGETS {
                 let texture = gl.get_integer(binding) as u32;

@@ -121,7 +121,7 @@ impl Layer {
             raster_placed: Projection::None,
             pushed: Vec::new(),
             queries: queries::Queries::default(),
-            copies: copies::Copies::new(support.compatibility),
+            copies: copies::Copies::new(gl, support.compatibility),
             recording: Recording::default(),
             immediate: Immediate::default(),
             support,

@@ -67,11 +67,11 @@ pub(crate) unsafe fn glDrawBuffer(buf: u32) {
         // SAFETY: compiled into the program's list.
         return unsafe { real().glDrawBuffer(buf) };
     }
-    // SAFETY: the program's own call.
     choose(
         Layer::draws_to_zero,
         |gl, l| l.draw_buffers(gl, &[buf]),
         c::DRAW_FRAMEBUFFER,
+        // SAFETY: the program's own call.
         &mut || unsafe { real().glDrawBuffer(buf) },
     );
 }
@@ -95,11 +95,11 @@ pub(crate) unsafe fn glDrawBuffers(n: i32, bufs: Ptr) {
         // SAFETY: compiled into the program's list.
         return unsafe { real().glDrawBuffers(n, bufs) };
     }
-    // SAFETY: the program's own call.
     choose(
         Layer::draws_to_zero,
         |gl, l| l.draw_buffers(gl, names.as_deref()?),
         c::DRAW_FRAMEBUFFER,
+        // SAFETY: the program's own call.
         &mut || unsafe { real().glDrawBuffers(n, bufs) },
     );
 }
@@ -109,31 +109,31 @@ pub(crate) unsafe fn glReadBuffer(src: u32) {
         // SAFETY: compiled into the program's list.
         return unsafe { real().glReadBuffer(src) };
     }
-    // SAFETY: the program's own call.
     choose(
         Layer::reads_from_zero,
         |gl, l| l.read_buffer(gl, src),
         c::READ_FRAMEBUFFER,
+        // SAFETY: the program's own call.
         &mut || unsafe { real().glReadBuffer(src) },
     );
 }
 
 pub(crate) unsafe fn glNamedFramebufferDrawBuffer(framebuffer: u32, buf: u32) {
-    // SAFETY: the program's own call.
     choose(
         |_| framebuffer == 0,
         |gl, l| l.draw_buffers(gl, &[buf]),
         0,
+        // SAFETY: the program's own call.
         &mut || unsafe { real().glNamedFramebufferDrawBuffer(framebuffer, buf) },
     );
 }
 
 pub(crate) unsafe fn glFramebufferDrawBufferEXT(framebuffer: u32, mode: u32) {
-    // SAFETY: the program's own call.
     choose(
         |_| framebuffer == 0,
         |gl, l| l.draw_buffers(gl, &[mode]),
         0,
+        // SAFETY: the program's own call.
         &mut || unsafe { real().glFramebufferDrawBufferEXT(framebuffer, mode) },
     );
 }
@@ -141,11 +141,11 @@ pub(crate) unsafe fn glFramebufferDrawBufferEXT(framebuffer: u32, mode: u32) {
 pub(crate) unsafe fn glNamedFramebufferDrawBuffers(framebuffer: u32, n: i32, bufs: Ptr) {
     // SAFETY: the program's array.
     let names = unsafe { buffers(n, bufs) };
-    // SAFETY: the program's own call.
     choose(
         |_| framebuffer == 0,
         |gl, l| l.draw_buffers(gl, names.as_deref()?),
         0,
+        // SAFETY: the program's own call.
         &mut || unsafe { real().glNamedFramebufferDrawBuffers(framebuffer, n, bufs) },
     );
 }
@@ -153,31 +153,31 @@ pub(crate) unsafe fn glNamedFramebufferDrawBuffers(framebuffer: u32, n: i32, buf
 pub(crate) unsafe fn glFramebufferDrawBuffersEXT(framebuffer: u32, n: i32, bufs: Ptr) {
     // SAFETY: the program's array.
     let names = unsafe { buffers(n, bufs) };
-    // SAFETY: the program's own call.
     choose(
         |_| framebuffer == 0,
         |gl, l| l.draw_buffers(gl, names.as_deref()?),
         0,
+        // SAFETY: the program's own call.
         &mut || unsafe { real().glFramebufferDrawBuffersEXT(framebuffer, n, bufs) },
     );
 }
 
 pub(crate) unsafe fn glNamedFramebufferReadBuffer(framebuffer: u32, src: u32) {
-    // SAFETY: the program's own call.
     choose(
         |_| framebuffer == 0,
         |gl, l| l.read_buffer(gl, src),
         0,
+        // SAFETY: the program's own call.
         &mut || unsafe { real().glNamedFramebufferReadBuffer(framebuffer, src) },
     );
 }
 
 pub(crate) unsafe fn glFramebufferReadBufferEXT(framebuffer: u32, mode: u32) {
-    // SAFETY: the program's own call.
     choose(
         |_| framebuffer == 0,
         |gl, l| l.read_buffer(gl, mode),
         0,
+        // SAFETY: the program's own call.
         &mut || unsafe { real().glFramebufferReadBufferEXT(framebuffer, mode) },
     );
 }
