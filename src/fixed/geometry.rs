@@ -13,15 +13,14 @@ use super::reason::Unsupported;
 use super::text::Text;
 use super::{UNIFORM_FIRST, vertex, view};
 
-/// Vertices in the order of emission, with their index in the input.
-fn order(key: &FixedKey) -> &'static [u8] {
+/// Vertices in the order of emission, with their index in the input, by primitive.
+fn order(key: &FixedKey) -> &'static [&'static [u8]] {
     match (key.target.primitive, key.target.diagonal) {
-        (Primitive::Points, _) => &[0],
-        (Primitive::Lines, _) => &[0, 1],
-        (Primitive::Triangles | Primitive::Polygon, _) => &[0, 1, 2],
-        // Strips: triangles 0 1 3 and 3 1 2, or 1 2 0 and 0 2 3.
-        (Primitive::Quads | Primitive::QuadStrip, Diagonal::OneThree) => &[0, 1, 3, 2],
-        (Primitive::Quads | Primitive::QuadStrip, Diagonal::ZeroTwo) => &[1, 2, 0, 3],
+        (Primitive::Points, _) => &[&[0]],
+        (Primitive::Lines, _) => &[&[0, 1]],
+        (Primitive::Triangles | Primitive::Polygon, _) => &[&[0, 1, 2]],
+        (Primitive::Quads | Primitive::QuadStrip, Diagonal::OneThree) => &[&[0, 1, 3], &[1, 2, 3]],
+        (Primitive::Quads | Primitive::QuadStrip, Diagonal::ZeroTwo) => &[&[0, 1, 2], &[0, 2, 3]],
     }
 }
 
@@ -88,7 +87,7 @@ pub(super) fn write(key: &FixedKey, limits: &Limits) -> Result<String, Unsupport
     text.line(format!(
         "layout({}, max_vertices = {}) out;",
         output_layout(primitive),
-        primitive.vertices() * loops
+        primitive.emitted() * loops
     ));
     vertex::write_block(&mut text, key, "in", "mv_in[]");
     view::write_uniforms(&mut text, key);
@@ -130,10 +129,12 @@ fn write_main(text: &mut Text, key: &FixedKey, invocations: bool) {
         text.open(format!("for (int i = 0; i < {}; ++i) {{", key.target.views));
         text.line(format!("int view = {UNIFORM_FIRST} + i;"));
     }
-    for vertex in order(key) {
-        text.line(format!("mv_emit({vertex}, view);"));
+    for primitive in order(key) {
+        for vertex in *primitive {
+            text.line(format!("mv_emit({vertex}, view);"));
+        }
+        text.line("EndPrimitive();");
     }
-    text.line("EndPrimitive();");
     if !invocations {
         text.close("}");
     }

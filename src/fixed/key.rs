@@ -113,13 +113,14 @@ pub enum Primitive {
 }
 
 impl Primitive {
-    /// Vertices in and out, per view.
-    pub const fn vertices(self) -> u32 {
+    /// Vertices that a geometry shader emits per view: a quad is two triangles, not a strip of four vertices, because the
+    /// driver's own triangles begin at other vertices than those of a strip, and interpolation is rounded otherwise then.
+    pub const fn emitted(self) -> u32 {
         match self {
             Primitive::Points => 1,
             Primitive::Lines => 2,
             Primitive::Triangles | Primitive::Polygon => 3,
-            Primitive::Quads | Primitive::QuadStrip => 4,
+            Primitive::Quads | Primitive::QuadStrip => 6,
         }
     }
 }

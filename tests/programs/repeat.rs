@@ -20,8 +20,15 @@ pub(crate) struct Ended {
 
 /// Runs a command in a process group of its own and ends the whole group after a time.
 ///
-/// `endless`: the program is not expected to end by itself, and no failure if it has to be ended.
-pub(crate) fn run(command: &mut Command, limit: Duration, log: &Path, endless: bool) -> Ended {
+/// `endless`: the program is not expected to end by itself, and no failure if it has to be ended. `meanwhile` is called some
+/// fifty times a second with the time since the start.
+fn run(
+    command: &mut Command,
+    limit: Duration,
+    log: &Path,
+    endless: bool,
+    mut meanwhile: impl FnMut(Duration),
+) -> Ended {
     let failed = |wrong: String| Ended {
         wrong: Some(wrong),
         said: String::new(),
@@ -41,6 +48,7 @@ pub(crate) fn run(command: &mut Command, limit: Duration, log: &Path, endless: b
     let mut status = None;
     while status.is_none() && start.elapsed() < limit {
         std::thread::sleep(Duration::from_millis(20));
+        meanwhile(start.elapsed());
         status = child.try_wait().expect("a child");
     }
     let wrong = match status {
@@ -79,6 +87,21 @@ fn prepared<'a>(command: &'a mut Command, program: &Program, screen: &Screen) ->
         .envs(&program.env)
 }
 
+/// Presses the program's keys when their time has come, in the window under the pointer.
+fn press<'a>(program: &'a Program, screen: &'a Screen) -> impl FnMut(Duration) + 'a {
+    let mut keys = program.keys.iter().peekable();
+    move |time| {
+        if let Some(press) = keys.next_if(|press| time.as_secs_f64() >= press.after) {
+            let mut command = bare("xdotool");
+            screen.give(&mut command);
+            // There is no window manager: the window under the pointer has the keys.
+            command.args(["mousemove", "200", "150", "key", &press.key]);
+            // Without the tool the program stays in its menu, which the pictures show.
+            let _ = command.stderr(Stdio::null()).status();
+        }
+    }
+}
+
 /// Records the first frames of a program, unless that was done before.
 pub(crate) fn record(program: &Program, screen: &Screen, folder: &Path) -> Result<PathBuf, String> {
     let trace = folder.join("program.trace");
@@ -97,6 +120,7 @@ pub(crate) fn record(program: &Program, screen: &Screen, folder: &Path) -> Resul
         limit,
         &folder.join("record.log"),
         true,
+        press(program, screen),
     );
     let result = trim(&full, &trace, program.frames);
     let _ = fs::remove_file(&full);
@@ -179,6 +203,7 @@ pub(crate) fn repeat(
         Duration::from_secs(150),
         &folder.join("log"),
         false,
+        |_| {},
     );
     let entries = fs::read_dir(&shots).expect("a folder").flatten();
     let pictures = entries
@@ -207,6 +232,7 @@ pub(crate) fn live(
         Duration::from_secs(seconds),
         &folder.join("live.log"),
         true,
+        press(program, screen),
     )
 }
 

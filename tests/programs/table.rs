@@ -23,11 +23,24 @@ pub(crate) struct Program {
     /// At most so many frames.
     #[serde(default = "frames")]
     pub(crate) frames: u64,
+    /// From the menu into the game.
+    #[serde(default)]
+    pub(crate) keys: Vec<Press>,
     /// Variables.
     #[serde(default)]
     pub(crate) env: BTreeMap<String, String>,
     /// Why it fails, if it does.
     pub(crate) known: Option<String>,
+}
+
+/// A key that is pressed while the program runs.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Press {
+    /// Seconds since the start; in the order of the list.
+    pub(crate) after: f64,
+    /// As xdotool names it.
+    pub(crate) key: String,
 }
 
 /// Where the context comes from.
