@@ -14,7 +14,7 @@ use std::path::{Path, PathBuf};
 
 /// Views where the middle one is the program's own.
 const ODD: u32 = 7;
-/// Pictures are compared in the first frames of a trace only, they take long; but where keys lead out of a menu in all of it.
+/// Pictures are compared in the first frames of a trace only, they take long; but in all of it where input leads out of a menu.
 const COMPARED: u64 = 120;
 /// Pictures of them, spread evenly.
 const PICTURES: u64 = 10;
@@ -52,7 +52,7 @@ pub(crate) fn judge(program: &Program, screen: &Screen, folder: &Path) -> Row {
         screen,
         folder,
         count,
-        compared: match program.keys.is_empty() {
+        compared: match program.input.is_empty() {
             true => count.min(COMPARED),
             false => count,
         },

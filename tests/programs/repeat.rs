@@ -10,6 +10,9 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
+/// A trace that is not repeated after this time hangs: the slowest programs of the table show 2 frames a second in 8 views.
+const PATIENCE: Duration = Duration::from_secs(600);
+
 /// How a command ended.
 pub(crate) struct Ended {
     /// Empty if all is well, else the status in words.
@@ -87,15 +90,13 @@ fn prepared<'a>(command: &'a mut Command, program: &Program, screen: &Screen) ->
         .envs(&program.env)
 }
 
-/// Presses the program's keys when their time has come, in the window under the pointer.
-fn press<'a>(program: &'a Program, screen: &'a Screen) -> impl FnMut(Duration) + 'a {
-    let mut keys = program.keys.iter().peekable();
+/// Gives the program its input when its time has come. There is no window manager: the window under the pointer has the keys.
+fn play<'a>(program: &'a Program, screen: &'a Screen) -> impl FnMut(Duration) + 'a {
+    let mut inputs = program.input.iter().peekable();
     move |time| {
-        if let Some(press) = keys.next_if(|press| time.as_secs_f64() >= press.after) {
+        if let Some(input) = inputs.next_if(|input| time.as_secs_f64() >= input.after) {
             let mut command = bare("xdotool");
-            screen.give(&mut command);
-            // There is no window manager: the window under the pointer has the keys.
-            command.args(["mousemove", "200", "150", "key", &press.key]);
+            screen.give(&mut command).args(input.xdotool.split(' '));
             // Without the tool the program stays in its menu, which the pictures show.
             let _ = command.stderr(Stdio::null()).status();
         }
@@ -120,7 +121,7 @@ pub(crate) fn record(program: &Program, screen: &Screen, folder: &Path) -> Resul
         limit,
         &folder.join("record.log"),
         true,
-        press(program, screen),
+        play(program, screen),
     );
     let result = trim(&full, &trace, program.frames);
     let _ = fs::remove_file(&full);
@@ -200,7 +201,7 @@ pub(crate) fn repeat(
     }
     let ended = run(
         screen.give(command.arg(trace)),
-        Duration::from_secs(150),
+        PATIENCE,
         &folder.join("log"),
         false,
         |_| {},
@@ -232,7 +233,7 @@ pub(crate) fn live(
         Duration::from_secs(seconds),
         &folder.join("live.log"),
         true,
-        press(program, screen),
+        play(program, screen),
     )
 }
 

@@ -25,7 +25,7 @@ pub(crate) struct Program {
     pub(crate) frames: u64,
     /// From the menu into the game.
     #[serde(default)]
-    pub(crate) keys: Vec<Press>,
+    pub(crate) input: Vec<Input>,
     /// Variables.
     #[serde(default)]
     pub(crate) env: BTreeMap<String, String>,
@@ -33,14 +33,14 @@ pub(crate) struct Program {
     pub(crate) known: Option<String>,
 }
 
-/// A key that is pressed while the program runs.
+/// What a player does while the program runs.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct Press {
+pub(crate) struct Input {
     /// Seconds since the start; in the order of the list.
     pub(crate) after: f64,
-    /// As xdotool names it.
-    pub(crate) key: String,
+    /// Arguments of xdotool.
+    pub(crate) xdotool: String,
 }
 
 /// Where the context comes from.
