@@ -1,6 +1,7 @@
 //! What the layer did, for `--report`.
 #![forbid(unsafe_code)]
 
+use crate::gl::Count;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::time::{Duration, Instant};
@@ -16,8 +17,17 @@ pub struct Report {
     notes: Vec<String>,
     errors: u64,
     shaders: u64,
+    names: Names,
     last_swap: Option<Instant>,
     last_write: Option<Instant>,
+}
+
+/// GL names that are the layer's and not deleted.
+#[derive(Clone, Copy, Debug, Default, Serialize)]
+struct Names {
+    #[serde(flatten)]
+    made: Count,
+    lists: u32,
 }
 
 #[derive(Serialize)]
@@ -29,6 +39,7 @@ struct Json<'a> {
     fallbacks: &'a BTreeMap<String, u64>,
     generated_shaders: u64,
     gl_errors: u64,
+    names: Names,
     notes: &'a [String],
 }
 
@@ -69,6 +80,11 @@ impl Report {
     /// Programs generated and compiled so far.
     pub fn shaders(&mut self, programs: u64) {
         self.shaders = programs;
+    }
+
+    /// Names that the layer holds in this context; `lists` are those of its share group.
+    pub fn names(&mut self, made: Count, lists: u32) {
+        self.names = Names { made, lists };
     }
 
     /// Frames shown so far.
@@ -152,6 +168,7 @@ impl Report {
             fallbacks: &self.fallbacks,
             generated_shaders: self.shaders,
             gl_errors: self.errors,
+            names: self.names,
             notes: &self.notes,
         };
         serde_json::to_string_pretty(&json).unwrap_or_default()

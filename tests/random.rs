@@ -7,9 +7,12 @@
 
 mod support;
 
-use std::path::{Path, PathBuf};
+#[path = "random/build.rs"]
+mod build;
+
+use std::path::Path;
 use std::process::{Command, Stdio};
-use support::{Compiled, Screen, bare, built, layered, own_screen};
+use support::{Screen, bare, layered, own_screen};
 
 /// Classes of calls that are left out, and why. Each is a gap of the layer.
 const GAPS: [(&str, &str); 5] = [
@@ -54,37 +57,6 @@ enum Api {
     Egl,
     Glx,
     OsMesa,
-}
-
-fn program(api: Api) -> PathBuf {
-    let (name, window, more): (_, &[&str], &[&str]) = match api {
-        Api::OsMesa => (
-            "random-osmesa",
-            &["window_osmesa"],
-            &["-DRANDOM_OSMESA", "-lOSMesa", "-lpthread"],
-        ),
-        _ => (
-            "random",
-            &["window_egl", "window_glx"],
-            &["-lEGL", "-lGL", "-lX11", "-lpthread"],
-        ),
-    };
-    let common = [
-        "main",
-        "calls_state",
-        "calls_draw",
-        "calls_pixels",
-        "calls_objects",
-        "calls_lists",
-        "dump",
-    ];
-    let sources: Vec<PathBuf> = common
-        .iter()
-        .chain(window)
-        .map(|name| Path::new("tests/random").join(name).with_extension("c"))
-        .collect();
-    let sources: Vec<&Path> = sources.iter().map(PathBuf::as_path).collect();
-    built(name, &sources, Compiled::Program, more)
 }
 
 /// One program, bare or under the layer.
@@ -152,7 +124,7 @@ fn explain(bare: &Side, layer: &Side, seed: u64, without: &str) -> String {
 
 fn compare(api: Api, atlas: &str, seeds: std::ops::Range<u64>) {
     let screen = (api == Api::Glx).then(own_screen);
-    let program = program(api);
+    let program = build::program(api == Api::OsMesa);
     let side = |atlas| Side {
         screen: screen.as_ref(),
         program: &program,

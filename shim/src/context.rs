@@ -30,6 +30,8 @@ pub(crate) struct Context {
     layer: Option<Layer>,
     /// With one view: only frames are counted and captured.
     frames: Option<Frames>,
+    /// On some thread. This and `destroyed` are read and written under the registry's lock.
+    current: bool,
     destroyed: bool,
 }
 
@@ -211,12 +213,12 @@ pub(crate) fn made_current(provider: Provider, handle: Ptr, drawable: Option<Dra
     let (Some(drawable), false, false) = (drawable, handle.is_null(), switch::off()) else {
         return;
     };
-    let context = find(provider, handle, drawable);
-    // SAFETY: the context has just become current on this thread and so on no other.
-    let c = unsafe { &mut *context };
     let Some((width, height)) = guarded(|| size(drawable)) else {
         return;
     };
+    let context = take(provider, handle, drawable);
+    // SAFETY: the context has just become current on this thread and so on no other.
+    let c = unsafe { &mut *context };
     let moved = c.drawable != drawable;
     c.drawable = drawable;
     THREAD.with(|t| t.context.set(context));
@@ -240,7 +242,7 @@ pub(crate) fn made_current(provider: Provider, handle: Ptr, drawable: Option<Dra
             }
             c.layer = None;
         });
-        THREAD.with(|t| t.context.set(core::ptr::null_mut()));
+        release();
     }
 }
 
@@ -264,7 +266,8 @@ fn attach(gl: &Gl, c: &mut Context, width: u32, height: u32) -> Result<(), Strin
     Ok(())
 }
 
-fn find(provider: Provider, handle: Ptr, drawable: Drawable) -> *mut Context {
+/// The record of a context that has become current on this thread.
+fn take(provider: Provider, handle: Ptr, drawable: Drawable) -> *mut Context {
     let mut registry = CONTEXTS.lock().unwrap_or_else(PoisonError::into_inner);
     let known = registry.0.iter().copied().find(|&c| {
         // SAFETY: boxes in the list live until `release` or `destroyed` takes them out under this lock; these fields do not change
@@ -272,52 +275,87 @@ fn find(provider: Provider, handle: Ptr, drawable: Drawable) -> *mut Context {
         let c = unsafe { &*c };
         c.provider == provider && c.handle == handle && !c.destroyed
     });
-    known.unwrap_or_else(|| {
+    let context = known.unwrap_or_else(|| {
         let c = Box::into_raw(Box::new(Context {
             provider,
             handle,
             drawable,
             layer: None,
             frames: None,
+            current: false,
             destroyed: false,
         }));
         registry.0.push(c);
         c
-    })
+    });
+    // SAFETY: a box of the list; this flag is only used under the lock, which is held.
+    unsafe { (*context).current = true };
+    context
 }
 
 /// This thread has no context of ours any more; frees the record of one that was destroyed while it was current. Its GL objects
 /// go with the context.
 fn release() {
     let context = THREAD.with(|t| t.context.replace(core::ptr::null_mut()));
+    if context.is_null() {
+        return;
+    }
     // SAFETY: it was this thread's current context until now.
-    if !context.is_null() && unsafe { (*context).destroyed } {
-        forget(context);
+    if let Some(layer) = unsafe { (*context).layer.as_mut() } {
+        layer.count_names();
+    }
+    let gone = {
+        let mut registry = CONTEXTS.lock().unwrap_or_else(PoisonError::into_inner);
+        // SAFETY: the box lives, because it is current; these flags are only used under the lock, which is held.
+        let gone = unsafe {
+            (*context).current = false;
+            (*context).destroyed
+        };
+        if gone {
+            registry.0.retain(|&c| c != context);
+        }
+        gone
+    };
+    if gone {
+        // SAFETY: out of the list now, current nowhere.
+        unsafe { forget(context) };
     }
 }
 
-fn forget(context: *mut Context) {
-    let mut registry = CONTEXTS.lock().unwrap_or_else(PoisonError::into_inner);
-    registry.0.retain(|&c| c != context);
-    // SAFETY: made by Box::into_raw in `find`, out of the list now, current nowhere.
-    drop(unsafe { Box::from_raw(context) });
+/// # Safety
+/// Made by `take`, no longer in the list, current nowhere.
+unsafe fn forget(context: *mut Context) {
+    // SAFETY: made by Box::into_raw; nobody else has it (contract).
+    let context = unsafe { Box::from_raw(context) };
+    if let Some(layer) = context.layer {
+        layer.leave();
+    }
 }
 
-/// The program destroys a context. GL calls it only when it is current nowhere; until then the handle stays valid.
+/// The program destroys a context. GL calls it only when it is current nowhere; until then the handle stays valid, and whoever has
+/// it current frees the record.
 pub(crate) fn destroyed(provider: Provider, handle: Ptr) {
-    let found = {
-        let registry = CONTEXTS.lock().unwrap_or_else(PoisonError::into_inner);
-        // SAFETY: as in `find`.
-        registry.0.iter().copied().find(|&c| unsafe {
+    let unused = {
+        let mut registry = CONTEXTS.lock().unwrap_or_else(PoisonError::into_inner);
+        // SAFETY: boxes of the list live; provider and handle do not change, the flags are only used under the lock.
+        let found = registry.0.iter().position(|&c| unsafe {
             (*c).provider == provider && (*c).handle == handle && !(*c).destroyed
+        });
+        found.and_then(|at| {
+            let context = registry.0.get(at).copied()?;
+            // SAFETY: as above.
+            let current = unsafe {
+                (*context).destroyed = true;
+                (*context).current
+            };
+            (!current).then(|| registry.0.swap_remove(at))
         })
     };
-    if let Some(context) = found {
-        // Current on this thread: its record goes when it is released. Current on another: the record (a few kilobytes) is left to
-        // that thread, which may be using it.
-        // SAFETY: boxes of the list live; only the flag that `find` reads under the lock is written.
-        unsafe { (*context).destroyed = true };
+    if let Some(context) = unused {
+        // SAFETY: out of the list now, current nowhere.
+        unsafe { forget(context) };
     }
+    shares::destroyed(provider, handle);
 }
 
 /// End of a frame on a drawable: shows it. `swap` is the program's own call.

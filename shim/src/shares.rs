@@ -36,6 +36,12 @@ pub(crate) fn created(provider: Provider, handle: Ptr, share: Ptr) {
     });
 }
 
+/// The program has destroyed a context; the others of its share group keep the lists.
+pub(crate) fn destroyed(provider: Provider, handle: Ptr) {
+    let mut all = CREATED.lock().unwrap_or_else(PoisonError::into_inner);
+    all.retain(|c| (c.provider, c.handle) != (provider, handle));
+}
+
 /// The display lists of a context's share group.
 pub(crate) fn lists(provider: Provider, handle: Ptr) -> SharedLists {
     let mut all = CREATED.lock().unwrap_or_else(PoisonError::into_inner);

@@ -214,25 +214,25 @@ impl Atlas {
 
     /// Gives everything back; only while its context is current.
     pub fn delete(self, gl: &Gl) {
-        for f in self
-            .rows
-            .iter()
-            .chain(self.resolve.iter().flatten())
-            .chain(&self.layered)
-        {
-            gl.delete_framebuffer(*f);
-        }
-        for t in self.textures {
-            gl.delete_texture(t);
-        }
-        if let Some(single) = self.single {
-            single.delete(gl);
-        }
+        self.framebuffers().for_each(|f| gl.delete_framebuffer(f));
+        self.textures.iter().for_each(|&t| gl.delete_texture(t));
+    }
+
+    /// All framebuffer objects; each has a texture at the first colour attachment.
+    pub fn framebuffers(&self) -> impl Iterator<Item = u32> {
+        let resolve = self.resolve.iter().flatten().copied();
+        let single = self.single.iter().map(Single::framebuffer);
+        self.targets().chain(resolve).chain(single)
     }
 
     /// Whether a texture is the atlas's own.
     pub fn owns(&self, texture: u32) -> bool {
         self.textures.contains(&texture)
+    }
+
+    /// Its textures.
+    pub fn textures(&self) -> &[u32] {
+        &self.textures
     }
 
     /// Copies all that `other`, of the same size and format, holds. Changes the framebuffer bindings; the scissor test must be off.

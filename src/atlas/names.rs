@@ -1,6 +1,6 @@
 //! Names of the layer's own textures and buffers.
 
-use crate::gl::{Gl, consts as c};
+use crate::gl::{Gl, Held, consts as c};
 
 /// Gives out names that the program does not come upon.
 ///
@@ -38,6 +38,7 @@ impl Names {
         }
         let name = *next;
         *next += 1;
+        Held::Texture.count(1);
         name
     }
 

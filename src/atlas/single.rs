@@ -63,8 +63,8 @@ impl Single {
         gl.bind_framebuffer(c::READ_FRAMEBUFFER, self.framebuffer);
     }
 
-    /// Gives the framebuffer back; only while its context is current.
-    pub(super) fn delete(&self, gl: &Gl) {
-        gl.delete_framebuffer(self.framebuffer);
+    /// Its name.
+    pub(super) fn framebuffer(&self) -> u32 {
+        self.framebuffer
     }
 }

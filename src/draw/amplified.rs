@@ -142,6 +142,11 @@ impl Programs {
         })
     }
 
+    /// The names of all programs.
+    pub fn names(&self) -> impl Iterator<Item = u32> {
+        self.cache.values().flatten().map(|p| p.name)
+    }
+
     fn compile(&mut self, gl: &Gl, key: &FixedKey) -> Result<(), Reason> {
         let canonical = key.canonical();
         match self.cache.get(&canonical) {

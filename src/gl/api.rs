@@ -1,5 +1,6 @@
 //! The layer's own calls into the driver: thin, without pointers for the caller.
 
+use super::held::Held;
 use super::immediate::Recording;
 use super::real::{Ptr, Real};
 use core::ffi::CStr;
@@ -72,10 +73,8 @@ plain! {
     tex_image_3d_multisample = glTexImage3DMultisample(target: u32, samples: i32, format: u32, w: i32, h: i32, d: i32, fixed: u8);
     bind_sampler = glBindSampler(unit: u32, sampler: u32);
     is_texture = glIsTexture(name: u32) -> u8;
-    create_shader = glCreateShader(kind: u32) -> u32;
+    is_framebuffer = glIsFramebuffer(name: u32) -> u8;
     compile_shader = glCompileShader(shader: u32);
-    delete_shader = glDeleteShader(shader: u32);
-    create_program = glCreateProgram() -> u32;
     attach_shader = glAttachShader(program: u32, shader: u32);
     link_program = glLinkProgram(program: u32);
     use_program = glUseProgram(program: u32);
@@ -96,12 +95,13 @@ plain! {
 }
 
 macro_rules! generate {
-    ($($name:ident = $gl:ident;)*) => { $(
+    ($($name:ident = $gl:ident, $held:ident;)*) => { $(
         /// One new name.
         pub fn $name(&self) -> u32 {
             let mut name = 0u32;
             // SAFETY: a context is current; the pointer is to one u32 that lives across the call.
             unsafe { self.real.$gl(1, (&raw mut name).cast()) };
+            Held::$held.count(1);
             name
         }
     )* };
@@ -124,10 +124,10 @@ impl Gl {
     }
 
     generate! {
-        gen_texture = glGenTextures;
-        gen_framebuffer = glGenFramebuffers;
-        gen_query = glGenQueries;
-        gen_vertex_array = glGenVertexArrays;
+        gen_texture = glGenTextures, Texture;
+        gen_framebuffer = glGenFramebuffers, Framebuffer;
+        gen_query = glGenQueries, Query;
+        gen_vertex_array = glGenVertexArrays, VertexArray;
     }
 
     /// glIsEnabled
@@ -386,9 +386,18 @@ impl Gl {
         }
     }
 
+    /// glDeleteShader
+    pub fn delete_shader(&self, shader: u32) {
+        // SAFETY: a context is current.
+        unsafe { self.real.glDeleteShader(shader) };
+        Held::Shader.count(-1);
+    }
+
     /// Source of a shader, compiled; the log on failure.
     pub fn compile(&self, kind: u32, source: &str) -> Result<u32, String> {
-        let shader = self.create_shader(kind);
+        // SAFETY: a context is current.
+        let shader = unsafe { self.real.glCreateShader(kind) };
+        Held::Shader.count(1);
         let p = source.as_ptr();
         let len = source.len() as i32;
         // SAFETY: one string of the given length.
@@ -421,7 +430,9 @@ impl Gl {
 
     /// A program of compiled shaders, linked; the log on failure. The shaders are released either way.
     pub fn link(&self, shaders: &[u32]) -> Result<u32, String> {
-        let program = self.create_program();
+        // SAFETY: a context is current.
+        let program = unsafe { self.real.glCreateProgram() };
+        Held::Shader.count(1);
         for &s in shaders {
             self.attach_shader(program, s);
         }
@@ -446,10 +457,16 @@ impl Gl {
         if ok != 0 {
             return Ok(program);
         }
-        // SAFETY: a program name.
-        unsafe { self.real.glDeleteProgram(program) };
+        self.delete_program(program);
         log.truncate(got.max(0) as usize);
         Err(String::from_utf8_lossy(&log).into_owned())
+    }
+
+    /// glDeleteProgram
+    pub fn delete_program(&self, program: u32) {
+        // SAFETY: a context is current.
+        unsafe { self.real.glDeleteProgram(program) };
+        Held::Shader.count(-1);
     }
 
     /// glGetUniformLocation
@@ -473,7 +490,8 @@ impl Gl {
     /// glDeleteFramebuffers of one name.
     pub fn delete_framebuffer(&self, name: u32) {
         // SAFETY: one name.
-        unsafe { self.real.glDeleteFramebuffers(1, (&raw const name) as Ptr) }
+        unsafe { self.real.glDeleteFramebuffers(1, (&raw const name) as Ptr) };
+        Held::Framebuffer.count(-1);
     }
 
     /// glGetFramebufferAttachmentParameteriv of the draw framebuffer.

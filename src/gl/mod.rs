@@ -5,6 +5,7 @@
 mod real;
 pub mod api;
 pub mod consts;
+mod held;
 pub mod immediate;
 #[allow(missing_docs, non_upper_case_globals, clippy::missing_safety_doc, reason = "generated; the names are the API's own")]
 #[rustfmt::skip]
@@ -12,6 +13,7 @@ mod table;
 mod textures;
 
 pub use api::Gl;
+pub use held::{Count, Held};
 pub use immediate::Recording;
 pub use real::{Ptr, Real};
 pub use table::{COUNT, NAMES, slot};

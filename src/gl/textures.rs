@@ -1,7 +1,7 @@
 //! The layer's calls about textures.
 
 use super::consts as c;
-use super::{Gl, Ptr};
+use super::{Gl, Held, Ptr};
 
 impl Gl {
     /// glGetTexParameteriv of one value.
@@ -88,6 +88,7 @@ impl Gl {
     /// glDeleteTextures of one name.
     pub fn delete_texture(&self, name: u32) {
         // SAFETY: one name.
-        unsafe { self.real.glDeleteTextures(1, (&raw const name) as Ptr) }
+        unsafe { self.real.glDeleteTextures(1, (&raw const name) as Ptr) };
+        Held::Texture.count(-1);
     }
 }

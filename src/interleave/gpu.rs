@@ -94,6 +94,11 @@ impl Interleaver {
         self.mask_texture
     }
 
+    /// The names of its programs.
+    pub fn programs(&self) -> impl Iterator<Item = u32> {
+        self.panel.iter().chain(&self.layout).map(|p| p.name)
+    }
+
     /// The mask's texture gets another name: its contents are made anew.
     pub fn rename(&mut self, gl: &Gl, names: &mut Names) {
         if self.mask_texture != 0 {

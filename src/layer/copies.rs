@@ -147,6 +147,14 @@ impl Copies {
         }
     }
 
+    /// The textures that are ours.
+    pub(super) fn ours(&self) -> impl Iterator<Item = u32> {
+        self.textures.iter().flat_map(|(texture, copy)| {
+            let views = copy.views.iter().copied();
+            views.filter(move |v| v != texture)
+        })
+    }
+
     /// All of them.
     pub(super) fn clear(&mut self, gl: &Gl) {
         let all: Vec<u32> = self.textures.keys().copied().collect();

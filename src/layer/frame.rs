@@ -18,6 +18,7 @@ impl Layer {
             return;
         }
         self.finish_explanation(gl);
+        super::sweep(gl, &self.lists);
         self.queries.pause(gl);
         let saved = Saved::take(gl, self.state.compatibility);
         self.atlas.resolve(gl, false, c::COLOR_BUFFER_BIT);
@@ -74,6 +75,7 @@ impl Layer {
     /// Counts the frame and writes the report where one is asked for.
     pub fn count_frame(&mut self) {
         self.report.frame();
+        self.count_names();
         if let Some(path) = &self.config.report {
             self.report.write(path);
         }

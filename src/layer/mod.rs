@@ -19,12 +19,12 @@ pub use queries::Answer;
 use crate::atlas::{Atlas, AtlasError, Names, Tiles};
 use crate::config::{AtlasLayout, Config, Projection, Strategy, profile};
 use crate::draw::{Driver, FixedState, Programs};
-use crate::gl::{Gl, Recording, consts as c};
+use crate::gl::{Count, Gl, Held, Recording, consts as c};
 use crate::interleave::Interleaver;
 use crate::plan::{Classifier, Means, Rig, Shear};
 use crate::report::Report;
 use crate::state::{Immediate, Lists, State, Window};
-use std::sync::{Arc, Mutex};
+use std::sync::{Arc, Mutex, PoisonError};
 use support::Support;
 
 /// Why a context cannot be shown in several views; it then runs as if the layer were not there.
@@ -73,6 +73,7 @@ pub struct Layer {
     classifier: Classifier,
     frame: classing::Frame,
     explained: Option<explain::Explained>,
+    made: Count,
     /// Counts for `--report`.
     pub report: Report,
     drawn: bool,
@@ -105,6 +106,7 @@ impl Layer {
         if let Some(note) = interleaver.note() {
             report.note(note);
         }
+        sweep(gl, &lists);
         let mut layer = Layer {
             config,
             rig: Rig::new(config.views, config.camera),
@@ -133,6 +135,7 @@ impl Layer {
             ),
             frame: classing::Frame::default(),
             explained: None,
+            made: Count::default(),
             report,
             drawn: false,
         };
@@ -234,9 +237,29 @@ impl Layer {
         true
     }
 
+    /// Takes note of the names that the layer has made and deleted on this thread, all of them in this context: to be called
+    /// before another one is made current.
+    pub fn count_names(&mut self) {
+        self.made.catch_up();
+        let lists = self.lists.lock().unwrap_or_else(PoisonError::into_inner);
+        self.report.names(self.made, lists.held());
+    }
+
     /// Size of the window in pixels.
     pub fn size(&self) -> (u32, u32) {
         (self.state.window.width, self.state.window.height)
+    }
+
+    /// The context is destroyed: what its share group keeps is left to the others.
+    pub fn leave(self) {
+        let mut lists = self.lists.lock().unwrap_or_else(PoisonError::into_inner);
+        let mask = Some(self.interleaver.texture()).filter(|&t| t != 0);
+        lists.left.framebuffers.extend(self.atlas.framebuffers());
+        let textures = self.atlas.textures().iter().copied();
+        let textures = textures.chain(mask).chain(self.copies.ours());
+        lists.left.textures.extend(textures);
+        let programs = self.interleaver.programs().chain(self.programs.names());
+        lists.left.programs.extend(programs);
     }
 
     /// The layer gives up: the program gets its own framebuffer 0 back.
@@ -260,6 +283,45 @@ impl Layer {
             self.report.error();
         }
     }
+}
+
+/// Deletes what destroyed contexts of the share group have left.
+fn sweep(gl: &Gl, lists: &SharedLists) {
+    let left = {
+        let mut lists = lists.lock().unwrap_or_else(PoisonError::into_inner);
+        std::mem::take(&mut lists.left)
+    };
+    if !left.framebuffers.is_empty() {
+        let bound = gl.get_integer(c::DRAW_FRAMEBUFFER_BINDING) as u32;
+        for framebuffer in left.framebuffers {
+            // Where the driver does not share them the name may be the program's by now.
+            if is_attached(gl, framebuffer, &left.textures) {
+                Held::Framebuffer.count(1);
+                gl.delete_framebuffer(framebuffer);
+            }
+        }
+        gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, bound);
+    }
+    // Counted with the context that has made them, which is no more.
+    for texture in left.textures {
+        Held::Texture.count(1);
+        gl.delete_texture(texture);
+    }
+    for program in left.programs {
+        Held::Shader.count(1);
+        gl.delete_program(program);
+    }
+}
+
+/// Whether a framebuffer object has one of these textures as its first colour. Changes the draw framebuffer.
+fn is_attached(gl: &Gl, framebuffer: u32, textures: &[u32]) -> bool {
+    if gl.is_framebuffer(framebuffer) == 0 {
+        return false;
+    }
+    gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, framebuffer);
+    let ask = |name| gl.attachment_parameter(c::COLOR_ATTACHMENT0, name) as u32;
+    ask(c::FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE) == c::TEXTURE
+        && textures.contains(&ask(c::FRAMEBUFFER_ATTACHMENT_OBJECT_NAME))
 }
 
 /// Where the views lie. The strategies that draw all views at once take layers wherever the driver can choose one in a shader,

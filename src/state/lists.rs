@@ -77,9 +77,22 @@ pub struct Segment {
 /// The runs of one list.
 pub type Body = Arc<[Segment]>;
 
-/// The display lists of one share group.
+/// What a context has made that its share group keeps when the context is destroyed: to be deleted by another one.
+#[derive(Debug, Default)]
+pub struct Left {
+    /// Framebuffer objects, which drivers share although they need not.
+    pub framebuffers: Vec<u32>,
+    /// Textures.
+    pub textures: Vec<u32>,
+    /// Programs.
+    pub programs: Vec<u32>,
+}
+
+/// The display lists of one share group, and what is left of its destroyed contexts.
 #[derive(Debug)]
 pub struct Lists {
+    /// Names of ours without a context.
+    pub left: Left,
     bodies: HashMap<u32, Body>,
     spare: Vec<u32>,
     next: u32,
@@ -92,6 +105,7 @@ const TOP: u32 = u32::MAX - 1;
 impl Default for Lists {
     fn default() -> Self {
         Lists {
+            left: Left::default(),
             bodies: HashMap::new(),
             spare: Vec::new(),
             // From the top downwards, where no program numbers its lists.
@@ -117,6 +131,11 @@ impl Lists {
         }
         self.next -= 1;
         self.next + 1
+    }
+
+    /// How many names of ours are in use.
+    pub fn held(&self) -> u32 {
+        TOP - self.next - self.spare.len() as u32
     }
 
     /// Whether a name is one of ours.

@@ -1,0 +1,265 @@
+//! Memory: what valgrind finds in the layer, and what contexts that come and go leave behind. The long run of a game is in
+//! tests/soak.rs.
+//!
+//! Only what is ours counts: a report of valgrind's with a frame of `libmanyview.so` in a stack, unless the driver gives the same
+//! one without the layer. The reports are in `target/memory`.
+#![forbid(unsafe_code)]
+
+mod support;
+
+#[path = "random/build.rs"]
+mod build;
+
+use std::collections::HashSet;
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Stdio};
+use support::{Compiled, bare, compiled, demo, has, layered, scratch, succeed};
+
+const OURS: &str = "libmanyview.so";
+
+/// One of valgrind's reports.
+#[derive(Debug)]
+struct Found {
+    kind: String,
+    what: String,
+    /// Innermost first, each `object function file:line`; the first stack is where it happened, others say where the memory is from.
+    stacks: Vec<Vec<String>>,
+}
+
+/// The text of the first element of a name.
+fn element<'a>(xml: &'a str, name: &str) -> Option<&'a str> {
+    let start = xml.find(&format!("<{name}>"))? + name.len() + 2;
+    let end = start + xml[start..].find(&format!("</{name}>"))?;
+    Some(&xml[start..end])
+}
+
+/// The contents of all elements of a name, which do not contain each other.
+fn elements<'a>(xml: &'a str, name: &str) -> Vec<&'a str> {
+    let close = format!("</{name}>");
+    xml.split(&format!("<{name}>"))
+        .skip(1)
+        .filter_map(|part| part.split(&close).next())
+        .collect()
+}
+
+fn found(xml: &str) -> Vec<Found> {
+    let frame = |frame: &str| {
+        let part = |name| element(frame, name).unwrap_or("?");
+        let object = part("obj").rsplit('/').next().unwrap_or_default();
+        let line = element(frame, "line").map_or(String::new(), |line| format!(":{line}"));
+        format!("{object} {} {}{line}", part("fn"), part("file"))
+    };
+    let stack = |stack: &&str| elements(stack, "frame").into_iter().map(frame).collect();
+    elements(xml, "error")
+        .into_iter()
+        .map(|error| Found {
+            kind: element(error, "kind").unwrap_or("?").to_owned(),
+            what: element(error, "what")
+                .or_else(|| element(error, "text"))
+                .unwrap_or("?")
+                .to_owned(),
+            stacks: elements(error, "stack").iter().map(stack).collect(),
+        })
+        .collect()
+}
+
+impl Found {
+    /// What happened inside of calls that are not ours: the frames up to the first of ours, all of them without the layer.
+    fn inside(&self) -> (&str, &[String]) {
+        let stack = self.stacks.first().map_or(&[][..], Vec::as_slice);
+        let end = stack.iter().position(|frame| is_ours(frame));
+        (&self.kind, &stack[..end.unwrap_or(stack.len())])
+    }
+
+    fn is_ours(&self) -> bool {
+        self.stacks.iter().flatten().any(|frame| is_ours(frame))
+    }
+}
+
+fn is_ours(frame: &str) -> bool {
+    frame.starts_with(OURS)
+}
+
+/// Those of the reports under the layer that are the layer's.
+fn ours<'a>(bare: &[Found], layer: &'a [Found]) -> Vec<&'a Found> {
+    let known: HashSet<(&str, &[String])> = bare
+        .iter()
+        .flat_map(|f| {
+            let (kind, stack) = f.inside();
+            (1..=stack.len()).map(move |end| (kind, &stack[..end]))
+        })
+        .collect();
+    layer
+        .iter()
+        .filter(|f| f.is_ours() && !known.contains(&f.inside()))
+        .collect()
+}
+
+/// What valgrind finds in a program.
+fn watch(name: &str, mut program: Command) -> Vec<Found> {
+    let out = scratch("memory").join(format!("{name}.xml"));
+    program
+        // Frames of Mesa's threads would say nothing of who called.
+        .env("LP_NUM_THREADS", "0")
+        .env_remove("DISPLAY")
+        .stdout(Stdio::null())
+        .stderr(Stdio::null());
+    let status = program.status().expect("valgrind");
+    assert!(status.success(), "{name}: {status}: {program:?}");
+    let xml = fs::read_to_string(&out).expect("a report");
+    assert!(xml.contains("</valgrindoutput>"), "{name}: half a report");
+    found(&xml)
+}
+
+/// valgrind with its report, to be followed by a program.
+fn valgrind(name: &str, strategy: Option<&str>) -> Command {
+    let mut command = match strategy {
+        None => bare("valgrind"),
+        Some(strategy) => layered("valgrind", &[("VIEWS", "3"), ("STRATEGY", strategy)]),
+    };
+    let out = scratch("memory").join(format!("{name}.xml"));
+    command
+        .args([
+            "--tool=memcheck",
+            "--leak-check=full",
+            "--show-leak-kinds=definite",
+            "--errors-for-leak-kinds=definite",
+            "--error-limit=no",
+            "--num-callers=60",
+            // Drivers are unloaded before the end.
+            "--keep-debuginfo=yes",
+            "--xml=yes",
+        ])
+        .arg(format!("--xml-file={}", out.display()));
+    command
+}
+
+/// Runs a program bare and under strategies; what is ours fails the test.
+fn clean(name: &str, program: &Path, arguments: &[&str], strategies: &[&str]) {
+    if !has("valgrind") {
+        return;
+    }
+    let run = |strategy: Option<&str>| {
+        let name = format!("{name}-{}", strategy.unwrap_or("bare"));
+        let mut command = valgrind(&name, strategy);
+        command.arg(program).args(arguments);
+        watch(&name, command)
+    };
+    let bare = run(None);
+    for strategy in strategies {
+        let all = run(Some(strategy));
+        let ours = ours(&bare, &all);
+        let shown: Vec<String> = ours
+            .iter()
+            .take(5)
+            .map(|f| {
+                let stacks: Vec<_> = f.stacks.iter().map(|s| s.join("\n    ")).collect();
+                format!(
+                    "{}: {}\n    {}",
+                    f.kind,
+                    f.what,
+                    stacks.join("\n  and\n    ")
+                )
+            })
+            .collect();
+        assert!(
+            ours.is_empty(),
+            "{name}, {strategy}: {} of {} reports are ours:\n{}",
+            ours.len(),
+            all.len(),
+            shown.join("\n")
+        );
+        println!(
+            "{name}, {strategy}: {} reports, none of them ours",
+            all.len()
+        );
+    }
+}
+
+fn a_demo(name: &str, strategies: &[&str]) {
+    let arguments = [
+        "--api",
+        "egl",
+        "--surface",
+        "pbuffer",
+        "--size",
+        "64x48",
+        "--frames",
+        "3",
+    ];
+    clean(name, &demo(name), &arguments, strategies);
+}
+
+#[test]
+#[ignore = "minutes, under valgrind"]
+fn full_memory_of_arrays() {
+    a_demo("arrays", &["replay", "instanced", "geometry"]);
+}
+
+#[test]
+#[ignore = "minutes, under valgrind"]
+fn full_memory_of_lists() {
+    a_demo("lists", &["replay", "geometry"]);
+}
+
+#[test]
+#[ignore = "minutes, under valgrind"]
+fn full_memory_of_copies() {
+    a_demo("echo", &["replay"]);
+}
+
+/// Seeds with two threads, several contexts, and everything else that a program may do wrong.
+#[test]
+#[ignore = "minutes, under valgrind"]
+fn full_memory_of_random_calls() {
+    let program = build::program(false);
+    clean(
+        "random",
+        &program,
+        &["--api", "egl", "--seed", "0", "--count", "12"],
+        &["replay"],
+    );
+}
+
+/// Bytes in use after some contexts and after sixty more.
+fn grown(mut program: Command) -> u64 {
+    let output = succeed(program.env_remove("DISPLAY").env("LP_NUM_THREADS", "0"));
+    let text = String::from_utf8(output.stdout).expect("numbers");
+    let bytes: Vec<u64> = text.lines().map(|l| l.parse().expect("bytes")).collect();
+    assert_eq!(bytes.len(), 2, "{text}");
+    bytes[1].saturating_sub(bytes[0])
+}
+
+/// A record of a context is some kilobytes; a context of the driver's is hundreds.
+#[test]
+fn contexts_that_come_and_go_leave_nothing() {
+    let program = compiled("contexts", Compiled::Program, &["-lEGL", "-lGL"]);
+    let bare = grown(bare(&program));
+    for strategy in ["replay", "geometry"] {
+        let options = [("VIEWS", "3"), ("STRATEGY", strategy)];
+        let layer = grown(layered(&program, &options));
+        println!("sixty contexts leave {bare} bytes, under the layer {layer}");
+        assert!(
+            layer < bare + 60 * 256,
+            "sixty contexts leave {bare} bytes, under the layer ({strategy}) {layer}"
+        );
+    }
+}
+
+#[test]
+fn what_the_driver_does_without_us_is_not_ours() {
+    let error = |kind: &str, objects: &[&str]| {
+        let frames: String = objects
+            .iter()
+            .map(|o| format!("<frame><obj>/lib/{o}</obj><fn>f</fn></frame>"))
+            .collect();
+        format!("<error>\n<kind>{kind}</kind><what>it</what><stack>{frames}</stack></error>")
+    };
+    let bare = found(&error("InvalidRead", &["mesa", "mesa", "app"]));
+    let count = |objects: &[&str]| ours(&bare, &found(&error("InvalidRead", objects))).len();
+    assert_eq!(count(&["mesa", "mesa", OURS, "app"]), 0);
+    assert_eq!(count(&["mesa", "glibc", OURS, "app"]), 1);
+    assert_eq!(count(&[OURS, "app"]), 1);
+    assert_eq!(count(&["mesa", "glibc", "app"]), 0);
+}
