@@ -17,10 +17,12 @@ PACKAGES := gcc libc6-dev make xvfb libgl1 libegl1 libgl1-mesa-dri libosmesa6 li
 OPTIONAL_PACKAGES := faketime piglit
 # Programs that test-long and test-full record and repeat.
 LONG_PACKAGES := gltron xscreensaver-gl
+# What only test-full uses.
+FULL_PACKAGES := valgrind
 # Only for those who make the pictures of the documents again.
 PICTURE_PACKAGES := netpbm
 
-.PHONY: help build demos demo pictures test test-long test-full programs lint packages install uninstall clean
+.PHONY: help build demos demo pictures test test-long test-full programs soak lint packages install uninstall clean
 
 help: ## list the targets
 	@sed -n 's/^\([a-z-]*\):.*## /\1	/p' $(MAKEFILE_LIST) | expand -t 20
@@ -62,19 +64,22 @@ test: packages build demos ## run the tests
 test-long: packages build demos ## run the tests that take long as well
 	@sh scripts/packages.sh --optional $(LONG_PACKAGES)
 	@if $(CARGO) nextest --version >/dev/null 2>&1; \
-	then $(CARGO) nextest run --release --no-tests=warn --workspace --run-ignored all -E 'not test(/^(full|programs)_/)'; \
-	else $(CARGO) test --release --workspace --lib --bins --tests -- --include-ignored --skip full_ --skip programs_; fi
+	then $(CARGO) nextest run --release --no-tests=warn --workspace --run-ignored all -E 'not test(/^(full|programs|soak)_/)'; \
+	else $(CARGO) test --release --workspace --lib --bins --tests -- --include-ignored --skip full_ --skip programs_ --skip soak_; fi
 	$(CARGO) test --release -p manyview --doc
 
-test-full: packages build demos ## run all tests but those of programs, also all of piglit's (half an hour)
-	@sh scripts/packages.sh --optional $(LONG_PACKAGES)
+test-full: packages build demos ## run all tests but those of programs, also all of piglit's and valgrind (an hour)
+	@sh scripts/packages.sh --optional $(LONG_PACKAGES) $(FULL_PACKAGES)
 	@if $(CARGO) nextest --version >/dev/null 2>&1; \
-	then $(CARGO) nextest run --release --no-fail-fast --no-tests=warn --workspace --run-ignored all -E 'not test(/^programs_/)'; \
-	else $(CARGO) test --release --no-fail-fast --workspace --lib --bins --tests -- --include-ignored --skip programs_; fi
+	then $(CARGO) nextest run --release --no-fail-fast --no-tests=warn --workspace --run-ignored all -E 'not test(/^(programs|soak)_/)'; \
+	else $(CARGO) test --release --no-fail-fast --workspace --lib --bins --tests -- --include-ignored --skip programs_ --skip soak_; fi
 	$(CARGO) test --release -p manyview --doc
 
 programs: packages build ## run real programs with and without the layer; writes docs/compatibility.md (an hour)
 	$(CARGO) test --release --test programs programs_ -- --ignored --nocapture
+
+soak: packages build ## play a game's demo for SOAK_MINUTES (240) and watch memory and GL names; target/soak
+	$(CARGO) test --release --test soak soak_ -- --ignored --nocapture
 
 lint: rust ## check format, clippy and documentation
 	$(CARGO) fmt --all --check
