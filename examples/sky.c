@@ -1,5 +1,6 @@
 /* Outdoors: a sky box that turns with the camera but never moves and writes no depth, a ground with pillars and
- * smoke, what the viewer holds in the hand, and over it a flat display. */
+ * smoke, balloons at the far end of the depth range, what the viewer holds in the hand at its near end, and over it a
+ * flat display. */
 #include "demo.h"
 #include <math.h>
 
@@ -66,6 +67,27 @@ static void ground(void)
     }
 }
 
+/* Behind everything, whatever their place says: infinitely far, although they move with the ground and come after it. */
+static void balloons(double aspect)
+{
+    demo_perspective_sky(50.0, aspect, 0.5, 60.0);
+    glDepthFunc(GL_LEQUAL);
+    glDepthRange(1.0, 1.0);
+    glDisable(GL_TEXTURE_2D);
+    glColor3f(0.75f, 0.35f, 0.3f);
+    glBegin(GL_QUADS);
+    for (int i = 0; i < 12; i++)
+        for (int c = 0; c < 4; c++) {
+            double angle = 0.5236 * i + (c == 1 || c == 2 ? 0.06 : -0.06);
+            glVertex3d(40.0 * sin(angle), 8.0 + 4.0 * (c >= 2), 40.0 * cos(angle));
+        }
+    glEnd();
+    glEnable(GL_TEXTURE_2D);
+    glDepthRange(0.0, 1.0);
+    glDepthFunc(GL_LESS);
+    demo_perspective(50.0, aspect, 0.5, 60.0);
+}
+
 /* Drawn after the solid things, writing no depth: not a sky, it stands somewhere. */
 static void smoke(void)
 {
@@ -83,14 +105,16 @@ static void smoke(void)
     glEnable(GL_TEXTURE_2D);
 }
 
-/* Near the eye, in the eye's own coordinates, and solid. */
+/* Near the eye, in the eye's own coordinates, and solid; nothing comes before it. */
 static void hand(void)
 {
     glLoadIdentity();
     glTranslated(0.7, -0.6, -2.0);
     glRotated(25.0, 0.2, 1.0, 0.0);
     glColor3f(0.6f, 0.65f, 0.71f);
+    glDepthRange(0.0, 0.3);
     demo_box(0.12, 0.12, 0.5);
+    glDepthRange(0.0, 1.0);
 }
 
 static void display(void)
@@ -129,6 +153,7 @@ void demo_frame(int frame)
     demo_perspective(50.0, aspect, 0.5, 60.0);
     glTranslated(0.5, -1.8, -9.0 + 2.0 * t);
     ground();
+    balloons(aspect);
     smoke();
     hand();
     display();

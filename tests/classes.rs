@@ -132,6 +132,27 @@ fn a_sky_can_be_called_scene() {
     assert!(!columns(&sky[0], &scene[0]).is_empty());
 }
 
+#[test]
+fn what_is_drawn_to_the_near_depths_can_stand_about_a_depth_of_its_own() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let about = |depth: &str| {
+        let text = format!(
+            "rule = [{{ depth-range = \"near\", class = \"scene\", focal-depth = {depth} }}]"
+        );
+        views("sky", &["--profile", &profile(folder.path(), &text)])
+    };
+    let plain = views("sky", &[]);
+    // The hand, in every view.
+    let hand = WIDTH / 3..WIDTH;
+    let (same, moved) = (about("8"), about("2"));
+    for view in 0..VIEWS as usize {
+        assert!(columns(&plain[view], &same[view]).is_empty(), "view {view}");
+        let changed = columns(&plain[view], &moved[view]);
+        assert_eq!(changed.is_empty(), view == OWN as usize, "view {view}");
+        assert!(changed.iter().all(|x| hand.contains(x)), "{changed:?}");
+    }
+}
+
 /// Runs a demo to its end and explains its second frame.
 fn explain(demo_name: &str, options: &[&str], out: &Path) -> String {
     library();

@@ -22,7 +22,7 @@ pub(crate) enum Kind {
 pub(crate) fn touch(groups: Touch) {
     if context::peek(|l| l.touch(groups)) == Some(false) {
         // What the views depend on is set once; the rest may stay with the drawing.
-        let inside = Touch::FIXED | Touch::MATERIAL | Touch::DEPTH | Touch::TEXTURE;
+        let inside = Touch::FIXED | Touch::MATERIAL | Touch::DEPTH | Touch::RANGE | Touch::TEXTURE;
         let run = if groups.without(inside) == Touch::NONE {
             Run::Open
         } else {

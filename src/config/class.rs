@@ -36,6 +36,28 @@ pub enum DepthState {
     TestOnly,
 }
 
+/// Which part of the depth buffer a draw's depths go to, by glDepthRange.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DepthRange {
+    /// All of it.
+    Whole,
+    /// From the near end, not to the far one: before what is drawn to the whole, wherever it is.
+    Near,
+    /// The far end alone: behind everything.
+    Far,
+    /// Anything else.
+    Part,
+}
+
+/// How much of the window the viewport covers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Viewport {
+    /// The window, or a part that may hold a scene of its own.
+    Main,
+    /// Less than a quarter of both the window's width and its height: a picture in the picture.
+    Inset,
+}
+
 /// A value that is written as a word.
 pub trait Word: Copy + PartialEq + 'static {
     /// Every value with its word.
@@ -84,6 +106,19 @@ impl Word for DepthState {
     ];
 }
 
+impl Word for Viewport {
+    const WORDS: &'static [(&'static str, Self)] = &[("main", Self::Main), ("inset", Self::Inset)];
+}
+
+impl Word for DepthRange {
+    const WORDS: &'static [(&'static str, Self)] = &[
+        ("whole", Self::Whole),
+        ("near", Self::Near),
+        ("far", Self::Far),
+        ("part", Self::Part),
+    ];
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -103,6 +138,13 @@ mod tests {
             Projection::Perspective,
             Projection::Orthographic,
             Projection::None,
+        ]);
+        round_trip(&[Viewport::Main, Viewport::Inset]);
+        round_trip(&[
+            DepthRange::Whole,
+            DepthRange::Near,
+            DepthRange::Far,
+            DepthRange::Part,
         ]);
         round_trip(&[DepthState::On, DepthState::Off, DepthState::TestOnly]);
     }

@@ -15,7 +15,7 @@ mod status;
 #[cfg(test)]
 mod tests;
 
-pub use class::{Class, DepthState, Projection, Word};
+pub use class::{Class, DepthRange, DepthState, Projection, Viewport, Word};
 pub use error::ConfigError;
 pub use explain::Explain;
 pub use options::{DISABLE, Field, LIBRARY, OPTIONS, OptionId, OptionSpec, Origin, PathKind};

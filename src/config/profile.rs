@@ -3,7 +3,7 @@
 //! A profile is a TOML file with a list of rules; the first rule whose every key matches a draw decides it.
 #![forbid(unsafe_code)]
 
-use super::class::{Class, DepthState, Projection, Word};
+use super::class::{Class, DepthRange, DepthState, Projection, Viewport, Word};
 use super::settings::{one_line, read_capped};
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
@@ -25,6 +25,8 @@ pub struct Profile {
     pub executable: Vec<String>,
     /// Depth of flat draws that no rule places, unless the user says another.
     pub hud_depth: Option<f64>,
+    /// Depth that appears on the screen, in eye-space units, unless the user says another.
+    pub focal_depth: Option<f64>,
     /// The first that matches decides.
     pub rules: Vec<Rule>,
 }
@@ -40,26 +42,35 @@ pub struct Rule {
     pub list: Vec<u32>,
     /// The projection matrix.
     pub projection: Option<Projection>,
+    /// How much of the window the viewport covers.
+    pub viewport: Option<Viewport>,
     /// Depth test and mask.
     pub depth_state: Option<DepthState>,
+    /// The depth range.
+    pub depth_range: Option<DepthRange>,
     /// Number of the draw in its frame, counted from 1; both ends included.
     pub draw: Option<(u32, u32)>,
     /// What the draw is.
     pub class: Class,
     /// Where a flat draw stands: 0 on the panel, 1 infinitely far, below 0 before the panel.
     pub depth: Option<f64>,
+    /// Depth that appears on the screen, of a scene draw, in eye-space units.
+    pub focal_depth: Option<f64>,
 }
 
-const PROFILE_KEYS: &[&str] = &["executable", "hud-depth", "rule"];
+const PROFILE_KEYS: &[&str] = &["executable", "hud-depth", "focal-depth", "rule"];
 const RULE_KEYS: &[&str] = &[
     "executable",
     "texture",
     "list",
     "projection",
+    "viewport",
     "depth-state",
+    "depth-range",
     "draw",
     "class",
     "depth",
+    "focal-depth",
 ];
 
 /// Checks where a flat draw is to stand.
@@ -111,6 +122,7 @@ impl Profile {
             file: path.to_owned(),
             executable: names(&table, "executable")?,
             hud_depth: depth(&table, "hud-depth")?,
+            focal_depth: length(&table, "focal-depth")?,
             rules: rules.collect::<Result<_, _>>()?,
         })
     }
@@ -190,15 +202,25 @@ impl Rule {
                 class.word()
             ));
         }
+        let focal_depth = length(table, "focal-depth")?;
+        if let (Some(focal), false) = (focal_depth, class == Class::Scene) {
+            return Err(format!(
+                "focal-depth is {focal} and class is '{}'; only scene draws have depths, so leave focal-depth out or make the class scene",
+                class.word()
+            ));
+        }
         Ok(Self {
             executable: names(table, "executable")?,
             texture: numbers(table, "texture")?,
             list: numbers(table, "list")?,
             projection: word(table, "projection")?,
+            viewport: word(table, "viewport")?,
             depth_state: word(table, "depth-state")?,
+            depth_range: word(table, "depth-range")?,
             draw: range(table, "draw")?,
             class,
             depth,
+            focal_depth,
         })
     }
 }
@@ -267,17 +289,34 @@ fn word<T: Word>(table: &Table, key: &str) -> Result<Option<T>, String> {
 }
 
 fn depth(table: &Table, key: &str) -> Result<Option<f64>, String> {
-    let Some(value) = table.get(key) else {
-        return Ok(None);
-    };
+    match number(table, key) {
+        Some((_, Some(number))) if depth_in_range(number) => Ok(Some(number)),
+        Some((value, _)) => Err(wrong(key, value, DEPTH_REMEDY)),
+        None => Ok(None),
+    }
+}
+
+/// A length in eye-space units.
+fn length(table: &Table, key: &str) -> Result<Option<f64>, String> {
+    match number(table, key) {
+        Some((_, Some(number))) if number > 0.0 && number.is_finite() => Ok(Some(number)),
+        Some((value, _)) => Err(wrong(
+            key,
+            value,
+            "give a number above 0, in the program's eye-space units",
+        )),
+        None => Ok(None),
+    }
+}
+
+/// A value and the number that it is.
+fn number<'a>(table: &'a Table, key: &str) -> Option<(&'a Value, Option<f64>)> {
+    let value = table.get(key)?;
     let number = match value {
         Value::Integer(number) => Some(*number as f64),
         other => other.as_float(),
     };
-    match number {
-        Some(number) if depth_in_range(number) => Ok(Some(number)),
-        _ => Err(wrong(key, value, DEPTH_REMEDY)),
-    }
+    Some((value, number))
 }
 
 /// What a depth may be, in words.

@@ -1,20 +1,25 @@
 //! Profiles: what is understood, and the message for each mistake.
 
 use super::profile::*;
-use super::{Class, Config, ConfigError, DepthState, OptionId, Projection, Settings};
+use super::{
+    Class, Config, ConfigError, DepthRange, DepthState, OptionId, Projection, Settings, Viewport,
+};
 use proptest::prelude::*;
 use std::path::Path;
 
 const WHOLE: &str = r#"
 executable = ["room", "room.x86_64"]
 hud-depth = 0.25
+focal-depth = 64
 
 [[rule]]
 executable = "room"
 texture = 7
 list = [3, 4]
 projection = "orthographic"
+viewport = "inset"
 depth-state = "test-only"
+depth-range = "near"
 draw = "5..9"
 class = "flat"
 depth = -0.5
@@ -22,6 +27,10 @@ depth = -0.5
 [[rule]]
 draw = 1
 class = "off-screen"
+
+[[rule]]
+class = "scene"
+focal-depth = 2.5
 "#;
 
 #[test]
@@ -29,7 +38,8 @@ fn every_key_is_understood() {
     let profile = Profile::parse(WHOLE, Path::new("room.toml")).unwrap();
     assert_eq!(profile.executable, ["room", "room.x86_64"]);
     assert_eq!(profile.hud_depth, Some(0.25));
-    let [first, second] = &profile.rules[..] else {
+    assert_eq!(profile.focal_depth, Some(64.0));
+    let [first, second, third] = &profile.rules[..] else {
         panic!("{:?}", profile.rules)
     };
     assert_eq!(
@@ -39,16 +49,20 @@ fn every_key_is_understood() {
             texture: vec![7],
             list: vec![3, 4],
             projection: Some(Projection::Orthographic),
+            viewport: Some(Viewport::Inset),
             depth_state: Some(DepthState::TestOnly),
+            depth_range: Some(DepthRange::Near),
             draw: Some((5, 9)),
             class: Class::Flat,
             depth: Some(-0.5),
+            focal_depth: None,
         }
     );
     assert_eq!(
         (second.draw, second.class),
         (Some((1, 1)), Class::OffScreen)
     );
+    assert_eq!((third.class, third.focal_depth), (Class::Scene, Some(2.5)));
 }
 
 #[test]
@@ -96,6 +110,10 @@ fn every_mistake_is_one_clear_sentence() {
         rule("class = \"flat\", depth = \"near\""),
         rule("class = \"flat\", depth = -11"),
         rule("class = \"sky\", depth = 0.5"),
+        rule("class = \"flat\", depth-range = \"nearest\""),
+        rule("class = \"flat\", focal-depth = 20"),
+        rule("class = \"scene\", focal-depth = 0"),
+        "focal-depth = \"near\"".to_owned(),
     ]
     .map(|text| message(&text));
     insta::assert_snapshot!(all.join("\n"));
@@ -110,7 +128,7 @@ fn profiles_are_found_by_name_and_by_program() {
     write("other.toml", "executable = \"other\"");
     write("notes.txt", "not a profile");
     let by_name = Profile::named(Some(folder.path()), "room").unwrap();
-    assert_eq!(by_name.rules.len(), 2);
+    assert_eq!(by_name.rules.len(), 3);
     let by_program = Profile::automatic(folder.path(), "room.x86_64").unwrap();
     assert_eq!(by_program, by_name);
     assert_eq!(Profile::automatic(folder.path(), "unknown"), None);
@@ -145,9 +163,9 @@ fn a_profile_is_chosen_for_a_program_unless_another_is_asked_for() {
         config.choose_profile(&settings, Some("room".to_owned()));
         config.profile.rules.len()
     };
-    assert_eq!(rules(None), 2);
+    assert_eq!(rules(None), 3);
     assert_eq!(rules(Some("none")), 0);
-    assert_eq!(rules(Some("room")), 2);
+    assert_eq!(rules(Some("room")), 3);
 }
 
 #[test]
@@ -161,7 +179,11 @@ fn the_profiles_that_come_with_the_library_are_good() {
             .is_some_and(|extension| extension == "toml")
         {
             let profile = Profile::read(&path).unwrap();
-            assert!(!profile.rules.is_empty() || profile.hud_depth.is_some());
+            assert!(
+                !profile.rules.is_empty()
+                    || profile.hud_depth.is_some()
+                    || profile.focal_depth.is_some()
+            );
             seen += 1;
         }
     }

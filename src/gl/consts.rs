@@ -197,6 +197,7 @@ pub const LINE_WIDTH: u32 = 0x0B21;
 pub const POINT_SIZE: u32 = 0x0B11;
 pub const POINT_SPRITE: u32 = 0x8861;
 pub const COLOR_WRITEMASK: u32 = 0x0C23;
+pub const DEPTH_RANGE: u32 = 0x0B70;
 pub const DEPTH_WRITEMASK: u32 = 0x0B72;
 pub const VERTEX_ARRAY_BINDING: u32 = 0x85B5;
 pub const ARRAY_BUFFER: u32 = 0x8892;

@@ -1,7 +1,7 @@
 //! What a draw is: reads what the classifier asks for, and keeps what it must know of the frame.
 
 use super::Layer;
-use crate::config::{DepthState, Projection};
+use crate::config::{DepthRange, DepthState, Projection};
 use crate::gl::Gl;
 use crate::plan::class::Target;
 use crate::plan::{Classed, Facts, Kind};
@@ -35,7 +35,8 @@ impl Layer {
             let needs = self.classifier.needs(kind, projection, first);
             self.state.look(gl, needs);
             let depth = self.state.look.depth;
-            if !clear && projection == Projection::Perspective && first {
+            let behind = self.state.look.range == DepthRange::Far;
+            if !clear && projection == Projection::Perspective && first && !behind {
                 if self.classifier.needs_modelview(projection, first, depth) {
                     self.state.look(gl, Touch::MODELVIEW);
                 }

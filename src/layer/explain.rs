@@ -4,7 +4,7 @@
 //! it is one frame, it changes no state of the program's, and it is true of every kind of draw and strategy.
 
 use super::Layer;
-use crate::config::{Class, Explain, Word};
+use crate::config::{Class, DepthRange, Explain, Word};
 use crate::gl::{Gl, consts as c};
 use crate::plan::class::Target;
 use crate::plan::{Classed, Facts, Kind};
@@ -134,7 +134,7 @@ impl Explained {
         } else {
             let pixels = now.pixels().zip(self.view.pixels());
             for (owner, (after, before)) in self.owner.iter_mut().zip(pixels) {
-                if class.is_none() || after != before {
+                if after != before {
                     *owner = class;
                 }
             }
@@ -180,7 +180,7 @@ impl Explained {
         }
         let _ = writeln!(
             text,
-            "{:>5}  {:<22} {:<10} {:<59} {:>7} {:>5} {:<9}  rule",
+            "{:>5}  {:<22} {:<10} {:<59} {:>7} {:>5} {:<14}  rule",
             "draw", "kind", "class", "reason", "texture", "list", "depth"
         );
         for (facts, classed) in &self.draws {
@@ -189,18 +189,27 @@ impl Explained {
             let number = |n: Option<u32>| n.map_or("-".to_owned(), |n| n.to_string());
             let _ = writeln!(
                 text,
-                "{:>5}  {:<22} {:<10} {:<59} {:>7} {:>5} {:<9}  {}",
+                "{:>5}  {:<22} {:<10} {:<59} {:>7} {:>5} {:<14}  {}",
                 facts.draw,
                 kind(facts.kind),
                 classed.class.word(),
                 classed.why.to_string(),
                 known(number(Some(facts.texture).filter(|&t| t != 0))),
                 number(facts.list),
-                known(facts.depth_state.word().to_owned()),
+                known(depth(facts)),
                 facts.rule(classed).unwrap_or_else(|| "-".to_owned()),
             );
         }
         text
+    }
+}
+
+/// What a draw does with the depth buffer, and with which part of it, in words.
+fn depth(facts: &Facts) -> String {
+    let word = facts.depth_state.word();
+    match facts.range {
+        DepthRange::Whole => word.to_owned(),
+        range => format!("{word} {}", range.word()),
     }
 }
 
@@ -286,5 +295,29 @@ fn fill(picture: &mut RgbImage, [x, y, w, h]: [u32; 4], colour: [u8; 3]) {
         for x in x..(x + w).min(picture.width()) {
             picture.put_pixel(x, y, Rgb(colour));
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_clear_takes_only_what_it_changes() {
+        let view =
+            |left: u8| RgbImage::from_fn(2, 1, |x, _| Rgb([if x == 0 { left } else { 9 }; 3]));
+        let mut explained = Explained {
+            view: view(5),
+            owner: vec![Some(Class::Scene); 2],
+            last: None,
+            draws: Vec::new(),
+            began: Instant::now(),
+            complete: true,
+        };
+        // Of the depth alone.
+        explained.settle(None, view(5));
+        assert_eq!(explained.owner, [Some(Class::Scene); 2]);
+        explained.settle(None, view(0));
+        assert_eq!(explained.owner, [None, Some(Class::Scene)]);
     }
 }

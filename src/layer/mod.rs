@@ -109,7 +109,7 @@ impl Layer {
         sweep(gl, &lists);
         let mut layer = Layer {
             config,
-            rig: Rig::new(config.views, config.camera),
+            rig: Rig::new(config.views, config.camera, config.profile.focal_depth),
             state,
             atlas,
             names,

@@ -4,7 +4,7 @@
 //! sky that keeps a little.
 
 use super::Kind;
-use crate::config::{Class, DepthState, Profile, Projection, Rule, Word, profile};
+use crate::config::{Class, DepthRange, DepthState, Profile, Projection, Rule, Viewport, Word};
 use crate::state::{State, Touch};
 
 /// What there is to know about a draw.
@@ -22,10 +22,14 @@ pub struct Facts {
     pub raster: Projection,
     /// The projection matrix.
     pub projection: Projection,
+    /// How much of the window the viewport covers.
+    pub viewport: Viewport,
     /// The projection moves nothing sideways or along the axis: what turns about the eye is at its origin.
     pub centred: bool,
     /// Depth test and mask, where [`Classifier::needs`] asks for them.
     pub depth_state: DepthState,
+    /// The depth range, where asked for.
+    pub range: DepthRange,
     /// The 2D texture of the active unit, 0 for none; where asked for.
     pub texture: u32,
     /// The modelview matrix turns about the eye, moves nothing, and is not the identity; where asked for.
@@ -64,6 +68,8 @@ pub enum Why {
     NoProjection,
     /// Turned about the eye, without depth, before the scene.
     Around,
+    /// At the far end of the depth range: behind everything.
+    Behind,
     /// In perspective, and nothing speaks against it.
     Perspective,
 }
@@ -81,6 +87,7 @@ impl core::fmt::Display for Why {
             Why::Around => {
                 f.write_str("turns about the eye, writes no depth, comes before the scene")
             }
+            Why::Behind => f.write_str("at the far end of the depth range, behind everything"),
             Why::Perspective => f.write_str("perspective projection"),
         }
     }
@@ -93,6 +100,8 @@ pub struct Classed {
     pub class: Class,
     /// Where a flat draw stands: 0 on the panel, 1 infinitely far.
     pub depth: f64,
+    /// Where a draw of the scene has zero parallax, if not where the rest of it has: eye-space units.
+    pub focal: Option<f64>,
     /// Why.
     pub why: Why,
 }
@@ -144,6 +153,9 @@ impl Classifier {
         if rule(|rule| rule.depth_state.is_some()) {
             needs = needs | Touch::DEPTH;
         }
+        if rule(|rule| rule.depth_range.is_some()) || projection == Projection::Perspective {
+            needs = needs | Touch::RANGE;
+        }
         if rule(|rule| !rule.texture.is_empty()) {
             needs = needs | Touch::TEXTURE;
         }
@@ -163,6 +175,7 @@ impl Classifier {
         let classed = |class, why| Classed {
             class,
             depth: 0.0,
+            focal: None,
             why,
         };
         match facts.target {
@@ -177,35 +190,33 @@ impl Classifier {
         }
         if let Some((number, rule)) = self.rules.iter().find(|(_, rule)| matches(rule, facts)) {
             return Classed {
-                class: rule.class,
                 depth: rule.depth.unwrap_or(self.hud_depth),
-                why: Why::Rule(*number),
+                focal: rule.focal_depth,
+                ..classed(rule.class, Why::Rule(*number))
             };
         }
         if facts.kind == Kind::Pixels {
             return match facts.raster {
                 Projection::Perspective => classed(Class::Scene, Why::Raster),
                 Projection::Orthographic => Classed {
-                    class: Class::Flat,
                     depth: self.hud_depth,
-                    why: Why::Raster,
+                    ..classed(Class::Flat, Why::Raster)
                 },
                 Projection::None => classed(Class::Flat, Why::Raster),
             };
         }
         match facts.projection {
             Projection::Orthographic => Classed {
-                class: Class::Flat,
                 depth: self.hud_depth,
-                why: Why::Orthographic,
+                ..classed(Class::Flat, Why::Orthographic)
             },
             // Vertices in clip space are for quads over the whole window, which would show their edges.
             Projection::None => classed(Class::Flat, Why::NoProjection),
-            Projection::Perspective if is_sky(facts) => Classed {
-                class: Class::Sky,
-                depth: profile::FARTHEST,
-                why: Why::Around,
-            },
+            // Nothing else is drawn so: what is not behind everything has to have depths.
+            Projection::Perspective if facts.range == DepthRange::Far => {
+                classed(Class::Sky, Why::Behind)
+            }
+            Projection::Perspective if is_sky(facts) => classed(Class::Sky, Why::Around),
             Projection::Perspective => classed(Class::Scene, Why::Perspective),
         }
     }
@@ -224,7 +235,9 @@ fn matches(rule: &Rule, facts: &Facts) -> bool {
     any(&rule.texture, Some(facts.texture))
         && any(&rule.list, facts.list)
         && rule.projection.is_none_or(|p| p == facts.projection)
+        && rule.viewport.is_none_or(|v| v == facts.viewport)
         && rule.depth_state.is_none_or(|d| d == facts.depth_state)
+        && rule.depth_range.is_none_or(|d| d == facts.range)
         && rule
             .draw
             .is_none_or(|(first, last)| (first..=last).contains(&facts.draw))
@@ -245,8 +258,10 @@ impl Facts {
             list: None,
             raster: Projection::None,
             projection: state.projection_kind(),
+            viewport: state.viewport_kind(),
             centred: [p[3], p[7], p[12], p[13], p[15]] == [0.0; 5],
             depth_state: state.look.depth,
+            range: state.look.range,
             texture: state.look.texture,
             turns: turns(&state.look.modelview),
             first: false,
@@ -270,7 +285,13 @@ impl Facts {
             keys.push(format!("draw = {}", self.draw));
         }
         keys.push(format!("projection = \"{}\"", self.projection.word()));
+        if self.viewport != Viewport::Main {
+            keys.push(format!("viewport = \"{}\"", self.viewport.word()));
+        }
         keys.push(format!("depth-state = \"{}\"", self.depth_state.word()));
+        if self.range != DepthRange::Whole {
+            keys.push(format!("depth-range = \"{}\"", self.range.word()));
+        }
         let other = match (classed.class, self.projection) {
             (Class::Scene, _) => Class::Flat,
             (Class::Sky, _) => Class::Scene,

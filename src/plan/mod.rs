@@ -5,7 +5,7 @@ pub mod class;
 pub mod parallax;
 
 use crate::config::profile::FARTHEST;
-use crate::config::{Class, Strategy};
+use crate::config::{Class, Strategy, Viewport};
 use crate::state::State;
 pub use class::{Classed, Classifier, Facts};
 pub use parallax::{Rig, Shear};
@@ -111,9 +111,12 @@ pub fn plan(kind: Kind, state: &State, rig: &Rig, means: &Means, classed: &Class
     } else {
         let p = &state.projection;
         match class {
-            Class::Scene => rig.shear(p),
+            Class::Scene => match classed.focal {
+                None => rig.shear(p),
+                Some(focal) => rig.shear_about(p, focal),
+            },
             Class::Sky => rig.at_depth(p, FARTHEST),
-            Class::Flat => rig.at_depth(p, classed.depth),
+            Class::Flat => rig.at_depth(p, classed.depth * magnified(state)),
             Class::OffScreen => None,
         }
     };
@@ -126,6 +129,14 @@ pub fn plan(kind: Kind, state: &State, rig: &Rig, means: &Means, classed: &Class
         class,
         shear,
         reason,
+    }
+}
+
+/// What a shift of the window's is in a small viewport of it: a picture in the picture stands where the display around it does.
+fn magnified(state: &State) -> f64 {
+    match state.viewport_kind() {
+        Viewport::Main => 1.0,
+        Viewport::Inset => f64::from(state.window.width) / f64::from(state.viewport[2].max(1)),
     }
 }
 
@@ -162,5 +173,51 @@ fn method(kind: Kind, state: &State, means: &Means) -> Result<Method, Option<Rea
             "geometry shaders in compatibility contexts (GLSL 1.50)",
         ))),
         m => Ok(m),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::config::Camera;
+    use crate::state::Window;
+
+    #[test]
+    fn a_picture_in_the_picture_stands_where_the_display_does() {
+        let window = Window {
+            width: 640,
+            height: 480,
+            double_buffered: true,
+            bits: [8, 8, 8, 0, 24, 8],
+            samples: 0,
+            srgb_capable: false,
+            srgb: false,
+            float: false,
+            default_buffer: 0,
+            default_read: 0,
+        };
+        let mut state = State::new(window, true);
+        state.projection[0] = 2.0;
+        let rig = Rig::new(5, Camera::Auto, None);
+        let means = Means {
+            strategy: Strategy::Replay,
+            instanced: false,
+            geometry: false,
+        };
+        let classed = Classed {
+            class: Class::Flat,
+            depth: 0.25,
+            focal: None,
+            why: class::Why::Orthographic,
+        };
+        let mut pixels = |width: i32, height: i32| {
+            state.viewport = [16, 16, width, height];
+            let plan = plan(Kind::Begin(7), &state, &rig, &means, &classed);
+            plan.shear.expect("a shift").separation(1.0) * f64::from(width) / 2.0
+        };
+        let whole = pixels(640, 480);
+        assert!((pixels(64, 48) - whole).abs() < 1e-9, "an inset");
+        // Half of a split screen has its own scene.
+        assert!((pixels(320, 480) - whole / 2.0).abs() < 1e-9);
     }
 }

@@ -13,6 +13,8 @@ pub struct Rig {
     /// N.
     pub views: u32,
     camera: Camera,
+    /// What [`Camera::Auto`] is to take as the focal depth.
+    focal: Option<f64>,
     latched: Option<(f64, f64)>,
     /// A per unit of row 3, of the last perspective projection that was drawn with.
     a: Option<f64>,
@@ -36,11 +38,12 @@ pub struct Shear {
 const AUTO_TOTAL_SEPARATION: f64 = 0.04;
 
 impl Rig {
-    /// The cameras for N views.
-    pub fn new(views: u32, camera: Camera) -> Self {
+    /// The cameras for N views. `focal` is the focal depth of [`Camera::Auto`], where it is known for the program.
+    pub fn new(views: u32, camera: Camera, focal: Option<f64>) -> Self {
         Rig {
             views,
             camera,
+            focal,
             latched: None,
             a: None,
         }
@@ -51,8 +54,8 @@ impl Rig {
         f64::from(view) - (f64::from(self.views) - 1.0) / 2.0
     }
 
-    /// A perspective projection that the program draws its scene with. With [`Camera::Auto`], fixes the focal depth by the first perspective projection that the program draws with: the
-    /// geometric mean of its near and far distance, the far one at most 1000 near distances away.
+    /// A perspective projection that the program draws its scene with. With [`Camera::Auto`], the first one fixes the focal depth,
+    /// where none is given: the geometric mean of its near and far distance, the far one at most 1000 near distances away.
     pub fn latch(&mut self, p: &[f32; 16]) {
         if flat(p) {
             return;
@@ -71,7 +74,9 @@ impl Rig {
         let (near, far) = if z1 < z2 { (z1, z2) } else { (z2, z1) };
         if near.is_finite() && near > 0.0 {
             let scale = c.hypot(f64::from(p[3])).hypot(f64::from(p[7]));
-            let focal = (near * far.min(1000.0 * near)).sqrt();
+            let focal = self
+                .focal
+                .unwrap_or_else(|| (near * far.min(1000.0 * near)).sqrt());
             self.latched = Some((self.auto_step(), focal * scale));
         }
     }
@@ -139,6 +144,16 @@ impl Rig {
                 })
             }
         }
+    }
+
+    /// The shift for a draw that has zero parallax at a depth of its own, with the separation at infinity of the others: it looks
+    /// ξ/`focal` times as far and as large as it is.
+    pub fn shear_about(&self, p: &[f32; 16], focal: f64) -> Option<Shear> {
+        let (_, scale) = focal_length(p);
+        Some(Shear {
+            conv: focal * scale,
+            ..self.shear(p)?
+        })
     }
 }
 
@@ -227,6 +242,7 @@ mod tests {
                 spacing: 0.3,
                 focal_depth: 8.0,
             },
+            None,
         )
     }
 
@@ -324,10 +340,35 @@ mod tests {
     #[test]
     fn auto_takes_the_geometric_mean_of_near_and_far() {
         let p = frustum(-1.0, 1.0, -1.0, 1.0, 5.0, 60.0).to_cols_array();
-        let mut rig = Rig::new(8, Camera::Auto);
+        let mut rig = Rig::new(8, Camera::Auto, None);
         assert_eq!(rig.shear(&p), None);
         rig.latch(&p);
         let shear = rig.shear(&p).expect("latched");
         assert!((shear.conv - 300f64.sqrt()).abs() < 1e-3, "{shear:?}");
+        let mut told = Rig::new(8, Camera::Auto, Some(12.0));
+        told.latch(&p);
+        let about = told.shear(&p).expect("latched");
+        assert_eq!((about.conv, about.spacing), (12.0, shear.spacing));
+    }
+
+    #[test]
+    fn a_draw_about_another_depth_looks_as_if_it_were_larger_and_farther() {
+        let p = frustum(-1.2, 0.8, -0.7, 0.9, 1.0, 60.0).to_cols_array();
+        let clip = Camera::Clip {
+            separation: 0.03,
+            convergence: 8.0,
+        };
+        for rig in [rig(), Rig::new(5, clip, None)] {
+            let at = |shear: Option<Shear>, point: Vec4| {
+                let pi = shear.expect("a shear").projection(&p, 2.0);
+                let at = Mat4::from_cols_array(&pi) * point;
+                at.x / at.w
+            };
+            for point in [Vec3::new(0.3, -0.2, -2.0), Vec3::new(-0.4, 0.1, -1.2)] {
+                let near = at(rig.shear_about(&p, 2.0), point.extend(1.0));
+                let far = at(rig.shear(&p), (point * 4.0).extend(1.0));
+                assert!((near - far).abs() < 1e-5, "{near} {far}");
+            }
+        }
     }
 }

@@ -1,7 +1,7 @@
 //! State that no draw needs for its views, but that tells what the draw is.
 
 use super::{State, Touch};
-use crate::config::{DepthState, Projection};
+use crate::config::{DepthRange, DepthState, Projection, Viewport};
 use crate::gl::{Gl, consts as c};
 
 /// Valid in the groups that [`State::look`] was last asked for, until a command touches them.
@@ -9,6 +9,8 @@ use crate::gl::{Gl, consts as c};
 pub struct Look {
     /// Depth test and mask.
     pub depth: DepthState,
+    /// Which part of the depth buffer is drawn to.
+    pub range: DepthRange,
     /// The 2D texture that the active unit samples; 0 for none.
     pub texture: u32,
     /// GL_MODELVIEW_MATRIX.
@@ -19,6 +21,7 @@ impl Default for Look {
     fn default() -> Self {
         Look {
             depth: DepthState::Off,
+            range: DepthRange::Whole,
             texture: 0,
             modelview: glam::Mat4::IDENTITY.to_cols_array(),
         }
@@ -39,6 +42,9 @@ impl State {
                 DepthState::On
             };
         }
+        if stale(Touch::RANGE) {
+            self.look.range = depth_range(gl.get_floats(c::DEPTH_RANGE));
+        }
         if stale(Touch::TEXTURE) {
             // Programs sample without it being enabled.
             let sampled = self.program != 0 || !self.compatibility || gl.is_enabled(c::TEXTURE_2D);
@@ -54,6 +60,17 @@ impl State {
         self.touched = self.touched.without(groups);
     }
 
+    /// How much of the window the viewport covers.
+    pub fn viewport_kind(&self) -> Viewport {
+        let [_, _, width, height] = self.viewport.map(i64::from);
+        let small = |part: i64, whole: u32| part * 4 < i64::from(whole);
+        if small(width, self.window.width) && small(height, self.window.height) {
+            Viewport::Inset
+        } else {
+            Viewport::Main
+        }
+    }
+
     /// What the projection matrix is.
     pub fn projection_kind(&self) -> Projection {
         let p = &self.projection;
@@ -63,6 +80,37 @@ impl State {
             Projection::None
         } else {
             Projection::Orthographic
+        }
+    }
+}
+
+/// The part of the depth buffer between two values of glDepthRange.
+fn depth_range([near, far]: [f32; 2]) -> DepthRange {
+    match (near.min(far), near.max(far)) {
+        (0.0, 1.0) => DepthRange::Whole,
+        (1.0, _) => DepthRange::Far,
+        (0.0, _) => DepthRange::Near,
+        _ => DepthRange::Part,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn depth_ranges_have_words() {
+        let cases = [
+            ([0.0, 1.0], DepthRange::Whole),
+            ([1.0, 0.0], DepthRange::Whole),
+            ([1.0, 1.0], DepthRange::Far),
+            ([0.0, 0.3], DepthRange::Near),
+            ([0.0, 0.0], DepthRange::Near),
+            ([0.3, 1.0], DepthRange::Part),
+            ([0.5, 0.5], DepthRange::Part),
+        ];
+        for (values, want) in cases {
+            assert_eq!(depth_range(values), want, "{values:?}");
         }
     }
 }

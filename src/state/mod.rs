@@ -41,6 +41,8 @@ impl Touch {
     pub const TEXTURE: Touch = Touch(1 << 10);
     /// The modelview matrix.
     pub const MODELVIEW: Touch = Touch(1 << 11);
+    /// The depth range.
+    pub const RANGE: Touch = Touch(1 << 12);
     /// The raster position, by glRasterPos.
     pub const RASTER: Touch = Touch(128);
     /// The raster position, by glWindowPos.

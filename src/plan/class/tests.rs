@@ -17,8 +17,10 @@ fn facts() -> Facts {
         list: None,
         raster: Projection::None,
         projection: Projection::Perspective,
+        viewport: Viewport::Main,
         centred: true,
         depth_state: DepthState::On,
+        range: DepthRange::Whole,
         texture: 3,
         turns: false,
         first: true,
@@ -101,6 +103,32 @@ fn the_state_tells_what_a_draw_is() {
         (sky, Class::Sky, Why::Around),
         (
             Facts {
+                range: DepthRange::Far,
+                first: false,
+                ..facts()
+            },
+            Class::Sky,
+            Why::Behind,
+        ),
+        (
+            Facts {
+                range: DepthRange::Far,
+                projection: Projection::Orthographic,
+                ..facts()
+            },
+            Class::Flat,
+            Why::Orthographic,
+        ),
+        (
+            Facts {
+                range: DepthRange::Near,
+                ..facts()
+            },
+            Class::Scene,
+            Why::Perspective,
+        ),
+        (
+            Facts {
                 depth_state: DepthState::TestOnly,
                 ..sky
             },
@@ -153,18 +181,31 @@ fn the_first_rule_whose_every_key_matches_decides() {
             { texture = [1, 3], projection = "orthographic", class = "flat", depth = -0.5 },
             { list = 9, class = "sky" },
             { draw = "8..", depth-state = "on", class = "flat" },
+            { draw = 5, viewport = "inset", class = "flat", depth = 0 },
+            { draw = 5, depth-range = "near", class = "scene", focal-depth = 2 },
             { draw = 5, class = "scene" },
         ]"#,
     );
     let why = |facts| c.class(&facts).why;
-    assert_eq!(why(facts()), Why::Rule(5));
+    assert_eq!(why(facts()), Why::Rule(7));
+    assert_eq!(c.class(&facts()).focal, None);
+    let near = Facts {
+        range: DepthRange::Near,
+        ..facts()
+    };
+    assert_eq!((why(near), c.class(&near).focal), (Why::Rule(6), Some(2.0)));
+    let inset = Facts {
+        viewport: Viewport::Inset,
+        ..near
+    };
+    assert_eq!(why(inset), Why::Rule(5));
     let flat = Facts {
         projection: Projection::Orthographic,
         ..facts()
     };
     assert_eq!((why(flat), c.class(&flat).depth), (Why::Rule(2), -0.5));
     let other_texture = Facts { texture: 2, ..flat };
-    assert_eq!(why(other_texture), Why::Rule(5));
+    assert_eq!(why(other_texture), Why::Rule(7));
     let list = Facts {
         list: Some(9),
         ..facts()
@@ -200,8 +241,11 @@ fn state_is_asked_for_only_where_it_may_decide() {
     let plain = classifier("");
     let needs = |c: &Classifier, p, first| c.needs(Kind::Other, p, first);
     assert_eq!(needs(&plain, Projection::Orthographic, true), Touch::NONE);
-    assert_eq!(needs(&plain, Projection::Perspective, false), Touch::NONE);
-    assert_eq!(needs(&plain, Projection::Perspective, true), Touch::DEPTH);
+    assert_eq!(needs(&plain, Projection::Perspective, false), Touch::RANGE);
+    assert_eq!(
+        needs(&plain, Projection::Perspective, true),
+        Touch::DEPTH | Touch::RANGE
+    );
     let textures = classifier("rule = [{ texture = 1, class = \"flat\" }]");
     assert_eq!(
         needs(&textures, Projection::Orthographic, false),
@@ -224,6 +268,11 @@ fn a_suggested_rule_is_one_that_matches_and_changes_the_class() {
         Facts {
             projection: Projection::Orthographic,
             depth_state: DepthState::Off,
+            ..facts()
+        },
+        Facts {
+            range: DepthRange::Far,
+            viewport: Viewport::Inset,
             ..facts()
         },
         Facts {
