@@ -1,5 +1,6 @@
 //! Which context is current on which thread, and the guard that every hook passes.
 
+use crate::deep;
 use crate::geometry;
 use crate::provider::Provider;
 use crate::shares;
@@ -213,6 +214,7 @@ pub(crate) fn made_current(provider: Provider, handle: Ptr, drawable: Option<Dra
     let (Some(drawable), false, false) = (drawable, handle.is_null(), switch::off()) else {
         return;
     };
+    deep::look();
     let Some((width, height)) = guarded(|| size(drawable)) else {
         return;
     };

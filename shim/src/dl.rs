@@ -1,6 +1,7 @@
 //! dlsym, for programs that load GL at run time (SDL, GLFW, Qt). dlopen is left alone: a wrapper around it changes where the
 //! dynamic linker looks (VirtualGL issue 266).
 
+use crate::deep;
 use crate::entry::EXPORTS;
 use crate::provider::{self, Provider};
 use crate::switch;
@@ -14,13 +15,14 @@ pub(crate) fn export(name: &[u8]) -> Option<(usize, Ptr)> {
     Some((slot, address.0.cast_mut().cast()))
 }
 
-/// Which function is to answer a dlsym call: the one behind ours, or [`answer`]. No allocation, no lock, no thread-local: this
-/// runs at any time in any thread, for every name.
+/// Which function is to answer a dlsym call: the one behind ours, or [`answer`]. No allocation, no thread-local: this runs at any
+/// time in any thread, for every name.
 unsafe extern "C" fn choose(handle: *mut c_void, name: *const c_char) -> *const c_void {
     let next = provider::next_dlsym().map_or(core::ptr::null(), |f| f as *const c_void);
     if name.is_null() || handle == libc::RTLD_NEXT || next.is_null() {
         return next;
     }
+    deep::look();
     // SAFETY: dlsym's contract: a string that ends in NUL.
     let name = unsafe { CStr::from_ptr(name) }.to_bytes();
     let ours = matches!(
