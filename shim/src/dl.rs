@@ -78,8 +78,24 @@ unsafe extern "C" fn dlsym(handle: *mut c_void, name: *const c_char) -> *mut c_v
     )
 }
 
+/// The same for the calling convention of 32-bit programs, which has the arguments on the stack.
+#[cfg(target_arch = "x86")]
+#[unsafe(naked)]
+#[unsafe(no_mangle)]
+unsafe extern "C" fn dlsym(handle: *mut c_void, name: *const c_char) -> *mut c_void {
+    core::arch::naked_asm!(
+        "sub esp, 4",
+        "push dword ptr [esp + 12]",
+        "push dword ptr [esp + 12]",
+        "call {choose}",
+        "add esp, 12",
+        "jmp eax",
+        choose = sym choose,
+    )
+}
+
 /// The exported dlsym where no tail jump is written yet: RTLD_NEXT is then ours to answer.
-#[cfg(not(target_arch = "x86_64"))]
+#[cfg(not(any(target_arch = "x86_64", target_arch = "x86")))]
 #[unsafe(no_mangle)]
 unsafe extern "C" fn dlsym(handle: *mut c_void, name: *const c_char) -> *mut c_void {
     // SAFETY: the program's own arguments.
