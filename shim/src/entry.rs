@@ -7,7 +7,7 @@ use manyview_core::gl::{Ptr, slot};
 use manyview_core::state::Effect;
 
 /// Where each exported function jumps to, by slot: at first its resolver, then the driver's function or the hook.
-pub(crate) static ENTRY: [AtomicPtr<()>; 1235] = [
+pub(crate) static ENTRY: [AtomicPtr<()>; 1240] = [
     AtomicPtr::new(first_glVertex2d as *mut ()),
     AtomicPtr::new(first_glVertex2dv as *mut ()),
     AtomicPtr::new(first_glVertex2f as *mut ()),
@@ -1067,6 +1067,11 @@ pub(crate) static ENTRY: [AtomicPtr<()>; 1235] = [
     AtomicPtr::new(first_glFinish as *mut ()),
     AtomicPtr::new(first_glFlush as *mut ()),
     AtomicPtr::new(first_glGetError as *mut ()),
+    AtomicPtr::new(first_glBeginConditionalRender as *mut ()),
+    AtomicPtr::new(first_glBeginConditionalRenderNV as *mut ()),
+    AtomicPtr::new(first_glEndConditionalRender as *mut ()),
+    AtomicPtr::new(first_glEndConditionalRenderNV as *mut ()),
+    AtomicPtr::new(first_glEndConditionalRenderNVX as *mut ()),
     AtomicPtr::new(first_glBeginQuery as *mut ()),
     AtomicPtr::new(first_glBeginQueryARB as *mut ()),
     AtomicPtr::new(first_glEndQuery as *mut ()),
@@ -1246,7 +1251,7 @@ pub(crate) static ENTRY: [AtomicPtr<()>; 1235] = [
 ];
 
 /// The hook of each exported function, by slot.
-pub(crate) static HOOK: [Option<crate::Address>; 1235] = [
+pub(crate) static HOOK: [Option<crate::Address>; 1240] = [
     Some(crate::Address(hook_glVertex2d as *const ())),
     Some(crate::Address(hook_glVertex2dv as *const ())),
     Some(crate::Address(hook_glVertex2f as *const ())),
@@ -2306,6 +2311,11 @@ pub(crate) static HOOK: [Option<crate::Address>; 1235] = [
     Some(crate::Address(hook_glFinish as *const ())),
     Some(crate::Address(hook_glFlush as *const ())),
     Some(crate::Address(hook_glGetError as *const ())),
+    Some(crate::Address(hook_glBeginConditionalRender as *const ())),
+    Some(crate::Address(hook_glBeginConditionalRenderNV as *const ())),
+    Some(crate::Address(hook_glEndConditionalRender as *const ())),
+    Some(crate::Address(hook_glEndConditionalRenderNV as *const ())),
+    Some(crate::Address(hook_glEndConditionalRenderNVX as *const ())),
     Some(crate::Address(hook_glBeginQuery as *const ())),
     Some(crate::Address(hook_glBeginQueryARB as *const ())),
     Some(crate::Address(hook_glEndQuery as *const ())),
@@ -2485,21 +2495,21 @@ pub(crate) static HOOK: [Option<crate::Address>; 1235] = [
 ];
 
 /// Exported names in order, their slots and addresses: what dlsym and the GetProcAddress family hand out.
-pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1200] = [
-    (b"OSMesaCreateContext", 1200, crate::Address(OSMesaCreateContext as *const ())),
-    (b"OSMesaCreateContextAttribs", 1202, crate::Address(OSMesaCreateContextAttribs as *const ())),
-    (b"OSMesaCreateContextExt", 1201, crate::Address(OSMesaCreateContextExt as *const ())),
-    (b"OSMesaDestroyContext", 1203, crate::Address(OSMesaDestroyContext as *const ())),
-    (b"OSMesaGetProcAddress", 1204, crate::Address(OSMesaGetProcAddress as *const ())),
-    (b"OSMesaMakeCurrent", 1199, crate::Address(OSMesaMakeCurrent as *const ())),
-    (b"eglCreateContext", 1191, crate::Address(eglCreateContext as *const ())),
-    (b"eglDestroyContext", 1192, crate::Address(eglDestroyContext as *const ())),
-    (b"eglGetProcAddress", 1194, crate::Address(eglGetProcAddress as *const ())),
-    (b"eglMakeCurrent", 1190, crate::Address(eglMakeCurrent as *const ())),
-    (b"eglReleaseThread", 1193, crate::Address(eglReleaseThread as *const ())),
-    (b"eglSwapBuffers", 1187, crate::Address(eglSwapBuffers as *const ())),
-    (b"eglSwapBuffersWithDamageEXT", 1189, crate::Address(eglSwapBuffersWithDamageEXT as *const ())),
-    (b"eglSwapBuffersWithDamageKHR", 1188, crate::Address(eglSwapBuffersWithDamageKHR as *const ())),
+pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1205] = [
+    (b"OSMesaCreateContext", 1205, crate::Address(OSMesaCreateContext as *const ())),
+    (b"OSMesaCreateContextAttribs", 1207, crate::Address(OSMesaCreateContextAttribs as *const ())),
+    (b"OSMesaCreateContextExt", 1206, crate::Address(OSMesaCreateContextExt as *const ())),
+    (b"OSMesaDestroyContext", 1208, crate::Address(OSMesaDestroyContext as *const ())),
+    (b"OSMesaGetProcAddress", 1209, crate::Address(OSMesaGetProcAddress as *const ())),
+    (b"OSMesaMakeCurrent", 1204, crate::Address(OSMesaMakeCurrent as *const ())),
+    (b"eglCreateContext", 1196, crate::Address(eglCreateContext as *const ())),
+    (b"eglDestroyContext", 1197, crate::Address(eglDestroyContext as *const ())),
+    (b"eglGetProcAddress", 1199, crate::Address(eglGetProcAddress as *const ())),
+    (b"eglMakeCurrent", 1195, crate::Address(eglMakeCurrent as *const ())),
+    (b"eglReleaseThread", 1198, crate::Address(eglReleaseThread as *const ())),
+    (b"eglSwapBuffers", 1192, crate::Address(eglSwapBuffers as *const ())),
+    (b"eglSwapBuffersWithDamageEXT", 1194, crate::Address(eglSwapBuffersWithDamageEXT as *const ())),
+    (b"eglSwapBuffersWithDamageKHR", 1193, crate::Address(eglSwapBuffersWithDamageKHR as *const ())),
     (b"glAccum", 956, crate::Address(glAccum as *const ())),
     (b"glActiveTexture", 536, crate::Address(glActiveTexture as *const ())),
     (b"glActiveTextureARB", 537, crate::Address(glActiveTextureARB as *const ())),
@@ -2507,20 +2517,22 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1200] = [
     (b"glArrayElement", 260, crate::Address(glArrayElement as *const ())),
     (b"glArrayElementEXT", 261, crate::Address(glArrayElementEXT as *const ())),
     (b"glBegin", 454, crate::Address(glBegin as *const ())),
-    (b"glBeginQuery", 1059, crate::Address(glBeginQuery as *const ())),
-    (b"glBeginQueryARB", 1060, crate::Address(glBeginQueryARB as *const ())),
+    (b"glBeginConditionalRender", 1059, crate::Address(glBeginConditionalRender as *const ())),
+    (b"glBeginConditionalRenderNV", 1060, crate::Address(glBeginConditionalRenderNV as *const ())),
+    (b"glBeginQuery", 1064, crate::Address(glBeginQuery as *const ())),
+    (b"glBeginQueryARB", 1065, crate::Address(glBeginQueryARB as *const ())),
     (b"glBeginTransformFeedback", 669, crate::Address(glBeginTransformFeedback as *const ())),
     (b"glBeginTransformFeedbackEXT", 670, crate::Address(glBeginTransformFeedbackEXT as *const ())),
     (b"glBeginTransformFeedbackNV", 671, crate::Address(glBeginTransformFeedbackNV as *const ())),
-    (b"glBindBuffer", 1141, crate::Address(glBindBuffer as *const ())),
-    (b"glBindBufferARB", 1142, crate::Address(glBindBufferARB as *const ())),
+    (b"glBindBuffer", 1146, crate::Address(glBindBuffer as *const ())),
+    (b"glBindBufferARB", 1147, crate::Address(glBindBufferARB as *const ())),
     (b"glBindFramebuffer", 973, crate::Address(glBindFramebuffer as *const ())),
     (b"glBindFramebufferEXT", 974, crate::Address(glBindFramebufferEXT as *const ())),
     (b"glBindMultiTextureEXT", 540, crate::Address(glBindMultiTextureEXT as *const ())),
     (b"glBindProgramARB", 586, crate::Address(glBindProgramARB as *const ())),
     (b"glBindProgramNV", 587, crate::Address(glBindProgramNV as *const ())),
     (b"glBindProgramPipeline", 593, crate::Address(glBindProgramPipeline as *const ())),
-    (b"glBindRenderbuffer", 1133, crate::Address(glBindRenderbuffer as *const ())),
+    (b"glBindRenderbuffer", 1138, crate::Address(glBindRenderbuffer as *const ())),
     (b"glBindTexture", 967, crate::Address(glBindTexture as *const ())),
     (b"glBindTextureEXT", 968, crate::Address(glBindTextureEXT as *const ())),
     (b"glBindTextureUnit", 539, crate::Address(glBindTextureUnit as *const ())),
@@ -2560,10 +2572,10 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1200] = [
     (b"glBlitFramebufferEXT", 990, crate::Address(glBlitFramebufferEXT as *const ())),
     (b"glBlitFramebufferNV", 991, crate::Address(glBlitFramebufferNV as *const ())),
     (b"glBlitNamedFramebuffer", 992, crate::Address(glBlitNamedFramebuffer as *const ())),
-    (b"glBufferData", 1143, crate::Address(glBufferData as *const ())),
-    (b"glBufferDataARB", 1144, crate::Address(glBufferDataARB as *const ())),
-    (b"glBufferSubData", 1145, crate::Address(glBufferSubData as *const ())),
-    (b"glBufferSubDataARB", 1146, crate::Address(glBufferSubDataARB as *const ())),
+    (b"glBufferData", 1148, crate::Address(glBufferData as *const ())),
+    (b"glBufferDataARB", 1149, crate::Address(glBufferDataARB as *const ())),
+    (b"glBufferSubData", 1150, crate::Address(glBufferSubData as *const ())),
+    (b"glBufferSubDataARB", 1151, crate::Address(glBufferSubDataARB as *const ())),
     (b"glCallList", 962, crate::Address(glCallList as *const ())),
     (b"glCallLists", 963, crate::Address(glCallLists as *const ())),
     (b"glCheckFramebufferStatus", 1021, crate::Address(glCheckFramebufferStatus as *const ())),
@@ -2586,8 +2598,8 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1200] = [
     (b"glClearNamedFramebufferiv", 994, crate::Address(glClearNamedFramebufferiv as *const ())),
     (b"glClearNamedFramebufferuiv", 995, crate::Address(glClearNamedFramebufferuiv as *const ())),
     (b"glClearStencil", 712, crate::Address(glClearStencil as *const ())),
-    (b"glClientActiveTexture", 1155, crate::Address(glClientActiveTexture as *const ())),
-    (b"glClientActiveTextureARB", 1156, crate::Address(glClientActiveTextureARB as *const ())),
+    (b"glClientActiveTexture", 1160, crate::Address(glClientActiveTexture as *const ())),
+    (b"glClientActiveTextureARB", 1161, crate::Address(glClientActiveTextureARB as *const ())),
     (b"glClipControl", 584, crate::Address(glClipControl as *const ())),
     (b"glClipControlEXT", 585, crate::Address(glClipControlEXT as *const ())),
     (b"glClipPlane", 713, crate::Address(glClipPlane as *const ())),
@@ -2637,7 +2649,7 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1200] = [
     (b"glColorP3uiv", 441, crate::Address(glColorP3uiv as *const ())),
     (b"glColorP4ui", 442, crate::Address(glColorP4ui as *const ())),
     (b"glColorP4uiv", 443, crate::Address(glColorP4uiv as *const ())),
-    (b"glColorPointer", 1158, crate::Address(glColorPointer as *const ())),
+    (b"glColorPointer", 1163, crate::Address(glColorPointer as *const ())),
     (b"glCompressedTexImage1D", 775, crate::Address(glCompressedTexImage1D as *const ())),
     (b"glCompressedTexImage1DARB", 776, crate::Address(glCompressedTexImage1DARB as *const ())),
     (b"glCompressedTexImage2D", 777, crate::Address(glCompressedTexImage2D as *const ())),
@@ -2675,15 +2687,15 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1200] = [
     (b"glCopyTextureSubImage2D", 1044, crate::Address(glCopyTextureSubImage2D as *const ())),
     (b"glCopyTextureSubImage3D", 1045, crate::Address(glCopyTextureSubImage3D as *const ())),
     (b"glCullFace", 719, crate::Address(glCullFace as *const ())),
-    (b"glDeleteBuffers", 1147, crate::Address(glDeleteBuffers as *const ())),
-    (b"glDeleteBuffersARB", 1148, crate::Address(glDeleteBuffersARB as *const ())),
+    (b"glDeleteBuffers", 1152, crate::Address(glDeleteBuffers as *const ())),
+    (b"glDeleteBuffersARB", 1153, crate::Address(glDeleteBuffersARB as *const ())),
     (b"glDeleteFramebuffers", 975, crate::Address(glDeleteFramebuffers as *const ())),
     (b"glDeleteFramebuffersEXT", 976, crate::Address(glDeleteFramebuffersEXT as *const ())),
     (b"glDeleteLists", 964, crate::Address(glDeleteLists as *const ())),
-    (b"glDeleteQueries", 1063, crate::Address(glDeleteQueries as *const ())),
-    (b"glDeleteQueriesARB", 1064, crate::Address(glDeleteQueriesARB as *const ())),
-    (b"glDeleteRenderbuffers", 1139, crate::Address(glDeleteRenderbuffers as *const ())),
-    (b"glDeleteRenderbuffersEXT", 1140, crate::Address(glDeleteRenderbuffersEXT as *const ())),
+    (b"glDeleteQueries", 1068, crate::Address(glDeleteQueries as *const ())),
+    (b"glDeleteQueriesARB", 1069, crate::Address(glDeleteQueriesARB as *const ())),
+    (b"glDeleteRenderbuffers", 1144, crate::Address(glDeleteRenderbuffers as *const ())),
+    (b"glDeleteRenderbuffersEXT", 1145, crate::Address(glDeleteRenderbuffersEXT as *const ())),
     (b"glDeleteTextures", 969, crate::Address(glDeleteTextures as *const ())),
     (b"glDepthBoundsEXT", 721, crate::Address(glDepthBoundsEXT as *const ())),
     (b"glDepthFunc", 720, crate::Address(glDepthFunc as *const ())),
@@ -2694,10 +2706,10 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1200] = [
     (b"glDepthRangef", 532, crate::Address(glDepthRangef as *const ())),
     (b"glDepthRangefOES", 533, crate::Address(glDepthRangefOES as *const ())),
     (b"glDisable", 519, crate::Address(glDisable as *const ())),
-    (b"glDisableClientState", 1154, crate::Address(glDisableClientState as *const ())),
+    (b"glDisableClientState", 1159, crate::Address(glDisableClientState as *const ())),
     (b"glDisableIndexedEXT", 526, crate::Address(glDisableIndexedEXT as *const ())),
-    (b"glDisableVertexAttribArray", 1172, crate::Address(glDisableVertexAttribArray as *const ())),
-    (b"glDisableVertexAttribArrayARB", 1173, crate::Address(glDisableVertexAttribArrayARB as *const ())),
+    (b"glDisableVertexAttribArray", 1177, crate::Address(glDisableVertexAttribArray as *const ())),
+    (b"glDisableVertexAttribArrayARB", 1178, crate::Address(glDisableVertexAttribArrayARB as *const ())),
     (b"glDisablei", 525, crate::Address(glDisablei as *const ())),
     (b"glDisableiEXT", 527, crate::Address(glDisableiEXT as *const ())),
     (b"glDisableiNV", 528, crate::Address(glDisableiNV as *const ())),
@@ -2749,21 +2761,24 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1200] = [
     (b"glDrawTransformFeedbackStream", 944, crate::Address(glDrawTransformFeedbackStream as *const ())),
     (b"glDrawTransformFeedbackStreamInstanced", 945, crate::Address(glDrawTransformFeedbackStreamInstanced as *const ())),
     (b"glEdgeFlag", 234, crate::Address(glEdgeFlag as *const ())),
-    (b"glEdgeFlagPointer", 1163, crate::Address(glEdgeFlagPointer as *const ())),
+    (b"glEdgeFlagPointer", 1168, crate::Address(glEdgeFlagPointer as *const ())),
     (b"glEdgeFlagv", 235, crate::Address(glEdgeFlagv as *const ())),
     (b"glEnable", 518, crate::Address(glEnable as *const ())),
-    (b"glEnableClientState", 1153, crate::Address(glEnableClientState as *const ())),
+    (b"glEnableClientState", 1158, crate::Address(glEnableClientState as *const ())),
     (b"glEnableIndexedEXT", 521, crate::Address(glEnableIndexedEXT as *const ())),
-    (b"glEnableVertexAttribArray", 1170, crate::Address(glEnableVertexAttribArray as *const ())),
-    (b"glEnableVertexAttribArrayARB", 1171, crate::Address(glEnableVertexAttribArrayARB as *const ())),
+    (b"glEnableVertexAttribArray", 1175, crate::Address(glEnableVertexAttribArray as *const ())),
+    (b"glEnableVertexAttribArrayARB", 1176, crate::Address(glEnableVertexAttribArrayARB as *const ())),
     (b"glEnablei", 520, crate::Address(glEnablei as *const ())),
     (b"glEnableiEXT", 522, crate::Address(glEnableiEXT as *const ())),
     (b"glEnableiNV", 523, crate::Address(glEnableiNV as *const ())),
     (b"glEnableiOES", 524, crate::Address(glEnableiOES as *const ())),
     (b"glEnd", 455, crate::Address(glEnd as *const ())),
+    (b"glEndConditionalRender", 1061, crate::Address(glEndConditionalRender as *const ())),
+    (b"glEndConditionalRenderNV", 1062, crate::Address(glEndConditionalRenderNV as *const ())),
+    (b"glEndConditionalRenderNVX", 1063, crate::Address(glEndConditionalRenderNVX as *const ())),
     (b"glEndList", 961, crate::Address(glEndList as *const ())),
-    (b"glEndQuery", 1061, crate::Address(glEndQuery as *const ())),
-    (b"glEndQueryARB", 1062, crate::Address(glEndQueryARB as *const ())),
+    (b"glEndQuery", 1066, crate::Address(glEndQuery as *const ())),
+    (b"glEndQueryARB", 1067, crate::Address(glEndQueryARB as *const ())),
     (b"glEndTransformFeedback", 672, crate::Address(glEndTransformFeedback as *const ())),
     (b"glEndTransformFeedbackEXT", 673, crate::Address(glEndTransformFeedbackEXT as *const ())),
     (b"glEndTransformFeedbackNV", 674, crate::Address(glEndTransformFeedbackNV as *const ())),
@@ -2779,11 +2794,11 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1200] = [
     (b"glEvalMesh2", 955, crate::Address(glEvalMesh2 as *const ())),
     (b"glEvalPoint1", 258, crate::Address(glEvalPoint1 as *const ())),
     (b"glEvalPoint2", 259, crate::Address(glEvalPoint2 as *const ())),
-    (b"glFeedbackBuffer", 1126, crate::Address(glFeedbackBuffer as *const ())),
+    (b"glFeedbackBuffer", 1131, crate::Address(glFeedbackBuffer as *const ())),
     (b"glFinish", 1056, crate::Address(glFinish as *const ())),
     (b"glFlush", 1057, crate::Address(glFlush as *const ())),
-    (b"glFogCoordPointer", 1164, crate::Address(glFogCoordPointer as *const ())),
-    (b"glFogCoordPointerEXT", 1165, crate::Address(glFogCoordPointerEXT as *const ())),
+    (b"glFogCoordPointer", 1169, crate::Address(glFogCoordPointer as *const ())),
+    (b"glFogCoordPointerEXT", 1170, crate::Address(glFogCoordPointerEXT as *const ())),
     (b"glFogCoordd", 224, crate::Address(glFogCoordd as *const ())),
     (b"glFogCoorddEXT", 225, crate::Address(glFogCoorddEXT as *const ())),
     (b"glFogCoorddv", 226, crate::Address(glFogCoorddv as *const ())),
@@ -2819,16 +2834,16 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1200] = [
     (b"glFramebufferTextureOES", 1007, crate::Address(glFramebufferTextureOES as *const ())),
     (b"glFrontFace", 722, crate::Address(glFrontFace as *const ())),
     (b"glFrustum", 476, crate::Address(glFrustum as *const ())),
-    (b"glGenFramebuffers", 1129, crate::Address(glGenFramebuffers as *const ())),
-    (b"glGenFramebuffersEXT", 1130, crate::Address(glGenFramebuffersEXT as *const ())),
+    (b"glGenFramebuffers", 1134, crate::Address(glGenFramebuffers as *const ())),
+    (b"glGenFramebuffersEXT", 1135, crate::Address(glGenFramebuffersEXT as *const ())),
     (b"glGenLists", 965, crate::Address(glGenLists as *const ())),
-    (b"glGenRenderbuffers", 1131, crate::Address(glGenRenderbuffers as *const ())),
-    (b"glGenRenderbuffersEXT", 1132, crate::Address(glGenRenderbuffersEXT as *const ())),
-    (b"glGenTextures", 1128, crate::Address(glGenTextures as *const ())),
+    (b"glGenRenderbuffers", 1136, crate::Address(glGenRenderbuffers as *const ())),
+    (b"glGenRenderbuffersEXT", 1137, crate::Address(glGenRenderbuffersEXT as *const ())),
+    (b"glGenTextures", 1133, crate::Address(glGenTextures as *const ())),
     (b"glGenerateMipmap", 888, crate::Address(glGenerateMipmap as *const ())),
     (b"glGenerateMipmapEXT", 889, crate::Address(glGenerateMipmapEXT as *const ())),
     (b"glGetBooleanv", 998, crate::Address(glGetBooleanv as *const ())),
-    (b"glGetClipPlane", 1095, crate::Address(glGetClipPlane as *const ())),
+    (b"glGetClipPlane", 1100, crate::Address(glGetClipPlane as *const ())),
     (b"glGetDoublev", 1000, crate::Address(glGetDoublev as *const ())),
     (b"glGetError", 1058, crate::Address(glGetError as *const ())),
     (b"glGetFloatv", 999, crate::Address(glGetFloatv as *const ())),
@@ -2838,64 +2853,64 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1200] = [
     (b"glGetInteger64v", 1001, crate::Address(glGetInteger64v as *const ())),
     (b"glGetInteger64vAPPLE", 1002, crate::Address(glGetInteger64vAPPLE as *const ())),
     (b"glGetInteger64vEXT", 1003, crate::Address(glGetInteger64vEXT as *const ())),
-    (b"glGetIntegerIndexedvEXT", 1109, crate::Address(glGetIntegerIndexedvEXT as *const ())),
-    (b"glGetIntegeri_v", 1108, crate::Address(glGetIntegeri_v as *const ())),
+    (b"glGetIntegerIndexedvEXT", 1114, crate::Address(glGetIntegerIndexedvEXT as *const ())),
+    (b"glGetIntegeri_v", 1113, crate::Address(glGetIntegeri_v as *const ())),
     (b"glGetIntegerv", 997, crate::Address(glGetIntegerv as *const ())),
-    (b"glGetLightfv", 1087, crate::Address(glGetLightfv as *const ())),
-    (b"glGetLightiv", 1088, crate::Address(glGetLightiv as *const ())),
-    (b"glGetMapdv", 1096, crate::Address(glGetMapdv as *const ())),
-    (b"glGetMapfv", 1097, crate::Address(glGetMapfv as *const ())),
-    (b"glGetMapiv", 1098, crate::Address(glGetMapiv as *const ())),
-    (b"glGetMaterialfv", 1089, crate::Address(glGetMaterialfv as *const ())),
-    (b"glGetMaterialiv", 1090, crate::Address(glGetMaterialiv as *const ())),
-    (b"glGetPixelMapfv", 1099, crate::Address(glGetPixelMapfv as *const ())),
-    (b"glGetPixelMapuiv", 1100, crate::Address(glGetPixelMapuiv as *const ())),
-    (b"glGetPixelMapusv", 1101, crate::Address(glGetPixelMapusv as *const ())),
-    (b"glGetPointerv", 1105, crate::Address(glGetPointerv as *const ())),
-    (b"glGetPointervEXT", 1106, crate::Address(glGetPointervEXT as *const ())),
-    (b"glGetPointervKHR", 1107, crate::Address(glGetPointervKHR as *const ())),
-    (b"glGetPolygonStipple", 1102, crate::Address(glGetPolygonStipple as *const ())),
-    (b"glGetQueryObjecti64v", 1072, crate::Address(glGetQueryObjecti64v as *const ())),
-    (b"glGetQueryObjecti64vEXT", 1073, crate::Address(glGetQueryObjecti64vEXT as *const ())),
-    (b"glGetQueryObjectiv", 1067, crate::Address(glGetQueryObjectiv as *const ())),
-    (b"glGetQueryObjectivARB", 1068, crate::Address(glGetQueryObjectivARB as *const ())),
-    (b"glGetQueryObjectivEXT", 1069, crate::Address(glGetQueryObjectivEXT as *const ())),
-    (b"glGetQueryObjectui64v", 1074, crate::Address(glGetQueryObjectui64v as *const ())),
-    (b"glGetQueryObjectui64vEXT", 1075, crate::Address(glGetQueryObjectui64vEXT as *const ())),
-    (b"glGetQueryObjectuiv", 1070, crate::Address(glGetQueryObjectuiv as *const ())),
-    (b"glGetQueryObjectuivARB", 1071, crate::Address(glGetQueryObjectuivARB as *const ())),
-    (b"glGetQueryiv", 1065, crate::Address(glGetQueryiv as *const ())),
-    (b"glGetQueryivARB", 1066, crate::Address(glGetQueryivARB as *const ())),
-    (b"glGetTexEnvfv", 1085, crate::Address(glGetTexEnvfv as *const ())),
-    (b"glGetTexEnviv", 1086, crate::Address(glGetTexEnviv as *const ())),
-    (b"glGetTexGendv", 1082, crate::Address(glGetTexGendv as *const ())),
-    (b"glGetTexGenfv", 1083, crate::Address(glGetTexGenfv as *const ())),
-    (b"glGetTexGeniv", 1084, crate::Address(glGetTexGeniv as *const ())),
-    (b"glGetTexImage", 1103, crate::Address(glGetTexImage as *const ())),
-    (b"glGetTexLevelParameterfv", 1093, crate::Address(glGetTexLevelParameterfv as *const ())),
-    (b"glGetTexLevelParameteriv", 1094, crate::Address(glGetTexLevelParameteriv as *const ())),
-    (b"glGetTexParameterfv", 1091, crate::Address(glGetTexParameterfv as *const ())),
-    (b"glGetTexParameteriv", 1092, crate::Address(glGetTexParameteriv as *const ())),
-    (b"glGetUniformfv", 1110, crate::Address(glGetUniformfv as *const ())),
-    (b"glGetUniformfvARB", 1111, crate::Address(glGetUniformfvARB as *const ())),
-    (b"glGetUniformiv", 1112, crate::Address(glGetUniformiv as *const ())),
-    (b"glGetUniformivARB", 1113, crate::Address(glGetUniformivARB as *const ())),
-    (b"glGetVertexAttribPointerv", 1123, crate::Address(glGetVertexAttribPointerv as *const ())),
-    (b"glGetVertexAttribPointervARB", 1124, crate::Address(glGetVertexAttribPointervARB as *const ())),
-    (b"glGetVertexAttribPointervNV", 1125, crate::Address(glGetVertexAttribPointervNV as *const ())),
-    (b"glGetVertexAttribdv", 1114, crate::Address(glGetVertexAttribdv as *const ())),
-    (b"glGetVertexAttribdvARB", 1115, crate::Address(glGetVertexAttribdvARB as *const ())),
-    (b"glGetVertexAttribdvNV", 1116, crate::Address(glGetVertexAttribdvNV as *const ())),
-    (b"glGetVertexAttribfv", 1117, crate::Address(glGetVertexAttribfv as *const ())),
-    (b"glGetVertexAttribfvARB", 1118, crate::Address(glGetVertexAttribfvARB as *const ())),
-    (b"glGetVertexAttribfvNV", 1119, crate::Address(glGetVertexAttribfvNV as *const ())),
-    (b"glGetVertexAttribiv", 1120, crate::Address(glGetVertexAttribiv as *const ())),
-    (b"glGetVertexAttribivARB", 1121, crate::Address(glGetVertexAttribivARB as *const ())),
-    (b"glGetVertexAttribivNV", 1122, crate::Address(glGetVertexAttribivNV as *const ())),
-    (b"glGetnTexImage", 1104, crate::Address(glGetnTexImage as *const ())),
+    (b"glGetLightfv", 1092, crate::Address(glGetLightfv as *const ())),
+    (b"glGetLightiv", 1093, crate::Address(glGetLightiv as *const ())),
+    (b"glGetMapdv", 1101, crate::Address(glGetMapdv as *const ())),
+    (b"glGetMapfv", 1102, crate::Address(glGetMapfv as *const ())),
+    (b"glGetMapiv", 1103, crate::Address(glGetMapiv as *const ())),
+    (b"glGetMaterialfv", 1094, crate::Address(glGetMaterialfv as *const ())),
+    (b"glGetMaterialiv", 1095, crate::Address(glGetMaterialiv as *const ())),
+    (b"glGetPixelMapfv", 1104, crate::Address(glGetPixelMapfv as *const ())),
+    (b"glGetPixelMapuiv", 1105, crate::Address(glGetPixelMapuiv as *const ())),
+    (b"glGetPixelMapusv", 1106, crate::Address(glGetPixelMapusv as *const ())),
+    (b"glGetPointerv", 1110, crate::Address(glGetPointerv as *const ())),
+    (b"glGetPointervEXT", 1111, crate::Address(glGetPointervEXT as *const ())),
+    (b"glGetPointervKHR", 1112, crate::Address(glGetPointervKHR as *const ())),
+    (b"glGetPolygonStipple", 1107, crate::Address(glGetPolygonStipple as *const ())),
+    (b"glGetQueryObjecti64v", 1077, crate::Address(glGetQueryObjecti64v as *const ())),
+    (b"glGetQueryObjecti64vEXT", 1078, crate::Address(glGetQueryObjecti64vEXT as *const ())),
+    (b"glGetQueryObjectiv", 1072, crate::Address(glGetQueryObjectiv as *const ())),
+    (b"glGetQueryObjectivARB", 1073, crate::Address(glGetQueryObjectivARB as *const ())),
+    (b"glGetQueryObjectivEXT", 1074, crate::Address(glGetQueryObjectivEXT as *const ())),
+    (b"glGetQueryObjectui64v", 1079, crate::Address(glGetQueryObjectui64v as *const ())),
+    (b"glGetQueryObjectui64vEXT", 1080, crate::Address(glGetQueryObjectui64vEXT as *const ())),
+    (b"glGetQueryObjectuiv", 1075, crate::Address(glGetQueryObjectuiv as *const ())),
+    (b"glGetQueryObjectuivARB", 1076, crate::Address(glGetQueryObjectuivARB as *const ())),
+    (b"glGetQueryiv", 1070, crate::Address(glGetQueryiv as *const ())),
+    (b"glGetQueryivARB", 1071, crate::Address(glGetQueryivARB as *const ())),
+    (b"glGetTexEnvfv", 1090, crate::Address(glGetTexEnvfv as *const ())),
+    (b"glGetTexEnviv", 1091, crate::Address(glGetTexEnviv as *const ())),
+    (b"glGetTexGendv", 1087, crate::Address(glGetTexGendv as *const ())),
+    (b"glGetTexGenfv", 1088, crate::Address(glGetTexGenfv as *const ())),
+    (b"glGetTexGeniv", 1089, crate::Address(glGetTexGeniv as *const ())),
+    (b"glGetTexImage", 1108, crate::Address(glGetTexImage as *const ())),
+    (b"glGetTexLevelParameterfv", 1098, crate::Address(glGetTexLevelParameterfv as *const ())),
+    (b"glGetTexLevelParameteriv", 1099, crate::Address(glGetTexLevelParameteriv as *const ())),
+    (b"glGetTexParameterfv", 1096, crate::Address(glGetTexParameterfv as *const ())),
+    (b"glGetTexParameteriv", 1097, crate::Address(glGetTexParameteriv as *const ())),
+    (b"glGetUniformfv", 1115, crate::Address(glGetUniformfv as *const ())),
+    (b"glGetUniformfvARB", 1116, crate::Address(glGetUniformfvARB as *const ())),
+    (b"glGetUniformiv", 1117, crate::Address(glGetUniformiv as *const ())),
+    (b"glGetUniformivARB", 1118, crate::Address(glGetUniformivARB as *const ())),
+    (b"glGetVertexAttribPointerv", 1128, crate::Address(glGetVertexAttribPointerv as *const ())),
+    (b"glGetVertexAttribPointervARB", 1129, crate::Address(glGetVertexAttribPointervARB as *const ())),
+    (b"glGetVertexAttribPointervNV", 1130, crate::Address(glGetVertexAttribPointervNV as *const ())),
+    (b"glGetVertexAttribdv", 1119, crate::Address(glGetVertexAttribdv as *const ())),
+    (b"glGetVertexAttribdvARB", 1120, crate::Address(glGetVertexAttribdvARB as *const ())),
+    (b"glGetVertexAttribdvNV", 1121, crate::Address(glGetVertexAttribdvNV as *const ())),
+    (b"glGetVertexAttribfv", 1122, crate::Address(glGetVertexAttribfv as *const ())),
+    (b"glGetVertexAttribfvARB", 1123, crate::Address(glGetVertexAttribfvARB as *const ())),
+    (b"glGetVertexAttribfvNV", 1124, crate::Address(glGetVertexAttribfvNV as *const ())),
+    (b"glGetVertexAttribiv", 1125, crate::Address(glGetVertexAttribiv as *const ())),
+    (b"glGetVertexAttribivARB", 1126, crate::Address(glGetVertexAttribivARB as *const ())),
+    (b"glGetVertexAttribivNV", 1127, crate::Address(glGetVertexAttribivNV as *const ())),
+    (b"glGetnTexImage", 1109, crate::Address(glGetnTexImage as *const ())),
     (b"glHint", 580, crate::Address(glHint as *const ())),
     (b"glIndexMask", 723, crate::Address(glIndexMask as *const ())),
-    (b"glIndexPointer", 1166, crate::Address(glIndexPointer as *const ())),
+    (b"glIndexPointer", 1171, crate::Address(glIndexPointer as *const ())),
     (b"glIndexd", 236, crate::Address(glIndexd as *const ())),
     (b"glIndexdv", 237, crate::Address(glIndexdv as *const ())),
     (b"glIndexf", 238, crate::Address(glIndexf as *const ())),
@@ -2907,15 +2922,15 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1200] = [
     (b"glIndexub", 244, crate::Address(glIndexub as *const ())),
     (b"glIndexubv", 245, crate::Address(glIndexubv as *const ())),
     (b"glInitNames", 724, crate::Address(glInitNames as *const ())),
-    (b"glInterleavedArrays", 1157, crate::Address(glInterleavedArrays as *const ())),
+    (b"glInterleavedArrays", 1162, crate::Address(glInterleavedArrays as *const ())),
     (b"glInvalidateFramebuffer", 1025, crate::Address(glInvalidateFramebuffer as *const ())),
     (b"glInvalidateSubFramebuffer", 1026, crate::Address(glInvalidateSubFramebuffer as *const ())),
-    (b"glIsEnabled", 1076, crate::Address(glIsEnabled as *const ())),
-    (b"glIsEnabledIndexedEXT", 1078, crate::Address(glIsEnabledIndexedEXT as *const ())),
-    (b"glIsEnabledi", 1077, crate::Address(glIsEnabledi as *const ())),
-    (b"glIsEnablediEXT", 1079, crate::Address(glIsEnablediEXT as *const ())),
-    (b"glIsEnablediNV", 1080, crate::Address(glIsEnablediNV as *const ())),
-    (b"glIsEnablediOES", 1081, crate::Address(glIsEnablediOES as *const ())),
+    (b"glIsEnabled", 1081, crate::Address(glIsEnabled as *const ())),
+    (b"glIsEnabledIndexedEXT", 1083, crate::Address(glIsEnabledIndexedEXT as *const ())),
+    (b"glIsEnabledi", 1082, crate::Address(glIsEnabledi as *const ())),
+    (b"glIsEnablediEXT", 1084, crate::Address(glIsEnablediEXT as *const ())),
+    (b"glIsEnablediNV", 1085, crate::Address(glIsEnablediNV as *const ())),
+    (b"glIsEnablediOES", 1086, crate::Address(glIsEnablediOES as *const ())),
     (b"glIsFramebuffer", 971, crate::Address(glIsFramebuffer as *const ())),
     (b"glIsFramebufferEXT", 972, crate::Address(glIsFramebufferEXT as *const ())),
     (b"glIsList", 966, crate::Address(glIsList as *const ())),
@@ -3090,14 +3105,14 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1200] = [
     (b"glNormal3sv", 75, crate::Address(glNormal3sv as *const ())),
     (b"glNormalP3ui", 438, crate::Address(glNormalP3ui as *const ())),
     (b"glNormalP3uiv", 439, crate::Address(glNormalP3uiv as *const ())),
-    (b"glNormalPointer", 1167, crate::Address(glNormalPointer as *const ())),
+    (b"glNormalPointer", 1172, crate::Address(glNormalPointer as *const ())),
     (b"glOrtho", 477, crate::Address(glOrtho as *const ())),
     (b"glPassThrough", 728, crate::Address(glPassThrough as *const ())),
     (b"glPixelMapfv", 740, crate::Address(glPixelMapfv as *const ())),
     (b"glPixelMapuiv", 741, crate::Address(glPixelMapuiv as *const ())),
     (b"glPixelMapusv", 742, crate::Address(glPixelMapusv as *const ())),
-    (b"glPixelStoref", 1149, crate::Address(glPixelStoref as *const ())),
-    (b"glPixelStorei", 1150, crate::Address(glPixelStorei as *const ())),
+    (b"glPixelStoref", 1154, crate::Address(glPixelStoref as *const ())),
+    (b"glPixelStorei", 1155, crate::Address(glPixelStorei as *const ())),
     (b"glPixelTransferf", 743, crate::Address(glPixelTransferf as *const ())),
     (b"glPixelTransferi", 744, crate::Address(glPixelTransferi as *const ())),
     (b"glPixelZoom", 745, crate::Address(glPixelZoom as *const ())),
@@ -3121,7 +3136,7 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1200] = [
     (b"glPolygonOffsetClampEXT", 748, crate::Address(glPolygonOffsetClampEXT as *const ())),
     (b"glPolygonStipple", 749, crate::Address(glPolygonStipple as *const ())),
     (b"glPopAttrib", 595, crate::Address(glPopAttrib as *const ())),
-    (b"glPopClientAttrib", 1152, crate::Address(glPopClientAttrib as *const ())),
+    (b"glPopClientAttrib", 1157, crate::Address(glPopClientAttrib as *const ())),
     (b"glPopMatrix", 479, crate::Address(glPopMatrix as *const ())),
     (b"glPopName", 727, crate::Address(glPopName as *const ())),
     (b"glPrimitiveRestartIndex", 764, crate::Address(glPrimitiveRestartIndex as *const ())),
@@ -3138,7 +3153,7 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1200] = [
     (b"glProvokingVertex", 582, crate::Address(glProvokingVertex as *const ())),
     (b"glProvokingVertexEXT", 583, crate::Address(glProvokingVertexEXT as *const ())),
     (b"glPushAttrib", 594, crate::Address(glPushAttrib as *const ())),
-    (b"glPushClientAttrib", 1151, crate::Address(glPushClientAttrib as *const ())),
+    (b"glPushClientAttrib", 1156, crate::Address(glPushClientAttrib as *const ())),
     (b"glPushMatrix", 478, crate::Address(glPushMatrix as *const ())),
     (b"glPushName", 726, crate::Address(glPushName as *const ())),
     (b"glRasterPos2d", 596, crate::Address(glRasterPos2d as *const ())),
@@ -3180,11 +3195,11 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1200] = [
     (b"glRects", 952, crate::Address(glRects as *const ())),
     (b"glRectsv", 953, crate::Address(glRectsv as *const ())),
     (b"glRenderMode", 668, crate::Address(glRenderMode as *const ())),
-    (b"glRenderbufferStorage", 1134, crate::Address(glRenderbufferStorage as *const ())),
-    (b"glRenderbufferStorageEXT", 1135, crate::Address(glRenderbufferStorageEXT as *const ())),
-    (b"glRenderbufferStorageMultisample", 1136, crate::Address(glRenderbufferStorageMultisample as *const ())),
-    (b"glRenderbufferStorageMultisampleEXT", 1137, crate::Address(glRenderbufferStorageMultisampleEXT as *const ())),
-    (b"glRenderbufferStorageMultisampleNV", 1138, crate::Address(glRenderbufferStorageMultisampleNV as *const ())),
+    (b"glRenderbufferStorage", 1139, crate::Address(glRenderbufferStorage as *const ())),
+    (b"glRenderbufferStorageEXT", 1140, crate::Address(glRenderbufferStorageEXT as *const ())),
+    (b"glRenderbufferStorageMultisample", 1141, crate::Address(glRenderbufferStorageMultisample as *const ())),
+    (b"glRenderbufferStorageMultisampleEXT", 1142, crate::Address(glRenderbufferStorageMultisampleEXT as *const ())),
+    (b"glRenderbufferStorageMultisampleNV", 1143, crate::Address(glRenderbufferStorageMultisampleNV as *const ())),
     (b"glRotated", 470, crate::Address(glRotated as *const ())),
     (b"glRotatef", 471, crate::Address(glRotatef as *const ())),
     (b"glSampleCoverage", 752, crate::Address(glSampleCoverage as *const ())),
@@ -3237,9 +3252,9 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1200] = [
     (b"glSecondaryColor3usvEXT", 221, crate::Address(glSecondaryColor3usvEXT as *const ())),
     (b"glSecondaryColorP3ui", 444, crate::Address(glSecondaryColorP3ui as *const ())),
     (b"glSecondaryColorP3uiv", 445, crate::Address(glSecondaryColorP3uiv as *const ())),
-    (b"glSecondaryColorPointer", 1159, crate::Address(glSecondaryColorPointer as *const ())),
-    (b"glSecondaryColorPointerEXT", 1160, crate::Address(glSecondaryColorPointerEXT as *const ())),
-    (b"glSelectBuffer", 1127, crate::Address(glSelectBuffer as *const ())),
+    (b"glSecondaryColorPointer", 1164, crate::Address(glSecondaryColorPointer as *const ())),
+    (b"glSecondaryColorPointerEXT", 1165, crate::Address(glSecondaryColorPointerEXT as *const ())),
+    (b"glSelectBuffer", 1132, crate::Address(glSelectBuffer as *const ())),
     (b"glShadeModel", 573, crate::Address(glShadeModel as *const ())),
     (b"glStencilFunc", 757, crate::Address(glStencilFunc as *const ())),
     (b"glStencilFuncSeparate", 758, crate::Address(glStencilFuncSeparate as *const ())),
@@ -3296,7 +3311,7 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1200] = [
     (b"glTexCoordP3uiv", 429, crate::Address(glTexCoordP3uiv as *const ())),
     (b"glTexCoordP4ui", 430, crate::Address(glTexCoordP4ui as *const ())),
     (b"glTexCoordP4uiv", 431, crate::Address(glTexCoordP4uiv as *const ())),
-    (b"glTexCoordPointer", 1161, crate::Address(glTexCoordPointer as *const ())),
+    (b"glTexCoordPointer", 1166, crate::Address(glTexCoordPointer as *const ())),
     (b"glTexEnvf", 576, crate::Address(glTexEnvf as *const ())),
     (b"glTexEnvfv", 577, crate::Address(glTexEnvfv as *const ())),
     (b"glTexEnvi", 578, crate::Address(glTexEnvi as *const ())),
@@ -3607,15 +3622,15 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1200] = [
     (b"glVertexAttribP3uiv", 451, crate::Address(glVertexAttribP3uiv as *const ())),
     (b"glVertexAttribP4ui", 452, crate::Address(glVertexAttribP4ui as *const ())),
     (b"glVertexAttribP4uiv", 453, crate::Address(glVertexAttribP4uiv as *const ())),
-    (b"glVertexAttribPointer", 1168, crate::Address(glVertexAttribPointer as *const ())),
-    (b"glVertexAttribPointerARB", 1169, crate::Address(glVertexAttribPointerARB as *const ())),
+    (b"glVertexAttribPointer", 1173, crate::Address(glVertexAttribPointer as *const ())),
+    (b"glVertexAttribPointerARB", 1174, crate::Address(glVertexAttribPointerARB as *const ())),
     (b"glVertexP2ui", 432, crate::Address(glVertexP2ui as *const ())),
     (b"glVertexP2uiv", 433, crate::Address(glVertexP2uiv as *const ())),
     (b"glVertexP3ui", 434, crate::Address(glVertexP3ui as *const ())),
     (b"glVertexP3uiv", 435, crate::Address(glVertexP3uiv as *const ())),
     (b"glVertexP4ui", 436, crate::Address(glVertexP4ui as *const ())),
     (b"glVertexP4uiv", 437, crate::Address(glVertexP4uiv as *const ())),
-    (b"glVertexPointer", 1162, crate::Address(glVertexPointer as *const ())),
+    (b"glVertexPointer", 1167, crate::Address(glVertexPointer as *const ())),
     (b"glViewport", 498, crate::Address(glViewport as *const ())),
     (b"glViewportArrayv", 509, crate::Address(glViewportArrayv as *const ())),
     (b"glViewportArrayvNV", 510, crate::Address(glViewportArrayvNV as *const ())),
@@ -3674,18 +3689,18 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1200] = [
     (b"glWindowPos3sv", 665, crate::Address(glWindowPos3sv as *const ())),
     (b"glWindowPos3svARB", 666, crate::Address(glWindowPos3svARB as *const ())),
     (b"glWindowPos3svMESA", 667, crate::Address(glWindowPos3svMESA as *const ())),
-    (b"glXCreateContext", 1179, crate::Address(glXCreateContext as *const ())),
-    (b"glXCreateContextAttribsARB", 1181, crate::Address(glXCreateContextAttribsARB as *const ())),
-    (b"glXCreateContextWithConfigSGIX", 1182, crate::Address(glXCreateContextWithConfigSGIX as *const ())),
-    (b"glXCreateNewContext", 1180, crate::Address(glXCreateNewContext as *const ())),
-    (b"glXDestroyContext", 1183, crate::Address(glXDestroyContext as *const ())),
-    (b"glXGetProcAddress", 1184, crate::Address(glXGetProcAddress as *const ())),
-    (b"glXGetProcAddressARB", 1185, crate::Address(glXGetProcAddressARB as *const ())),
-    (b"glXMakeContextCurrent", 1177, crate::Address(glXMakeContextCurrent as *const ())),
-    (b"glXMakeCurrent", 1176, crate::Address(glXMakeCurrent as *const ())),
-    (b"glXMakeCurrentReadSGI", 1178, crate::Address(glXMakeCurrentReadSGI as *const ())),
-    (b"glXSwapBuffers", 1174, crate::Address(glXSwapBuffers as *const ())),
-    (b"glXSwapBuffersMscOML", 1175, crate::Address(glXSwapBuffersMscOML as *const ())),
+    (b"glXCreateContext", 1184, crate::Address(glXCreateContext as *const ())),
+    (b"glXCreateContextAttribsARB", 1186, crate::Address(glXCreateContextAttribsARB as *const ())),
+    (b"glXCreateContextWithConfigSGIX", 1187, crate::Address(glXCreateContextWithConfigSGIX as *const ())),
+    (b"glXCreateNewContext", 1185, crate::Address(glXCreateNewContext as *const ())),
+    (b"glXDestroyContext", 1188, crate::Address(glXDestroyContext as *const ())),
+    (b"glXGetProcAddress", 1189, crate::Address(glXGetProcAddress as *const ())),
+    (b"glXGetProcAddressARB", 1190, crate::Address(glXGetProcAddressARB as *const ())),
+    (b"glXMakeContextCurrent", 1182, crate::Address(glXMakeContextCurrent as *const ())),
+    (b"glXMakeCurrent", 1181, crate::Address(glXMakeCurrent as *const ())),
+    (b"glXMakeCurrentReadSGI", 1183, crate::Address(glXMakeCurrentReadSGI as *const ())),
+    (b"glXSwapBuffers", 1179, crate::Address(glXSwapBuffers as *const ())),
+    (b"glXSwapBuffersMscOML", 1180, crate::Address(glXSwapBuffersMscOML as *const ())),
 ];
 
 export! { 0, glVertex2d, first_glVertex2d, hook_glVertex2d, (x: f64, y: f64) -> (), {
@@ -12192,763 +12207,783 @@ export! { 1058, glGetError, first_glGetError, hook_glGetError, () -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetError() }
 } }
-export! { 1059, glBeginQuery, first_glBeginQuery, hook_glBeginQuery, (target: u32, id: u32) -> (), {
+export! { 1059, glBeginConditionalRender, first_glBeginConditionalRender, hook_glBeginConditionalRender, (id: u32, mode: u32) -> (), {
+    // SAFETY: the program's own arguments.
+    unsafe { special::glBeginConditionalRender(id, mode) }
+} }
+export! { 1060, glBeginConditionalRenderNV, first_glBeginConditionalRenderNV, hook_glBeginConditionalRenderNV, (id: u32, mode: u32) -> (), {
+    // SAFETY: the program's own arguments.
+    unsafe { special::glBeginConditionalRender(id, mode) }
+} }
+export! { 1061, glEndConditionalRender, first_glEndConditionalRender, hook_glEndConditionalRender, () -> (), {
+    // SAFETY: the program's own arguments.
+    unsafe { special::glEndConditionalRender() }
+} }
+export! { 1062, glEndConditionalRenderNV, first_glEndConditionalRenderNV, hook_glEndConditionalRenderNV, () -> (), {
+    // SAFETY: the program's own arguments.
+    unsafe { special::glEndConditionalRender() }
+} }
+export! { 1063, glEndConditionalRenderNVX, first_glEndConditionalRenderNVX, hook_glEndConditionalRenderNVX, () -> (), {
+    // SAFETY: the program's own arguments.
+    unsafe { special::glEndConditionalRender() }
+} }
+export! { 1064, glBeginQuery, first_glBeginQuery, hook_glBeginQuery, (target: u32, id: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBeginQuery(target, id) }
 } }
-export! { 1060, glBeginQueryARB, first_glBeginQueryARB, hook_glBeginQueryARB, (target: u32, id: u32) -> (), {
+export! { 1065, glBeginQueryARB, first_glBeginQueryARB, hook_glBeginQueryARB, (target: u32, id: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBeginQuery(target, id) }
 } }
-export! { 1061, glEndQuery, first_glEndQuery, hook_glEndQuery, (target: u32) -> (), {
+export! { 1066, glEndQuery, first_glEndQuery, hook_glEndQuery, (target: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glEndQuery(target) }
 } }
-export! { 1062, glEndQueryARB, first_glEndQueryARB, hook_glEndQueryARB, (target: u32) -> (), {
+export! { 1067, glEndQueryARB, first_glEndQueryARB, hook_glEndQueryARB, (target: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glEndQuery(target) }
 } }
-export! { 1063, glDeleteQueries, first_glDeleteQueries, hook_glDeleteQueries, (n: i32, ids: Ptr) -> (), {
+export! { 1068, glDeleteQueries, first_glDeleteQueries, hook_glDeleteQueries, (n: i32, ids: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDeleteQueries(n, ids) }
 } }
-export! { 1064, glDeleteQueriesARB, first_glDeleteQueriesARB, hook_glDeleteQueriesARB, (n: i32, ids: Ptr) -> (), {
+export! { 1069, glDeleteQueriesARB, first_glDeleteQueriesARB, hook_glDeleteQueriesARB, (n: i32, ids: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDeleteQueries(n, ids) }
 } }
-export! { 1065, glGetQueryiv, first_glGetQueryiv, hook_glGetQueryiv, (target: u32, pname: u32, params: Ptr) -> (), {
+export! { 1070, glGetQueryiv, first_glGetQueryiv, hook_glGetQueryiv, (target: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryiv(target, pname, params) }
 } }
-export! { 1066, glGetQueryivARB, first_glGetQueryivARB, hook_glGetQueryivARB, (target: u32, pname: u32, params: Ptr) -> (), {
+export! { 1071, glGetQueryivARB, first_glGetQueryivARB, hook_glGetQueryivARB, (target: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryiv(target, pname, params) }
 } }
-export! { 1067, glGetQueryObjectiv, first_glGetQueryObjectiv, hook_glGetQueryObjectiv, (id: u32, pname: u32, params: Ptr) -> (), {
+export! { 1072, glGetQueryObjectiv, first_glGetQueryObjectiv, hook_glGetQueryObjectiv, (id: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryObjectiv(id, pname, params) }
 } }
-export! { 1068, glGetQueryObjectivARB, first_glGetQueryObjectivARB, hook_glGetQueryObjectivARB, (id: u32, pname: u32, params: Ptr) -> (), {
+export! { 1073, glGetQueryObjectivARB, first_glGetQueryObjectivARB, hook_glGetQueryObjectivARB, (id: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryObjectiv(id, pname, params) }
 } }
-export! { 1069, glGetQueryObjectivEXT, first_glGetQueryObjectivEXT, hook_glGetQueryObjectivEXT, (id: u32, pname: u32, params: Ptr) -> (), {
+export! { 1074, glGetQueryObjectivEXT, first_glGetQueryObjectivEXT, hook_glGetQueryObjectivEXT, (id: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryObjectiv(id, pname, params) }
 } }
-export! { 1070, glGetQueryObjectuiv, first_glGetQueryObjectuiv, hook_glGetQueryObjectuiv, (id: u32, pname: u32, params: Ptr) -> (), {
+export! { 1075, glGetQueryObjectuiv, first_glGetQueryObjectuiv, hook_glGetQueryObjectuiv, (id: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryObjectuiv(id, pname, params) }
 } }
-export! { 1071, glGetQueryObjectuivARB, first_glGetQueryObjectuivARB, hook_glGetQueryObjectuivARB, (id: u32, pname: u32, params: Ptr) -> (), {
+export! { 1076, glGetQueryObjectuivARB, first_glGetQueryObjectuivARB, hook_glGetQueryObjectuivARB, (id: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryObjectuiv(id, pname, params) }
 } }
-export! { 1072, glGetQueryObjecti64v, first_glGetQueryObjecti64v, hook_glGetQueryObjecti64v, (id: u32, pname: u32, params: Ptr) -> (), {
+export! { 1077, glGetQueryObjecti64v, first_glGetQueryObjecti64v, hook_glGetQueryObjecti64v, (id: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryObjecti64v(id, pname, params) }
 } }
-export! { 1073, glGetQueryObjecti64vEXT, first_glGetQueryObjecti64vEXT, hook_glGetQueryObjecti64vEXT, (id: u32, pname: u32, params: Ptr) -> (), {
+export! { 1078, glGetQueryObjecti64vEXT, first_glGetQueryObjecti64vEXT, hook_glGetQueryObjecti64vEXT, (id: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryObjecti64v(id, pname, params) }
 } }
-export! { 1074, glGetQueryObjectui64v, first_glGetQueryObjectui64v, hook_glGetQueryObjectui64v, (id: u32, pname: u32, params: Ptr) -> (), {
+export! { 1079, glGetQueryObjectui64v, first_glGetQueryObjectui64v, hook_glGetQueryObjectui64v, (id: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryObjectui64v(id, pname, params) }
 } }
-export! { 1075, glGetQueryObjectui64vEXT, first_glGetQueryObjectui64vEXT, hook_glGetQueryObjectui64vEXT, (id: u32, pname: u32, params: Ptr) -> (), {
+export! { 1080, glGetQueryObjectui64vEXT, first_glGetQueryObjectui64vEXT, hook_glGetQueryObjectui64vEXT, (id: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryObjectui64v(id, pname, params) }
 } }
-export! { 1076, glIsEnabled, first_glIsEnabled, hook_glIsEnabled, (cap: u32) -> u8, {
+export! { 1081, glIsEnabled, first_glIsEnabled, hook_glIsEnabled, (cap: u32) -> u8, {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glIsEnabled(cap) }
 } }
-export! { 1077, glIsEnabledi, first_glIsEnabledi, hook_glIsEnabledi, (target: u32, index: u32) -> u8, {
+export! { 1082, glIsEnabledi, first_glIsEnabledi, hook_glIsEnabledi, (target: u32, index: u32) -> u8, {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glIsEnabledi(target, index) }
 } }
-export! { 1078, glIsEnabledIndexedEXT, first_glIsEnabledIndexedEXT, hook_glIsEnabledIndexedEXT, (target: u32, index: u32) -> u8, {
+export! { 1083, glIsEnabledIndexedEXT, first_glIsEnabledIndexedEXT, hook_glIsEnabledIndexedEXT, (target: u32, index: u32) -> u8, {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glIsEnabledIndexedEXT(target, index) }
 } }
-export! { 1079, glIsEnablediEXT, first_glIsEnablediEXT, hook_glIsEnablediEXT, (target: u32, index: u32) -> u8, {
+export! { 1084, glIsEnablediEXT, first_glIsEnablediEXT, hook_glIsEnablediEXT, (target: u32, index: u32) -> u8, {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glIsEnablediEXT(target, index) }
 } }
-export! { 1080, glIsEnablediNV, first_glIsEnablediNV, hook_glIsEnablediNV, (target: u32, index: u32) -> u8, {
+export! { 1085, glIsEnablediNV, first_glIsEnablediNV, hook_glIsEnablediNV, (target: u32, index: u32) -> u8, {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glIsEnablediNV(target, index) }
 } }
-export! { 1081, glIsEnablediOES, first_glIsEnablediOES, hook_glIsEnablediOES, (target: u32, index: u32) -> u8, {
+export! { 1086, glIsEnablediOES, first_glIsEnablediOES, hook_glIsEnablediOES, (target: u32, index: u32) -> u8, {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glIsEnablediOES(target, index) }
 } }
-export! { 1082, glGetTexGendv, first_glGetTexGendv, hook_glGetTexGendv, (coord: u32, pname: u32, params: Ptr) -> (), {
+export! { 1087, glGetTexGendv, first_glGetTexGendv, hook_glGetTexGendv, (coord: u32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetTexGendv(coord, pname, params) };
 } }
-export! { 1083, glGetTexGenfv, first_glGetTexGenfv, hook_glGetTexGenfv, (coord: u32, pname: u32, params: Ptr) -> (), {
+export! { 1088, glGetTexGenfv, first_glGetTexGenfv, hook_glGetTexGenfv, (coord: u32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetTexGenfv(coord, pname, params) };
 } }
-export! { 1084, glGetTexGeniv, first_glGetTexGeniv, hook_glGetTexGeniv, (coord: u32, pname: u32, params: Ptr) -> (), {
+export! { 1089, glGetTexGeniv, first_glGetTexGeniv, hook_glGetTexGeniv, (coord: u32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetTexGeniv(coord, pname, params) };
 } }
-export! { 1085, glGetTexEnvfv, first_glGetTexEnvfv, hook_glGetTexEnvfv, (target: u32, pname: u32, params: Ptr) -> (), {
+export! { 1090, glGetTexEnvfv, first_glGetTexEnvfv, hook_glGetTexEnvfv, (target: u32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetTexEnvfv(target, pname, params) };
 } }
-export! { 1086, glGetTexEnviv, first_glGetTexEnviv, hook_glGetTexEnviv, (target: u32, pname: u32, params: Ptr) -> (), {
+export! { 1091, glGetTexEnviv, first_glGetTexEnviv, hook_glGetTexEnviv, (target: u32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetTexEnviv(target, pname, params) };
 } }
-export! { 1087, glGetLightfv, first_glGetLightfv, hook_glGetLightfv, (light: u32, pname: u32, params: Ptr) -> (), {
+export! { 1092, glGetLightfv, first_glGetLightfv, hook_glGetLightfv, (light: u32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetLightfv(light, pname, params) };
 } }
-export! { 1088, glGetLightiv, first_glGetLightiv, hook_glGetLightiv, (light: u32, pname: u32, params: Ptr) -> (), {
+export! { 1093, glGetLightiv, first_glGetLightiv, hook_glGetLightiv, (light: u32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetLightiv(light, pname, params) };
 } }
-export! { 1089, glGetMaterialfv, first_glGetMaterialfv, hook_glGetMaterialfv, (face: u32, pname: u32, params: Ptr) -> (), {
+export! { 1094, glGetMaterialfv, first_glGetMaterialfv, hook_glGetMaterialfv, (face: u32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetMaterialfv(face, pname, params) };
 } }
-export! { 1090, glGetMaterialiv, first_glGetMaterialiv, hook_glGetMaterialiv, (face: u32, pname: u32, params: Ptr) -> (), {
+export! { 1095, glGetMaterialiv, first_glGetMaterialiv, hook_glGetMaterialiv, (face: u32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetMaterialiv(face, pname, params) };
 } }
-export! { 1091, glGetTexParameterfv, first_glGetTexParameterfv, hook_glGetTexParameterfv, (target: u32, pname: u32, params: Ptr) -> (), {
+export! { 1096, glGetTexParameterfv, first_glGetTexParameterfv, hook_glGetTexParameterfv, (target: u32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetTexParameterfv(target, pname, params) };
 } }
-export! { 1092, glGetTexParameteriv, first_glGetTexParameteriv, hook_glGetTexParameteriv, (target: u32, pname: u32, params: Ptr) -> (), {
+export! { 1097, glGetTexParameteriv, first_glGetTexParameteriv, hook_glGetTexParameteriv, (target: u32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetTexParameteriv(target, pname, params) };
 } }
-export! { 1093, glGetTexLevelParameterfv, first_glGetTexLevelParameterfv, hook_glGetTexLevelParameterfv, (target: u32, level: i32, pname: u32, params: Ptr) -> (), {
+export! { 1098, glGetTexLevelParameterfv, first_glGetTexLevelParameterfv, hook_glGetTexLevelParameterfv, (target: u32, level: i32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetTexLevelParameterfv(target, level, pname, params) };
 } }
-export! { 1094, glGetTexLevelParameteriv, first_glGetTexLevelParameteriv, hook_glGetTexLevelParameteriv, (target: u32, level: i32, pname: u32, params: Ptr) -> (), {
+export! { 1099, glGetTexLevelParameteriv, first_glGetTexLevelParameteriv, hook_glGetTexLevelParameteriv, (target: u32, level: i32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetTexLevelParameteriv(target, level, pname, params) };
 } }
-export! { 1095, glGetClipPlane, first_glGetClipPlane, hook_glGetClipPlane, (plane: u32, equation: Ptr) -> (), {
+export! { 1100, glGetClipPlane, first_glGetClipPlane, hook_glGetClipPlane, (plane: u32, equation: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetClipPlane(plane, equation) };
 } }
-export! { 1096, glGetMapdv, first_glGetMapdv, hook_glGetMapdv, (target: u32, query: u32, v: Ptr) -> (), {
+export! { 1101, glGetMapdv, first_glGetMapdv, hook_glGetMapdv, (target: u32, query: u32, v: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetMapdv(target, query, v) };
 } }
-export! { 1097, glGetMapfv, first_glGetMapfv, hook_glGetMapfv, (target: u32, query: u32, v: Ptr) -> (), {
+export! { 1102, glGetMapfv, first_glGetMapfv, hook_glGetMapfv, (target: u32, query: u32, v: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetMapfv(target, query, v) };
 } }
-export! { 1098, glGetMapiv, first_glGetMapiv, hook_glGetMapiv, (target: u32, query: u32, v: Ptr) -> (), {
+export! { 1103, glGetMapiv, first_glGetMapiv, hook_glGetMapiv, (target: u32, query: u32, v: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetMapiv(target, query, v) };
 } }
-export! { 1099, glGetPixelMapfv, first_glGetPixelMapfv, hook_glGetPixelMapfv, (map: u32, values: Ptr) -> (), {
+export! { 1104, glGetPixelMapfv, first_glGetPixelMapfv, hook_glGetPixelMapfv, (map: u32, values: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetPixelMapfv(map, values) };
 } }
-export! { 1100, glGetPixelMapuiv, first_glGetPixelMapuiv, hook_glGetPixelMapuiv, (map: u32, values: Ptr) -> (), {
+export! { 1105, glGetPixelMapuiv, first_glGetPixelMapuiv, hook_glGetPixelMapuiv, (map: u32, values: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetPixelMapuiv(map, values) };
 } }
-export! { 1101, glGetPixelMapusv, first_glGetPixelMapusv, hook_glGetPixelMapusv, (map: u32, values: Ptr) -> (), {
+export! { 1106, glGetPixelMapusv, first_glGetPixelMapusv, hook_glGetPixelMapusv, (map: u32, values: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetPixelMapusv(map, values) };
 } }
-export! { 1102, glGetPolygonStipple, first_glGetPolygonStipple, hook_glGetPolygonStipple, (mask: Ptr) -> (), {
+export! { 1107, glGetPolygonStipple, first_glGetPolygonStipple, hook_glGetPolygonStipple, (mask: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetPolygonStipple(mask) };
 } }
-export! { 1103, glGetTexImage, first_glGetTexImage, hook_glGetTexImage, (target: u32, level: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
+export! { 1108, glGetTexImage, first_glGetTexImage, hook_glGetTexImage, (target: u32, level: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetTexImage(target, level, format, type_, pixels) };
 } }
-export! { 1104, glGetnTexImage, first_glGetnTexImage, hook_glGetnTexImage, (target: u32, level: i32, format: u32, type_: u32, bufSize: i32, pixels: Ptr) -> (), {
+export! { 1109, glGetnTexImage, first_glGetnTexImage, hook_glGetnTexImage, (target: u32, level: i32, format: u32, type_: u32, bufSize: i32, pixels: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetnTexImage(target, level, format, type_, bufSize, pixels) };
 } }
-export! { 1105, glGetPointerv, first_glGetPointerv, hook_glGetPointerv, (pname: u32, params: Ptr) -> (), {
+export! { 1110, glGetPointerv, first_glGetPointerv, hook_glGetPointerv, (pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetPointerv(pname, params) };
 } }
-export! { 1106, glGetPointervEXT, first_glGetPointervEXT, hook_glGetPointervEXT, (pname: u32, params: Ptr) -> (), {
+export! { 1111, glGetPointervEXT, first_glGetPointervEXT, hook_glGetPointervEXT, (pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetPointervEXT(pname, params) };
 } }
-export! { 1107, glGetPointervKHR, first_glGetPointervKHR, hook_glGetPointervKHR, (pname: u32, params: Ptr) -> (), {
+export! { 1112, glGetPointervKHR, first_glGetPointervKHR, hook_glGetPointervKHR, (pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetPointervKHR(pname, params) };
 } }
-export! { 1108, glGetIntegeri_v, first_glGetIntegeri_v, hook_glGetIntegeri_v, (target: u32, index: u32, data: Ptr) -> (), {
+export! { 1113, glGetIntegeri_v, first_glGetIntegeri_v, hook_glGetIntegeri_v, (target: u32, index: u32, data: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetIntegeri_v(target, index, data) };
 } }
-export! { 1109, glGetIntegerIndexedvEXT, first_glGetIntegerIndexedvEXT, hook_glGetIntegerIndexedvEXT, (target: u32, index: u32, data: Ptr) -> (), {
+export! { 1114, glGetIntegerIndexedvEXT, first_glGetIntegerIndexedvEXT, hook_glGetIntegerIndexedvEXT, (target: u32, index: u32, data: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetIntegerIndexedvEXT(target, index, data) };
 } }
-export! { 1110, glGetUniformfv, first_glGetUniformfv, hook_glGetUniformfv, (program: u32, location: i32, params: Ptr) -> (), {
+export! { 1115, glGetUniformfv, first_glGetUniformfv, hook_glGetUniformfv, (program: u32, location: i32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetUniformfv(program, location, params) };
 } }
-export! { 1111, glGetUniformfvARB, first_glGetUniformfvARB, hook_glGetUniformfvARB, (programObj: u32, location: i32, params: Ptr) -> (), {
+export! { 1116, glGetUniformfvARB, first_glGetUniformfvARB, hook_glGetUniformfvARB, (programObj: u32, location: i32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetUniformfvARB(programObj, location, params) };
 } }
-export! { 1112, glGetUniformiv, first_glGetUniformiv, hook_glGetUniformiv, (program: u32, location: i32, params: Ptr) -> (), {
+export! { 1117, glGetUniformiv, first_glGetUniformiv, hook_glGetUniformiv, (program: u32, location: i32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetUniformiv(program, location, params) };
 } }
-export! { 1113, glGetUniformivARB, first_glGetUniformivARB, hook_glGetUniformivARB, (programObj: u32, location: i32, params: Ptr) -> (), {
+export! { 1118, glGetUniformivARB, first_glGetUniformivARB, hook_glGetUniformivARB, (programObj: u32, location: i32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetUniformivARB(programObj, location, params) };
 } }
-export! { 1114, glGetVertexAttribdv, first_glGetVertexAttribdv, hook_glGetVertexAttribdv, (index: u32, pname: u32, params: Ptr) -> (), {
+export! { 1119, glGetVertexAttribdv, first_glGetVertexAttribdv, hook_glGetVertexAttribdv, (index: u32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribdv(index, pname, params) };
 } }
-export! { 1115, glGetVertexAttribdvARB, first_glGetVertexAttribdvARB, hook_glGetVertexAttribdvARB, (index: u32, pname: u32, params: Ptr) -> (), {
+export! { 1120, glGetVertexAttribdvARB, first_glGetVertexAttribdvARB, hook_glGetVertexAttribdvARB, (index: u32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribdvARB(index, pname, params) };
 } }
-export! { 1116, glGetVertexAttribdvNV, first_glGetVertexAttribdvNV, hook_glGetVertexAttribdvNV, (index: u32, pname: u32, params: Ptr) -> (), {
+export! { 1121, glGetVertexAttribdvNV, first_glGetVertexAttribdvNV, hook_glGetVertexAttribdvNV, (index: u32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribdvNV(index, pname, params) };
 } }
-export! { 1117, glGetVertexAttribfv, first_glGetVertexAttribfv, hook_glGetVertexAttribfv, (index: u32, pname: u32, params: Ptr) -> (), {
+export! { 1122, glGetVertexAttribfv, first_glGetVertexAttribfv, hook_glGetVertexAttribfv, (index: u32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribfv(index, pname, params) };
 } }
-export! { 1118, glGetVertexAttribfvARB, first_glGetVertexAttribfvARB, hook_glGetVertexAttribfvARB, (index: u32, pname: u32, params: Ptr) -> (), {
+export! { 1123, glGetVertexAttribfvARB, first_glGetVertexAttribfvARB, hook_glGetVertexAttribfvARB, (index: u32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribfvARB(index, pname, params) };
 } }
-export! { 1119, glGetVertexAttribfvNV, first_glGetVertexAttribfvNV, hook_glGetVertexAttribfvNV, (index: u32, pname: u32, params: Ptr) -> (), {
+export! { 1124, glGetVertexAttribfvNV, first_glGetVertexAttribfvNV, hook_glGetVertexAttribfvNV, (index: u32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribfvNV(index, pname, params) };
 } }
-export! { 1120, glGetVertexAttribiv, first_glGetVertexAttribiv, hook_glGetVertexAttribiv, (index: u32, pname: u32, params: Ptr) -> (), {
+export! { 1125, glGetVertexAttribiv, first_glGetVertexAttribiv, hook_glGetVertexAttribiv, (index: u32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribiv(index, pname, params) };
 } }
-export! { 1121, glGetVertexAttribivARB, first_glGetVertexAttribivARB, hook_glGetVertexAttribivARB, (index: u32, pname: u32, params: Ptr) -> (), {
+export! { 1126, glGetVertexAttribivARB, first_glGetVertexAttribivARB, hook_glGetVertexAttribivARB, (index: u32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribivARB(index, pname, params) };
 } }
-export! { 1122, glGetVertexAttribivNV, first_glGetVertexAttribivNV, hook_glGetVertexAttribivNV, (index: u32, pname: u32, params: Ptr) -> (), {
+export! { 1127, glGetVertexAttribivNV, first_glGetVertexAttribivNV, hook_glGetVertexAttribivNV, (index: u32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribivNV(index, pname, params) };
 } }
-export! { 1123, glGetVertexAttribPointerv, first_glGetVertexAttribPointerv, hook_glGetVertexAttribPointerv, (index: u32, pname: u32, pointer: Ptr) -> (), {
+export! { 1128, glGetVertexAttribPointerv, first_glGetVertexAttribPointerv, hook_glGetVertexAttribPointerv, (index: u32, pname: u32, pointer: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribPointerv(index, pname, pointer) };
 } }
-export! { 1124, glGetVertexAttribPointervARB, first_glGetVertexAttribPointervARB, hook_glGetVertexAttribPointervARB, (index: u32, pname: u32, pointer: Ptr) -> (), {
+export! { 1129, glGetVertexAttribPointervARB, first_glGetVertexAttribPointervARB, hook_glGetVertexAttribPointervARB, (index: u32, pname: u32, pointer: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribPointervARB(index, pname, pointer) };
 } }
-export! { 1125, glGetVertexAttribPointervNV, first_glGetVertexAttribPointervNV, hook_glGetVertexAttribPointervNV, (index: u32, pname: u32, pointer: Ptr) -> (), {
+export! { 1130, glGetVertexAttribPointervNV, first_glGetVertexAttribPointervNV, hook_glGetVertexAttribPointervNV, (index: u32, pname: u32, pointer: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribPointervNV(index, pname, pointer) };
 } }
-export! { 1126, glFeedbackBuffer, first_glFeedbackBuffer, hook_glFeedbackBuffer, (size: i32, type_: u32, buffer: Ptr) -> (), {
+export! { 1131, glFeedbackBuffer, first_glFeedbackBuffer, hook_glFeedbackBuffer, (size: i32, type_: u32, buffer: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glFeedbackBuffer(size, type_, buffer) };
 } }
-export! { 1127, glSelectBuffer, first_glSelectBuffer, hook_glSelectBuffer, (size: i32, buffer: Ptr) -> (), {
+export! { 1132, glSelectBuffer, first_glSelectBuffer, hook_glSelectBuffer, (size: i32, buffer: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glSelectBuffer(size, buffer) };
 } }
-export! { 1128, glGenTextures, first_glGenTextures, hook_glGenTextures, (n: i32, textures: Ptr) -> (), {
+export! { 1133, glGenTextures, first_glGenTextures, hook_glGenTextures, (n: i32, textures: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGenTextures(n, textures) };
 } }
-export! { 1129, glGenFramebuffers, first_glGenFramebuffers, hook_glGenFramebuffers, (n: i32, framebuffers: Ptr) -> (), {
+export! { 1134, glGenFramebuffers, first_glGenFramebuffers, hook_glGenFramebuffers, (n: i32, framebuffers: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGenFramebuffers(n, framebuffers) };
 } }
-export! { 1130, glGenFramebuffersEXT, first_glGenFramebuffersEXT, hook_glGenFramebuffersEXT, (n: i32, framebuffers: Ptr) -> (), {
+export! { 1135, glGenFramebuffersEXT, first_glGenFramebuffersEXT, hook_glGenFramebuffersEXT, (n: i32, framebuffers: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGenFramebuffersEXT(n, framebuffers) };
 } }
-export! { 1131, glGenRenderbuffers, first_glGenRenderbuffers, hook_glGenRenderbuffers, (n: i32, renderbuffers: Ptr) -> (), {
+export! { 1136, glGenRenderbuffers, first_glGenRenderbuffers, hook_glGenRenderbuffers, (n: i32, renderbuffers: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGenRenderbuffers(n, renderbuffers) };
 } }
-export! { 1132, glGenRenderbuffersEXT, first_glGenRenderbuffersEXT, hook_glGenRenderbuffersEXT, (n: i32, renderbuffers: Ptr) -> (), {
+export! { 1137, glGenRenderbuffersEXT, first_glGenRenderbuffersEXT, hook_glGenRenderbuffersEXT, (n: i32, renderbuffers: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGenRenderbuffersEXT(n, renderbuffers) };
 } }
-export! { 1133, glBindRenderbuffer, first_glBindRenderbuffer, hook_glBindRenderbuffer, (target: u32, renderbuffer: u32) -> (), {
+export! { 1138, glBindRenderbuffer, first_glBindRenderbuffer, hook_glBindRenderbuffer, (target: u32, renderbuffer: u32) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBindRenderbuffer(target, renderbuffer) };
 } }
-export! { 1134, glRenderbufferStorage, first_glRenderbufferStorage, hook_glRenderbufferStorage, (target: u32, internalformat: u32, width: i32, height: i32) -> (), {
+export! { 1139, glRenderbufferStorage, first_glRenderbufferStorage, hook_glRenderbufferStorage, (target: u32, internalformat: u32, width: i32, height: i32) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glRenderbufferStorage(target, internalformat, width, height) };
 } }
-export! { 1135, glRenderbufferStorageEXT, first_glRenderbufferStorageEXT, hook_glRenderbufferStorageEXT, (target: u32, internalformat: u32, width: i32, height: i32) -> (), {
+export! { 1140, glRenderbufferStorageEXT, first_glRenderbufferStorageEXT, hook_glRenderbufferStorageEXT, (target: u32, internalformat: u32, width: i32, height: i32) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glRenderbufferStorageEXT(target, internalformat, width, height) };
 } }
-export! { 1136, glRenderbufferStorageMultisample, first_glRenderbufferStorageMultisample, hook_glRenderbufferStorageMultisample, (target: u32, samples: i32, internalformat: u32, width: i32, height: i32) -> (), {
+export! { 1141, glRenderbufferStorageMultisample, first_glRenderbufferStorageMultisample, hook_glRenderbufferStorageMultisample, (target: u32, samples: i32, internalformat: u32, width: i32, height: i32) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glRenderbufferStorageMultisample(target, samples, internalformat, width, height) };
 } }
-export! { 1137, glRenderbufferStorageMultisampleEXT, first_glRenderbufferStorageMultisampleEXT, hook_glRenderbufferStorageMultisampleEXT, (target: u32, samples: i32, internalformat: u32, width: i32, height: i32) -> (), {
+export! { 1142, glRenderbufferStorageMultisampleEXT, first_glRenderbufferStorageMultisampleEXT, hook_glRenderbufferStorageMultisampleEXT, (target: u32, samples: i32, internalformat: u32, width: i32, height: i32) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glRenderbufferStorageMultisampleEXT(target, samples, internalformat, width, height) };
 } }
-export! { 1138, glRenderbufferStorageMultisampleNV, first_glRenderbufferStorageMultisampleNV, hook_glRenderbufferStorageMultisampleNV, (target: u32, samples: i32, internalformat: u32, width: i32, height: i32) -> (), {
+export! { 1143, glRenderbufferStorageMultisampleNV, first_glRenderbufferStorageMultisampleNV, hook_glRenderbufferStorageMultisampleNV, (target: u32, samples: i32, internalformat: u32, width: i32, height: i32) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glRenderbufferStorageMultisampleNV(target, samples, internalformat, width, height) };
 } }
-export! { 1139, glDeleteRenderbuffers, first_glDeleteRenderbuffers, hook_glDeleteRenderbuffers, (n: i32, renderbuffers: Ptr) -> (), {
+export! { 1144, glDeleteRenderbuffers, first_glDeleteRenderbuffers, hook_glDeleteRenderbuffers, (n: i32, renderbuffers: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glDeleteRenderbuffers(n, renderbuffers) };
 } }
-export! { 1140, glDeleteRenderbuffersEXT, first_glDeleteRenderbuffersEXT, hook_glDeleteRenderbuffersEXT, (n: i32, renderbuffers: Ptr) -> (), {
+export! { 1145, glDeleteRenderbuffersEXT, first_glDeleteRenderbuffersEXT, hook_glDeleteRenderbuffersEXT, (n: i32, renderbuffers: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glDeleteRenderbuffersEXT(n, renderbuffers) };
 } }
-export! { 1141, glBindBuffer, first_glBindBuffer, hook_glBindBuffer, (target: u32, buffer: u32) -> (), {
+export! { 1146, glBindBuffer, first_glBindBuffer, hook_glBindBuffer, (target: u32, buffer: u32) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBindBuffer(target, buffer) };
 } }
-export! { 1142, glBindBufferARB, first_glBindBufferARB, hook_glBindBufferARB, (target: u32, buffer: u32) -> (), {
+export! { 1147, glBindBufferARB, first_glBindBufferARB, hook_glBindBufferARB, (target: u32, buffer: u32) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBindBufferARB(target, buffer) };
 } }
-export! { 1143, glBufferData, first_glBufferData, hook_glBufferData, (target: u32, size: isize, data: Ptr, usage: u32) -> (), {
+export! { 1148, glBufferData, first_glBufferData, hook_glBufferData, (target: u32, size: isize, data: Ptr, usage: u32) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBufferData(target, size, data, usage) };
 } }
-export! { 1144, glBufferDataARB, first_glBufferDataARB, hook_glBufferDataARB, (target: u32, size: isize, data: Ptr, usage: u32) -> (), {
+export! { 1149, glBufferDataARB, first_glBufferDataARB, hook_glBufferDataARB, (target: u32, size: isize, data: Ptr, usage: u32) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBufferDataARB(target, size, data, usage) };
 } }
-export! { 1145, glBufferSubData, first_glBufferSubData, hook_glBufferSubData, (target: u32, offset: isize, size: isize, data: Ptr) -> (), {
+export! { 1150, glBufferSubData, first_glBufferSubData, hook_glBufferSubData, (target: u32, offset: isize, size: isize, data: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBufferSubData(target, offset, size, data) };
 } }
-export! { 1146, glBufferSubDataARB, first_glBufferSubDataARB, hook_glBufferSubDataARB, (target: u32, offset: isize, size: isize, data: Ptr) -> (), {
+export! { 1151, glBufferSubDataARB, first_glBufferSubDataARB, hook_glBufferSubDataARB, (target: u32, offset: isize, size: isize, data: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBufferSubDataARB(target, offset, size, data) };
 } }
-export! { 1147, glDeleteBuffers, first_glDeleteBuffers, hook_glDeleteBuffers, (n: i32, buffers: Ptr) -> (), {
+export! { 1152, glDeleteBuffers, first_glDeleteBuffers, hook_glDeleteBuffers, (n: i32, buffers: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glDeleteBuffers(n, buffers) };
 } }
-export! { 1148, glDeleteBuffersARB, first_glDeleteBuffersARB, hook_glDeleteBuffersARB, (n: i32, buffers: Ptr) -> (), {
+export! { 1153, glDeleteBuffersARB, first_glDeleteBuffersARB, hook_glDeleteBuffersARB, (n: i32, buffers: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glDeleteBuffersARB(n, buffers) };
 } }
-export! { 1149, glPixelStoref, first_glPixelStoref, hook_glPixelStoref, (pname: u32, param: f32) -> (), {
+export! { 1154, glPixelStoref, first_glPixelStoref, hook_glPixelStoref, (pname: u32, param: f32) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPixelStoref(pname, param) };
 } }
-export! { 1150, glPixelStorei, first_glPixelStorei, hook_glPixelStorei, (pname: u32, param: i32) -> (), {
+export! { 1155, glPixelStorei, first_glPixelStorei, hook_glPixelStorei, (pname: u32, param: i32) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPixelStorei(pname, param) };
 } }
-export! { 1151, glPushClientAttrib, first_glPushClientAttrib, hook_glPushClientAttrib, (mask: u32) -> (), {
+export! { 1156, glPushClientAttrib, first_glPushClientAttrib, hook_glPushClientAttrib, (mask: u32) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPushClientAttrib(mask) };
 } }
-export! { 1152, glPopClientAttrib, first_glPopClientAttrib, hook_glPopClientAttrib, () -> (), {
+export! { 1157, glPopClientAttrib, first_glPopClientAttrib, hook_glPopClientAttrib, () -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPopClientAttrib() };
 } }
-export! { 1153, glEnableClientState, first_glEnableClientState, hook_glEnableClientState, (array: u32) -> (), {
+export! { 1158, glEnableClientState, first_glEnableClientState, hook_glEnableClientState, (array: u32) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glEnableClientState(array) };
 } }
-export! { 1154, glDisableClientState, first_glDisableClientState, hook_glDisableClientState, (array: u32) -> (), {
+export! { 1159, glDisableClientState, first_glDisableClientState, hook_glDisableClientState, (array: u32) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glDisableClientState(array) };
 } }
-export! { 1155, glClientActiveTexture, first_glClientActiveTexture, hook_glClientActiveTexture, (texture: u32) -> (), {
+export! { 1160, glClientActiveTexture, first_glClientActiveTexture, hook_glClientActiveTexture, (texture: u32) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glClientActiveTexture(texture) };
 } }
-export! { 1156, glClientActiveTextureARB, first_glClientActiveTextureARB, hook_glClientActiveTextureARB, (texture: u32) -> (), {
+export! { 1161, glClientActiveTextureARB, first_glClientActiveTextureARB, hook_glClientActiveTextureARB, (texture: u32) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glClientActiveTextureARB(texture) };
 } }
-export! { 1157, glInterleavedArrays, first_glInterleavedArrays, hook_glInterleavedArrays, (format: u32, stride: i32, pointer: Ptr) -> (), {
+export! { 1162, glInterleavedArrays, first_glInterleavedArrays, hook_glInterleavedArrays, (format: u32, stride: i32, pointer: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glInterleavedArrays(format, stride, pointer) };
 } }
-export! { 1158, glColorPointer, first_glColorPointer, hook_glColorPointer, (size: i32, type_: u32, stride: i32, pointer: Ptr) -> (), {
+export! { 1163, glColorPointer, first_glColorPointer, hook_glColorPointer, (size: i32, type_: u32, stride: i32, pointer: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glColorPointer(size, type_, stride, pointer) };
 } }
-export! { 1159, glSecondaryColorPointer, first_glSecondaryColorPointer, hook_glSecondaryColorPointer, (size: i32, type_: u32, stride: i32, pointer: Ptr) -> (), {
+export! { 1164, glSecondaryColorPointer, first_glSecondaryColorPointer, hook_glSecondaryColorPointer, (size: i32, type_: u32, stride: i32, pointer: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glSecondaryColorPointer(size, type_, stride, pointer) };
 } }
-export! { 1160, glSecondaryColorPointerEXT, first_glSecondaryColorPointerEXT, hook_glSecondaryColorPointerEXT, (size: i32, type_: u32, stride: i32, pointer: Ptr) -> (), {
+export! { 1165, glSecondaryColorPointerEXT, first_glSecondaryColorPointerEXT, hook_glSecondaryColorPointerEXT, (size: i32, type_: u32, stride: i32, pointer: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glSecondaryColorPointerEXT(size, type_, stride, pointer) };
 } }
-export! { 1161, glTexCoordPointer, first_glTexCoordPointer, hook_glTexCoordPointer, (size: i32, type_: u32, stride: i32, pointer: Ptr) -> (), {
+export! { 1166, glTexCoordPointer, first_glTexCoordPointer, hook_glTexCoordPointer, (size: i32, type_: u32, stride: i32, pointer: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexCoordPointer(size, type_, stride, pointer) };
 } }
-export! { 1162, glVertexPointer, first_glVertexPointer, hook_glVertexPointer, (size: i32, type_: u32, stride: i32, pointer: Ptr) -> (), {
+export! { 1167, glVertexPointer, first_glVertexPointer, hook_glVertexPointer, (size: i32, type_: u32, stride: i32, pointer: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glVertexPointer(size, type_, stride, pointer) };
 } }
-export! { 1163, glEdgeFlagPointer, first_glEdgeFlagPointer, hook_glEdgeFlagPointer, (stride: i32, pointer: Ptr) -> (), {
+export! { 1168, glEdgeFlagPointer, first_glEdgeFlagPointer, hook_glEdgeFlagPointer, (stride: i32, pointer: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glEdgeFlagPointer(stride, pointer) };
 } }
-export! { 1164, glFogCoordPointer, first_glFogCoordPointer, hook_glFogCoordPointer, (type_: u32, stride: i32, pointer: Ptr) -> (), {
+export! { 1169, glFogCoordPointer, first_glFogCoordPointer, hook_glFogCoordPointer, (type_: u32, stride: i32, pointer: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glFogCoordPointer(type_, stride, pointer) };
 } }
-export! { 1165, glFogCoordPointerEXT, first_glFogCoordPointerEXT, hook_glFogCoordPointerEXT, (type_: u32, stride: i32, pointer: Ptr) -> (), {
+export! { 1170, glFogCoordPointerEXT, first_glFogCoordPointerEXT, hook_glFogCoordPointerEXT, (type_: u32, stride: i32, pointer: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glFogCoordPointerEXT(type_, stride, pointer) };
 } }
-export! { 1166, glIndexPointer, first_glIndexPointer, hook_glIndexPointer, (type_: u32, stride: i32, pointer: Ptr) -> (), {
+export! { 1171, glIndexPointer, first_glIndexPointer, hook_glIndexPointer, (type_: u32, stride: i32, pointer: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glIndexPointer(type_, stride, pointer) };
 } }
-export! { 1167, glNormalPointer, first_glNormalPointer, hook_glNormalPointer, (type_: u32, stride: i32, pointer: Ptr) -> (), {
+export! { 1172, glNormalPointer, first_glNormalPointer, hook_glNormalPointer, (type_: u32, stride: i32, pointer: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glNormalPointer(type_, stride, pointer) };
 } }
-export! { 1168, glVertexAttribPointer, first_glVertexAttribPointer, hook_glVertexAttribPointer, (index: u32, size: i32, type_: u32, normalized: u8, stride: i32, pointer: Ptr) -> (), {
+export! { 1173, glVertexAttribPointer, first_glVertexAttribPointer, hook_glVertexAttribPointer, (index: u32, size: i32, type_: u32, normalized: u8, stride: i32, pointer: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glVertexAttribPointer(index, size, type_, normalized, stride, pointer) };
 } }
-export! { 1169, glVertexAttribPointerARB, first_glVertexAttribPointerARB, hook_glVertexAttribPointerARB, (index: u32, size: i32, type_: u32, normalized: u8, stride: i32, pointer: Ptr) -> (), {
+export! { 1174, glVertexAttribPointerARB, first_glVertexAttribPointerARB, hook_glVertexAttribPointerARB, (index: u32, size: i32, type_: u32, normalized: u8, stride: i32, pointer: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glVertexAttribPointerARB(index, size, type_, normalized, stride, pointer) };
 } }
-export! { 1170, glEnableVertexAttribArray, first_glEnableVertexAttribArray, hook_glEnableVertexAttribArray, (index: u32) -> (), {
+export! { 1175, glEnableVertexAttribArray, first_glEnableVertexAttribArray, hook_glEnableVertexAttribArray, (index: u32) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glEnableVertexAttribArray(index) };
 } }
-export! { 1171, glEnableVertexAttribArrayARB, first_glEnableVertexAttribArrayARB, hook_glEnableVertexAttribArrayARB, (index: u32) -> (), {
+export! { 1176, glEnableVertexAttribArrayARB, first_glEnableVertexAttribArrayARB, hook_glEnableVertexAttribArrayARB, (index: u32) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glEnableVertexAttribArrayARB(index) };
 } }
-export! { 1172, glDisableVertexAttribArray, first_glDisableVertexAttribArray, hook_glDisableVertexAttribArray, (index: u32) -> (), {
+export! { 1177, glDisableVertexAttribArray, first_glDisableVertexAttribArray, hook_glDisableVertexAttribArray, (index: u32) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glDisableVertexAttribArray(index) };
 } }
-export! { 1173, glDisableVertexAttribArrayARB, first_glDisableVertexAttribArrayARB, hook_glDisableVertexAttribArrayARB, (index: u32) -> (), {
+export! { 1178, glDisableVertexAttribArrayARB, first_glDisableVertexAttribArrayARB, hook_glDisableVertexAttribArrayARB, (index: u32) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glDisableVertexAttribArrayARB(index) };
 } }
-export! { 1174, glXSwapBuffers, first_glXSwapBuffers, hook_glXSwapBuffers, (dpy: Ptr, drawable: c_ulong) -> (), {
+export! { 1179, glXSwapBuffers, first_glXSwapBuffers, hook_glXSwapBuffers, (dpy: Ptr, drawable: c_ulong) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glXSwapBuffers(dpy, drawable) }
 } }
-export! { 1175, glXSwapBuffersMscOML, first_glXSwapBuffersMscOML, hook_glXSwapBuffersMscOML, (dpy: Ptr, drawable: c_ulong, target_msc: i64, divisor: i64, remainder: i64) -> i64, {
+export! { 1180, glXSwapBuffersMscOML, first_glXSwapBuffersMscOML, hook_glXSwapBuffersMscOML, (dpy: Ptr, drawable: c_ulong, target_msc: i64, divisor: i64, remainder: i64) -> i64, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXSwapBuffersMscOML(dpy, drawable, target_msc, divisor, remainder) }
 } }
-export! { 1176, glXMakeCurrent, first_glXMakeCurrent, hook_glXMakeCurrent, (dpy: Ptr, drawable: c_ulong, ctx: Ptr) -> i32, {
+export! { 1181, glXMakeCurrent, first_glXMakeCurrent, hook_glXMakeCurrent, (dpy: Ptr, drawable: c_ulong, ctx: Ptr) -> i32, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXMakeCurrent(dpy, drawable, ctx) }
 } }
-export! { 1177, glXMakeContextCurrent, first_glXMakeContextCurrent, hook_glXMakeContextCurrent, (dpy: Ptr, draw: c_ulong, read: c_ulong, ctx: Ptr) -> i32, {
+export! { 1182, glXMakeContextCurrent, first_glXMakeContextCurrent, hook_glXMakeContextCurrent, (dpy: Ptr, draw: c_ulong, read: c_ulong, ctx: Ptr) -> i32, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXMakeContextCurrent(dpy, draw, read, ctx) }
 } }
-export! { 1178, glXMakeCurrentReadSGI, first_glXMakeCurrentReadSGI, hook_glXMakeCurrentReadSGI, (dpy: Ptr, draw: c_ulong, read: c_ulong, ctx: Ptr) -> i32, {
+export! { 1183, glXMakeCurrentReadSGI, first_glXMakeCurrentReadSGI, hook_glXMakeCurrentReadSGI, (dpy: Ptr, draw: c_ulong, read: c_ulong, ctx: Ptr) -> i32, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXMakeCurrentReadSGI(dpy, draw, read, ctx) }
 } }
-export! { 1179, glXCreateContext, first_glXCreateContext, hook_glXCreateContext, (dpy: Ptr, vis: Ptr, share: Ptr, direct: i32) -> Ptr, {
+export! { 1184, glXCreateContext, first_glXCreateContext, hook_glXCreateContext, (dpy: Ptr, vis: Ptr, share: Ptr, direct: i32) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXCreateContext(dpy, vis, share, direct) }
 } }
-export! { 1180, glXCreateNewContext, first_glXCreateNewContext, hook_glXCreateNewContext, (dpy: Ptr, config: Ptr, kind: i32, share: Ptr, direct: i32) -> Ptr, {
+export! { 1185, glXCreateNewContext, first_glXCreateNewContext, hook_glXCreateNewContext, (dpy: Ptr, config: Ptr, kind: i32, share: Ptr, direct: i32) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXCreateNewContext(dpy, config, kind, share, direct) }
 } }
-export! { 1181, glXCreateContextAttribsARB, first_glXCreateContextAttribsARB, hook_glXCreateContextAttribsARB, (dpy: Ptr, config: Ptr, share: Ptr, direct: i32, attribs: Ptr) -> Ptr, {
+export! { 1186, glXCreateContextAttribsARB, first_glXCreateContextAttribsARB, hook_glXCreateContextAttribsARB, (dpy: Ptr, config: Ptr, share: Ptr, direct: i32, attribs: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXCreateContextAttribsARB(dpy, config, share, direct, attribs) }
 } }
-export! { 1182, glXCreateContextWithConfigSGIX, first_glXCreateContextWithConfigSGIX, hook_glXCreateContextWithConfigSGIX, (dpy: Ptr, config: Ptr, kind: i32, share: Ptr, direct: i32) -> Ptr, {
+export! { 1187, glXCreateContextWithConfigSGIX, first_glXCreateContextWithConfigSGIX, hook_glXCreateContextWithConfigSGIX, (dpy: Ptr, config: Ptr, kind: i32, share: Ptr, direct: i32) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXCreateContextWithConfigSGIX(dpy, config, kind, share, direct) }
 } }
-export! { 1183, glXDestroyContext, first_glXDestroyContext, hook_glXDestroyContext, (dpy: Ptr, ctx: Ptr) -> (), {
+export! { 1188, glXDestroyContext, first_glXDestroyContext, hook_glXDestroyContext, (dpy: Ptr, ctx: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glXDestroyContext(dpy, ctx) }
 } }
-export! { 1184, glXGetProcAddress, first_glXGetProcAddress, hook_glXGetProcAddress, (name: Ptr) -> Ptr, {
+export! { 1189, glXGetProcAddress, first_glXGetProcAddress, hook_glXGetProcAddress, (name: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXGetProcAddress(name) }
 } }
-export! { 1185, glXGetProcAddressARB, first_glXGetProcAddressARB, hook_glXGetProcAddressARB, (name: Ptr) -> Ptr, {
+export! { 1190, glXGetProcAddressARB, first_glXGetProcAddressARB, hook_glXGetProcAddressARB, (name: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXGetProcAddressARB(name) }
 } }
-export! { 1187, eglSwapBuffers, first_eglSwapBuffers, hook_eglSwapBuffers, (dpy: Ptr, surface: Ptr) -> u32, {
+export! { 1192, eglSwapBuffers, first_eglSwapBuffers, hook_eglSwapBuffers, (dpy: Ptr, surface: Ptr) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglSwapBuffers(dpy, surface) }
 } }
-export! { 1188, eglSwapBuffersWithDamageKHR, first_eglSwapBuffersWithDamageKHR, hook_eglSwapBuffersWithDamageKHR, (dpy: Ptr, surface: Ptr, rects: Ptr, n: i32) -> u32, {
+export! { 1193, eglSwapBuffersWithDamageKHR, first_eglSwapBuffersWithDamageKHR, hook_eglSwapBuffersWithDamageKHR, (dpy: Ptr, surface: Ptr, rects: Ptr, n: i32) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglSwapBuffersWithDamageKHR(dpy, surface, rects, n) }
 } }
-export! { 1189, eglSwapBuffersWithDamageEXT, first_eglSwapBuffersWithDamageEXT, hook_eglSwapBuffersWithDamageEXT, (dpy: Ptr, surface: Ptr, rects: Ptr, n: i32) -> u32, {
+export! { 1194, eglSwapBuffersWithDamageEXT, first_eglSwapBuffersWithDamageEXT, hook_eglSwapBuffersWithDamageEXT, (dpy: Ptr, surface: Ptr, rects: Ptr, n: i32) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglSwapBuffersWithDamageEXT(dpy, surface, rects, n) }
 } }
-export! { 1190, eglMakeCurrent, first_eglMakeCurrent, hook_eglMakeCurrent, (dpy: Ptr, draw: Ptr, read: Ptr, ctx: Ptr) -> u32, {
+export! { 1195, eglMakeCurrent, first_eglMakeCurrent, hook_eglMakeCurrent, (dpy: Ptr, draw: Ptr, read: Ptr, ctx: Ptr) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglMakeCurrent(dpy, draw, read, ctx) }
 } }
-export! { 1191, eglCreateContext, first_eglCreateContext, hook_eglCreateContext, (dpy: Ptr, config: Ptr, share: Ptr, attribs: Ptr) -> Ptr, {
+export! { 1196, eglCreateContext, first_eglCreateContext, hook_eglCreateContext, (dpy: Ptr, config: Ptr, share: Ptr, attribs: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglCreateContext(dpy, config, share, attribs) }
 } }
-export! { 1192, eglDestroyContext, first_eglDestroyContext, hook_eglDestroyContext, (dpy: Ptr, ctx: Ptr) -> u32, {
+export! { 1197, eglDestroyContext, first_eglDestroyContext, hook_eglDestroyContext, (dpy: Ptr, ctx: Ptr) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglDestroyContext(dpy, ctx) }
 } }
-export! { 1193, eglReleaseThread, first_eglReleaseThread, hook_eglReleaseThread, () -> u32, {
+export! { 1198, eglReleaseThread, first_eglReleaseThread, hook_eglReleaseThread, () -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglReleaseThread() }
 } }
-export! { 1194, eglGetProcAddress, first_eglGetProcAddress, hook_eglGetProcAddress, (name: Ptr) -> Ptr, {
+export! { 1199, eglGetProcAddress, first_eglGetProcAddress, hook_eglGetProcAddress, (name: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglGetProcAddress(name) }
 } }
-export! { 1199, OSMesaMakeCurrent, first_OSMesaMakeCurrent, hook_OSMesaMakeCurrent, (ctx: Ptr, buffer: Ptr, kind: u32, width: i32, height: i32) -> u8, {
+export! { 1204, OSMesaMakeCurrent, first_OSMesaMakeCurrent, hook_OSMesaMakeCurrent, (ctx: Ptr, buffer: Ptr, kind: u32, width: i32, height: i32) -> u8, {
     // SAFETY: the program's own arguments.
     unsafe { special::OSMesaMakeCurrent(ctx, buffer, kind, width, height) }
 } }
-export! { 1200, OSMesaCreateContext, first_OSMesaCreateContext, hook_OSMesaCreateContext, (format: u32, share: Ptr) -> Ptr, {
+export! { 1205, OSMesaCreateContext, first_OSMesaCreateContext, hook_OSMesaCreateContext, (format: u32, share: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::OSMesaCreateContext(format, share) }
 } }
-export! { 1201, OSMesaCreateContextExt, first_OSMesaCreateContextExt, hook_OSMesaCreateContextExt, (format: u32, depth: i32, stencil: i32, accum: i32, share: Ptr) -> Ptr, {
+export! { 1206, OSMesaCreateContextExt, first_OSMesaCreateContextExt, hook_OSMesaCreateContextExt, (format: u32, depth: i32, stencil: i32, accum: i32, share: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::OSMesaCreateContextExt(format, depth, stencil, accum, share) }
 } }
-export! { 1202, OSMesaCreateContextAttribs, first_OSMesaCreateContextAttribs, hook_OSMesaCreateContextAttribs, (attribs: Ptr, share: Ptr) -> Ptr, {
+export! { 1207, OSMesaCreateContextAttribs, first_OSMesaCreateContextAttribs, hook_OSMesaCreateContextAttribs, (attribs: Ptr, share: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::OSMesaCreateContextAttribs(attribs, share) }
 } }
-export! { 1203, OSMesaDestroyContext, first_OSMesaDestroyContext, hook_OSMesaDestroyContext, (ctx: Ptr) -> (), {
+export! { 1208, OSMesaDestroyContext, first_OSMesaDestroyContext, hook_OSMesaDestroyContext, (ctx: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::OSMesaDestroyContext(ctx) }
 } }
-export! { 1204, OSMesaGetProcAddress, first_OSMesaGetProcAddress, hook_OSMesaGetProcAddress, (name: Ptr) -> Ptr, {
+export! { 1209, OSMesaGetProcAddress, first_OSMesaGetProcAddress, hook_OSMesaGetProcAddress, (name: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::OSMesaGetProcAddress(name) }
 } }

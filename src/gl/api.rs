@@ -55,6 +55,8 @@ plain! {
     end_list = glEndList();
     begin_query = glBeginQuery(target: u32, query: u32);
     end_query = glEndQuery(target: u32);
+    begin_conditional_render = glBeginConditionalRender(query: u32, mode: u32);
+    end_conditional_render = glEndConditionalRender();
     call_list = glCallList(list: u32);
     get_error = glGetError() -> u32;
     flush = glFlush();

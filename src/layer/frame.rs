@@ -20,6 +20,7 @@ impl Layer {
         self.finish_explanation(gl);
         super::sweep(gl, &self.lists);
         self.queries.pause(gl);
+        self.queries.lift_condition(gl);
         let saved = Saved::take(gl, self.state.compatibility);
         self.atlas.resolve(gl, false, c::COLOR_BUFFER_BIT);
         gl.bind_framebuffer(c::FRAMEBUFFER, 0);
@@ -42,6 +43,7 @@ impl Layer {
         self.capture(gl, &source);
         saved.restore(gl);
         self.rebind(gl);
+        self.queries.put_condition(gl);
         self.queries.resume(gl);
         self.drawn = false;
         self.frame = Default::default();

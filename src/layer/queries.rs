@@ -16,6 +16,8 @@ pub(super) struct Queries {
     /// By the program's query: ours that counted on, and what they are.
     more: HashMap<u32, (u32, Vec<u32>)>,
     spare: Vec<u32>,
+    /// The query and mode of conditional rendering, while it is on.
+    condition: Option<(u32, u32)>,
 }
 
 #[derive(Debug)]
@@ -73,6 +75,20 @@ impl Queries {
         }
     }
 
+    /// Before drawing of ours that must not depend on the program's condition.
+    pub(super) fn lift_condition(&self, gl: &Gl) {
+        if self.condition.is_some() {
+            gl.end_conditional_render();
+        }
+    }
+
+    /// After it.
+    pub(super) fn put_condition(&self, gl: &Gl) {
+        if let Some((query, mode)) = self.condition {
+            gl.begin_conditional_render(query, mode);
+        }
+    }
+
     fn forget(&mut self, query: u32) {
         if let Some((_, names)) = self.more.remove(&query) {
             self.spare.extend(names);
@@ -118,6 +134,37 @@ impl Layer {
     pub fn current_query(&self, target: u32) -> Option<u32> {
         let active = self.queries.active.iter().find(|a| a.target == target);
         active.map(|a| a.query)
+    }
+
+    /// Before glBeginConditionalRender: the query that stands for all that the program's has counted. One that is not zero where there
+    /// is one, since the driver asks for no more than that; so it waits for the result, which every mode allows.
+    pub fn condition(&mut self, gl: &Gl, query: u32) -> u32 {
+        self.catch_up(gl);
+        self.state.keep_errors(gl);
+        let q = &self.queries;
+        if let Some(active) = q.active.iter().find(|a| a.query == query) {
+            // Refused, if it is the driver's as well.
+            return active.more.last().copied().unwrap_or(query);
+        }
+        let more = q.more.get(&query).map_or(&[][..], |(_, names)| names);
+        let counted = |&q: &u32| gl.query_object(q, c::QUERY_RESULT) != 0;
+        more.iter().copied().find(counted).unwrap_or(query)
+    }
+
+    /// glBeginConditionalRender, after the driver's own.
+    pub fn begun_condition(&mut self, gl: &Gl, query: u32, mode: u32) {
+        match gl.get_error() {
+            c::NO_ERROR if !self.compiles() => self.queries.condition = Some((query, mode)),
+            c::NO_ERROR => {}
+            // The driver keeps the first error only.
+            error if self.state.errors.is_empty() => self.state.errors.push_back(error),
+            _ => {}
+        }
+    }
+
+    /// glEndConditionalRender, after the driver's own: there is no condition then, whether there was one or not.
+    pub fn ended_condition(&mut self) {
+        self.queries.condition = None;
     }
 
     /// What our queries add to the answer about one of the program's, if there are any.

@@ -41,6 +41,19 @@ pub(crate) unsafe fn glGetQueryiv(target: u32, pname: u32, params: Ptr) {
     }
 }
 
+pub(crate) unsafe fn glBeginConditionalRender(id: u32, mode: u32) {
+    let part = enter(|gl, l| l.condition(gl, id)).unwrap_or(id);
+    // SAFETY: the program's own call, or on a query of ours.
+    unsafe { real().glBeginConditionalRender(part, mode) };
+    enter(|gl, l| l.begun_condition(gl, part, mode));
+}
+
+pub(crate) unsafe fn glEndConditionalRender() {
+    // SAFETY: the program's own call.
+    unsafe { real().glEndConditionalRender() };
+    enter(|_, l| l.ended_condition());
+}
+
 /// What our queries add to the driver's answer, which is in the program's memory.
 fn more(id: u32, pname: u32, params: Ptr) -> Option<Answer> {
     let answer = enter(|gl, l| l.query_answer(gl, id, pname)).flatten()?;
