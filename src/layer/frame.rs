@@ -65,11 +65,13 @@ impl Layer {
     /// The program's own view as it is now, row 0 on top; nothing of the program's state has changed.
     pub(super) fn own_view(&mut self, gl: &Gl) -> RgbImage {
         self.queries.pause(gl);
+        self.queries.lift_condition(gl);
         let saved = Saved::take(gl, self.state.compatibility);
         self.atlas.resolve(gl, true, c::COLOR_BUFFER_BIT);
         let picture = tile(gl, &self.atlas, self.atlas.tiles.own());
         saved.restore(gl);
         self.rebind(gl);
+        self.queries.put_condition(gl);
         self.queries.resume(gl);
         picture
     }
