@@ -15,16 +15,7 @@ use std::process::{Command, Stdio};
 use support::{Screen, bare, layered, own_screen};
 
 /// Classes of calls that are left out, and why. Each is a gap of the layer.
-const GAPS: [(&str, &str); 5] = [
-    ("lists", "state that a list changes is not followed exactly"),
-    (
-        "queries",
-        "an occlusion query counts the samples of all views",
-    ),
-    (
-        "copies",
-        "glCopyPixels with a zoom or from a framebuffer object differs in single pixels",
-    ),
+const GAPS: [(&str, &str); 2] = [
     ("accum", "the atlas has no accumulation buffer"),
     (
         "front",
@@ -33,19 +24,7 @@ const GAPS: [(&str, &str); 5] = [
 ];
 
 /// Seeds that are known to differ, and what it is.
-const KNOWN: [(u64, &str); 8] = [
-    (
-        33,
-        "a flat quad after an incomplete triangle without an edge is lost",
-    ),
-    (58, "an error of glPopAttrib that is none under the layer"),
-    (141, "GL_DRAW_BUFFER after glPopAttrib"),
-    (160, "pixels, not reduced yet"),
-    (163, "pixels, not reduced yet"),
-    (166, "pixels, not reduced yet"),
-    (187, "pixels, not reduced yet"),
-    (188, "not reduced yet"),
-];
+const KNOWN: [(u64, &str); 0] = [];
 
 /// Sequences in one process; a crash costs only these.
 const BATCH: u64 = 50;
@@ -83,6 +62,8 @@ impl Side<'_> {
             .args(more)
             // Pictures of 64 x 48: threads cost more than they bring.
             .env("LP_NUM_THREADS", "0")
+            // Most of the time goes into compiling shaders for a few triangles each.
+            .env("GALLIVM_PERF", "nopt")
             .stderr(Stdio::null());
         if let Some(screen) = self.screen {
             screen.give(&mut command);
@@ -137,15 +118,18 @@ fn compare(api: Api, atlas: &str, seeds: std::ops::Range<u64>) {
         |side: &Side, first: u64, count: u64| side.lines(side.command(first, count, &without, &[]));
     let mut wrong: Vec<u64> = Vec::new();
     let mut compared = 0;
-    for first in seeds.clone().step_by(BATCH as usize) {
+    let mut first = seeds.start;
+    while first < seeds.end {
         let count = BATCH.min(seeds.end - first);
         let (expected, (actual, fine)) = std::thread::scope(|scope| {
             let expected = scope.spawn(|| run(&bare, first, count));
             let actual = run(&layer, first, count);
             (expected.join().expect("no panic").0, actual)
         });
-        // Mesa itself crashes at times; what comes after is not compared then.
-        compared += expected.len();
+        // Mesa itself crashes at times; it goes on with the next sequence.
+        let reached = expected.last().and_then(|line| seed(line));
+        let end = reached.map_or(first, |last| last + 1);
+        compared += end - first;
         wrong.extend(
             expected
                 .iter()
@@ -156,9 +140,10 @@ fn compare(api: Api, atlas: &str, seeds: std::ops::Range<u64>) {
             let last = actual.last().and_then(|line| seed(line));
             wrong.push(last.map_or(first, |last| last + 1));
         }
+        first = if end < first + count { end + 1 } else { end };
     }
     assert!(
-        compared as u64 * 10 > (seeds.end - seeds.start) * 9,
+        compared * 100 >= (seeds.end - seeds.start) * 99,
         "only {compared} sequences went through without the layer"
     );
     wrong.sort_unstable();

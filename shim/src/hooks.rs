@@ -113,7 +113,7 @@ pub(crate) fn raster(place: Place, call: &mut dyn FnMut(&'static Real)) {
     touch(groups);
     call(real());
     enter(|gl, l| match place {
-        _ if l.compiles() => {}
+        _ if l.compiles() && !l.executes() => {}
         Place::Scene => l.placed_raster(gl),
         Place::Window => l.placed_in_window(),
     });

@@ -22,6 +22,12 @@ impl Current {
     /// Reads the values of some kinds from the driver.
     pub fn take(gl: &Gl, kinds: Effect) -> Current {
         let mut current = Current::default();
+        // What an array element or an evaluator sets is not known here.
+        let kinds = if kinds.has(Effect::UNKNOWN) {
+            Effect::ALL
+        } else {
+            kinds
+        };
         if kinds.has(Effect::COLOR) {
             current.color = Some(gl.get_floats(c::CURRENT_COLOR));
         }

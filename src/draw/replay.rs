@@ -66,7 +66,7 @@ pub fn replay(
         return false;
     }
     let tiles = atlas.tiles;
-    let size = [tiles.width as i32, tiles.height as i32];
+    let size = size(atlas);
     let beside = tiles.columns > 1;
     let own = tiles.own();
     let current = match again {
@@ -122,18 +122,15 @@ pub fn replay(
                 }
             }
             Again::Anything { .. } => {
-                let modelview = gl.get_floats(c::MODELVIEW_MATRIX);
-                let depth = gl.get_integer(c::MODELVIEW_STACK_DEPTH);
+                let stack = Stack::take(gl, state.matrix_mode);
                 let attribs = gl.get_integer(c::ATTRIB_STACK_DEPTH);
                 current.put(gl);
                 call(view);
                 let left = gl.get_integer(c::ATTRIB_STACK_DEPTH);
                 (attribs..left).for_each(|_| gl.pop_attrib());
-                gl.matrix_mode(c::MODELVIEW);
-                let now = gl.get_integer(c::MODELVIEW_STACK_DEPTH);
-                (depth..now).for_each(|_| gl.pop_matrix());
-                (now..depth).for_each(|_| gl.push_matrix());
-                gl.load_matrix(&modelview);
+                if let Some(stack) = &stack {
+                    stack.put(gl);
+                }
             }
             _ => {
                 current.put(gl);
@@ -145,6 +142,49 @@ pub fn replay(
         }
     }
     true
+}
+
+/// The program's own view, for what the driver is about to draw there; [`others`] ends it.
+pub fn enter_own(gl: &Gl, atlas: &mut Atlas, state: &State, rig: &Rig, shear: Option<Shear>) {
+    let own = atlas.tiles.own();
+    let x = atlas.enter(gl, own);
+    if atlas.tiles.columns > 1 {
+        place(gl, state, x, size(atlas));
+    }
+    if rig.place(own) != 0.0 {
+        Projection { gl, state, shear }.load(rig.place(own));
+    }
+}
+
+/// After [`enter_own`]: the other views, where they are wanted, then all state as the program has it.
+pub fn others(
+    gl: &Gl,
+    atlas: &mut Atlas,
+    state: &State,
+    rig: &Rig,
+    shear: Option<Shear>,
+    wanted: bool,
+    call: &mut dyn FnMut(u32),
+) {
+    let (own, beside) = (atlas.tiles.own(), atlas.tiles.columns > 1);
+    let projection = Projection { gl, state, shear };
+    for view in atlas.tiles.order().filter(|&v| wanted && v != own) {
+        let x = atlas.enter(gl, view);
+        if beside {
+            place(gl, state, x, size(atlas));
+        }
+        projection.load(rig.place(view));
+        call(view);
+    }
+    atlas.enter(gl, own);
+    if beside {
+        unplace(gl, state);
+    }
+    projection.load(0.0);
+}
+
+fn size(atlas: &Atlas) -> [i32; 2] {
+    [atlas.tiles.width as i32, atlas.tiles.height as i32]
 }
 
 /// Viewport and scissor of the program, moved by a tile's offset and cut to the tile.
@@ -237,6 +277,40 @@ impl Raster {
         if moved != [0.0; 2] {
             gl.move_raster(moved[0], moved[1]);
         }
+    }
+}
+
+/// The stack of matrices that a list works on: that of the matrix mode it is called in.
+struct Stack {
+    mode: u32,
+    depth_name: u32,
+    depth: i32,
+    top: [f32; 16],
+}
+
+impl Stack {
+    fn take(gl: &Gl, mode: u32) -> Option<Stack> {
+        let (top, depth_name) = match mode {
+            c::MODELVIEW => (c::MODELVIEW_MATRIX, c::MODELVIEW_STACK_DEPTH),
+            c::PROJECTION => (c::PROJECTION_MATRIX, c::PROJECTION_STACK_DEPTH),
+            c::TEXTURE => (c::TEXTURE_MATRIX, c::TEXTURE_STACK_DEPTH),
+            _ => return None,
+        };
+        Some(Stack {
+            mode,
+            depth_name,
+            depth: gl.get_integer(depth_name),
+            top: gl.get_floats(top),
+        })
+    }
+
+    /// As it was. Also in the mode that the list has left.
+    fn put(&self, gl: &Gl) {
+        gl.matrix_mode(self.mode);
+        let now = gl.get_integer(self.depth_name);
+        (self.depth..now).for_each(|_| gl.pop_matrix());
+        (now..self.depth).for_each(|_| gl.push_matrix());
+        gl.load_matrix(&self.top);
     }
 }
 

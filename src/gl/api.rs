@@ -1,7 +1,7 @@
 //! The layer's own calls into the driver: thin, without pointers for the caller.
 
 use super::held::Held;
-use super::immediate::Recording;
+use super::immediate::{Ends, Recording};
 use super::real::{Ptr, Real};
 use core::ffi::CStr;
 
@@ -511,12 +511,18 @@ impl Gl {
         v
     }
 
-    /// Sends recorded immediate mode between a glBegin and a glEnd.
-    pub fn replay(&self, mode: u32, recording: &Recording) {
-        self.begin(mode);
+    /// Sends recorded immediate mode between a glBegin and a glEnd, or lists that have them.
+    pub fn replay(&self, mode: u32, recording: &Recording, ends: Ends) {
+        match ends.opener {
+            0 => self.begin(mode),
+            list => self.call_list(list),
+        }
         // SAFETY: between glBegin and glEnd of the context it was recorded in (the caller keeps one per context).
         unsafe { recording.replay(self.real) };
-        self.end();
+        match ends.closer {
+            0 => self.end(),
+            list => self.call_list(list),
+        }
     }
 
     /// glDrawElementsInstanced with the program's own index pointer.

@@ -108,6 +108,15 @@ impl Recording {
     }
 }
 
+/// Lists that begin and end a primitive in the place of glBegin and glEnd; 0 for none.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Ends {
+    /// Has glBegin without glEnd.
+    pub opener: u32,
+    /// Has glEnd without glBegin.
+    pub closer: u32,
+}
+
 /// Reads the words of a [`Recording`] back in the order of writing.
 pub(super) struct Reader<'a> {
     words: &'a [u32],

@@ -14,6 +14,6 @@ mod textures;
 
 pub use api::Gl;
 pub use held::{Count, Held};
-pub use immediate::Recording;
+pub use immediate::{Ends, Recording};
 pub use real::{Ptr, Real};
 pub use table::{COUNT, NAMES, slot};

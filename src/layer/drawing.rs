@@ -4,7 +4,7 @@ use super::Layer;
 use crate::config::{Class, Projection, Word};
 use crate::draw::{Again, Amplified, Current, FixedState, replay};
 use crate::gl::api::Indices;
-use crate::gl::{Gl, Recording, consts as c};
+use crate::gl::{Ends, Gl, Recording, consts as c};
 use crate::plan::{Kind, Method, Plan, plan};
 use crate::state::{Begin, Command, Effect, Immediate, Run, Touch};
 
@@ -237,10 +237,7 @@ impl Layer {
     pub fn begin(&mut self, gl: &Gl, mode: u32) -> bool {
         // In a list it is compiled.
         if self.compiles() {
-            self.compile(gl, Command::Begin, Touch::NONE);
-            if let Some(list) = &mut self.state.list {
-                list.between = true;
-            }
+            self.compile(gl, Command::Begin(mode), Touch::NONE);
             return false;
         }
         // A mode that does not exist begins nothing.
@@ -258,10 +255,15 @@ impl Layer {
             self.state.begin = Begin::Direct;
             return false;
         }
+        self.start_recording(mode);
+        true
+    }
+
+    pub(super) fn start_recording(&mut self, mode: u32) {
         self.recording.clear();
         self.immediate = Immediate::default();
+        self.ends = Ends::default();
         self.state.begin = Begin::Recorded(mode);
-        true
     }
 
     /// Where a call between glBegin and glEnd is written.
@@ -284,11 +286,12 @@ impl Layer {
         };
         let recording = std::mem::take(&mut self.recording);
         let amplified = match plan.method {
-            Method::Instanced | Method::Geometry => {
+            Method::Instanced | Method::Geometry if self.ends == Ends::default() => {
                 self.amplify(gl, &plan, mode, self.immediate.changes_material())
             }
-            Method::Once | Method::Replay => None,
+            _ => None,
         };
+        let ends = self.ends;
         match amplified {
             Some(how) => {
                 // Several calls (many views, several layers) each start from the same current values.
@@ -301,24 +304,19 @@ impl Layer {
                     if !std::mem::take(&mut first) {
                         current.put(gl);
                     }
-                    gl.replay(how.mode, &recording);
+                    gl.replay(how.mode, &recording, ends);
                 });
             }
             None if plan.method == Method::Once => {
-                self.once(gl, &mut || gl.replay(mode, &recording));
+                self.once(gl, &mut || gl.replay(mode, &recording, ends));
             }
-            None => self.replay(gl, &plan, again, &mut |_| gl.replay(mode, &recording)),
+            None => self.replay(gl, &plan, again, &mut |_| {
+                gl.replay(mode, &recording, ends);
+            }),
         }
         self.recording = recording;
         if self.immediate.changes_material() {
             self.state.touch(Touch::MATERIAL);
-        }
-    }
-
-    /// glEnd in a list.
-    pub fn compiled_end(&mut self) {
-        if let Some(list) = &mut self.state.list {
-            list.between = false;
         }
     }
 

@@ -4,7 +4,7 @@ use super::{Layer, keep_bindings};
 use crate::atlas::Atlas;
 use crate::gl::{Gl, consts as c};
 use crate::plan::Kind;
-use crate::state::{Command, Run, Touch};
+use crate::state::{Command, Run, Segment, Touch};
 
 /// What glPushAttrib saved of framebuffer 0.
 #[derive(Debug)]
@@ -19,15 +19,20 @@ impl Layer {
     /// glPushAttrib: the driver saves the buffers of the atlas, the layer the program's words for them.
     pub fn push_attrib(&mut self, gl: &Gl, mask: u32, push: &mut dyn FnMut()) {
         if self.compiles() {
-            self.compile(gl, Command::PushAttrib, Touch::NONE);
-            return push();
+            self.compile(gl, Command::PushAttrib(mask), Touch::NONE);
+            if !self.executes() {
+                return push();
+            }
         }
         let before = gl.get_integer(c::ATTRIB_STACK_DEPTH);
         push();
         let depth = gl.get_integer(c::ATTRIB_STACK_DEPTH);
-        if depth <= before {
-            return; // the stack was full
+        if depth > before {
+            self.pushed_attribs(depth, mask);
         }
+    }
+
+    fn pushed_attribs(&mut self, depth: i32, mask: u32) {
         let f = &self.state.framebuffers;
         // Lists push and pop without our seeing it: what is above has gone.
         self.pushed.retain(|p| p.depth < depth);
@@ -43,11 +48,29 @@ impl Layer {
     pub fn pop_attrib(&mut self, gl: &Gl, pop: &mut dyn FnMut()) {
         if self.compiles() {
             self.compile(gl, Command::PopAttrib, Touch::ALL);
-            return pop();
+            if !self.executes() {
+                return pop();
+            }
         }
         self.state.touch(Touch::ALL);
         let depth = gl.get_integer(c::ATTRIB_STACK_DEPTH);
         pop();
+        self.popped_attribs(gl, depth);
+    }
+
+    /// After a run of a list that has popped and pushed; `depth` is that of the stack before it.
+    pub(super) fn left_attribs(&mut self, gl: &Gl, depth: i32, run: &Segment) {
+        let floor = (depth - run.pops as i32).max(0);
+        for depth in (floor + 1..=depth).rev() {
+            self.popped_attribs(gl, depth);
+        }
+        let now = gl.get_integer(c::ATTRIB_STACK_DEPTH);
+        for (depth, mask) in (floor + 1..=now).zip(&run.pushes) {
+            self.pushed_attribs(depth, *mask);
+        }
+    }
+
+    fn popped_attribs(&mut self, gl: &Gl, depth: i32) {
         let saved = self.pushed.iter().position(|p| p.depth == depth);
         let Some(saved) = saved.map(|at| self.pushed.swap_remove(at)) else {
             return;
@@ -61,7 +84,7 @@ impl Layer {
             f.read_buffer = b;
         }
         if before != (f.draw_buffers.clone(), f.read_buffer) {
-            self.apply_buffers(gl);
+            self.outside_list(gl, |layer| layer.apply_buffers(gl));
         }
     }
 
@@ -283,6 +306,10 @@ impl Layer {
             gl.disable(c::SCISSOR_TEST);
         }
         self.atlas.take_single(gl, view);
+        // Where the program reads from no buffer, it is told so.
+        let buffer = self.state.framebuffers.read_buffer;
+        let buffer = self.state.framebuffers.translate(buffer);
+        gl.read_buffer(buffer.unwrap_or(c::COLOR_ATTACHMENT0));
         if self.state.scissor_test {
             gl.enable(c::SCISSOR_TEST);
         }
@@ -305,9 +332,13 @@ impl Layer {
         }
         self.plan(gl, Kind::Pixels);
         let own = self.atlas.tiles.own();
+        self.queries.pause(gl);
         for view in self.atlas.tiles.order() {
             self.take_single(gl, view);
             let x = self.atlas.enter(gl, view);
+            if view == own {
+                self.queries.resume(gl);
+            }
             self.scissored(gl, x, &mut || {
                 if view == own {
                     return call();
@@ -322,8 +353,8 @@ impl Layer {
     }
 
     /// glBlitFramebuffer: into every view's tile where it draws to framebuffer 0; from the same view's tile where it also reads
-    /// from there. `blit` takes the x offsets of source and destination in pixels.
-    pub fn blit(&mut self, gl: &Gl, blit: &mut dyn FnMut(i32, i32)) {
+    /// from there. `blit` takes the x offsets of source and destination in pixels; `scaled`: their sizes differ.
+    pub fn blit(&mut self, gl: &Gl, scaled: bool, blit: &mut dyn FnMut(i32, i32)) {
         if self.compiles() {
             self.compile(gl, Command::Of(Run::Blit), Touch::NONE);
             return blit(0, 0);
@@ -336,8 +367,17 @@ impl Layer {
             return blit(0, 0);
         }
         self.state.refresh(gl);
+        // Where pixels lie between others, the nearest is a matter of rounding, which is that of the window only in its size.
+        let single = read && scaled && self.atlas.tiles.columns > 1 && !self.atlas.multisampled();
         for view in self.atlas.tiles.order() {
+            if single {
+                self.take_single(gl, view);
+            }
             let x = self.atlas.enter(gl, view);
+            if single {
+                self.scissored(gl, x, &mut || blit(0, x));
+                continue;
+            }
             if read {
                 let (from, _) = self.atlas.target(view);
                 gl.bind_framebuffer(c::READ_FRAMEBUFFER, from);

@@ -2,17 +2,17 @@
 
 use super::Layer;
 use crate::draw::Again;
-use crate::gl::{Gl, consts as c};
+use crate::gl::{Gl, consts as c, slot};
 use crate::plan::{Kind, Method};
-use crate::state::{Begin, Body, Command, Compiling, Effect, Run, Segment, Touch};
+use crate::state::{Begin, Body, Command, Compiling, Effect, Run, Segment, Start, Touch};
 use std::sync::PoisonError;
 
 /// GL_MAX_LIST_NESTING is at least 64; deeper calls are ignored by the driver too.
 const NESTING: u32 = 64;
 
 impl Layer {
-    /// glNewList, on a name and mode that the driver may take: answers the name of the driver's list of the first run, to be
-    /// begun with GL_COMPILE. `None`: the call is the driver's own.
+    /// glNewList, on a name and mode that the driver may take: answers the name of the driver's list of the first run. `None`: the
+    /// call is the driver's own.
     pub fn new_list(&mut self, gl: &Gl, list: u32, mode: u32) -> Option<u32> {
         let known = [c::COMPILE, c::COMPILE_AND_EXECUTE].contains(&mode) && list != 0;
         if !known || self.state.list.is_some() || self.state.begin != Begin::Outside {
@@ -42,19 +42,22 @@ impl Layer {
 
     /// A command that is about to be compiled, and what it touches when the list is called.
     pub fn compile(&mut self, gl: &Gl, command: Command, touch: Touch) {
-        let Some(list) = &mut self.state.list else {
+        let Some(list) = &self.state.list else {
             return;
         };
-        if list.needs_split(command) {
-            self.end_run(gl, |_, _| {});
+        if let Some(start) = list.needs_split(command) {
+            self.end_run(gl, start, |_| {});
         }
         if let Some(list) = &mut self.state.list {
-            list.note(command, touch);
+            let touch = list.note(command, touch);
+            if list.start == Start::Now {
+                self.state.touch(touch);
+            }
         }
     }
 
     /// Ends the open run, does something outside of lists, and begins another run.
-    fn end_run(&mut self, gl: &Gl, outside: impl FnOnce(&mut Self, &mut Compiling)) {
+    fn end_run(&mut self, gl: &Gl, start: Start, outside: impl FnOnce(&mut Self)) {
         let Some(mut list) = self.state.list.take() else {
             return;
         };
@@ -62,18 +65,40 @@ impl Layer {
         if list.used() {
             let name = self.list_name(gl);
             list.split(name);
+            self.ended_run(gl, &list);
         }
-        outside(self, &mut list);
-        gl.new_list(list.name(), c::COMPILE);
+        outside(self);
+        list.start = start;
+        if start == Start::Own {
+            self.start_own(gl);
+        }
+        gl.new_list(list.name(), start.mode());
         self.state.list = Some(list);
+    }
+
+    /// A run has been closed: executes what of it the driver has not.
+    fn ended_run(&mut self, gl: &Gl, list: &Compiling) {
+        let Some(run) = list.last() else { return };
+        match list.start {
+            Start::Own => {
+                self.finish_own(gl, run.name);
+                self.state.touch(run.touch);
+            }
+            Start::Now => self.state.touch(run.touch),
+            Start::Later if list.executes() => {
+                self.state.refresh(gl);
+                self.segment(gl, run, 1);
+            }
+            Start::Later => {}
+        }
     }
 
     /// Before a command that is not compiled: what GL_COMPILE_AND_EXECUTE has compiled is executed. Between glBegin and glEnd
     /// nothing can be.
     pub fn catch_up(&mut self, gl: &Gl) {
-        let pending = |l: &Compiling| l.executes() && l.used() && !l.between;
+        let pending = |l: &Compiling| l.start != Start::Now && l.executes() && !l.between;
         if self.state.list.as_ref().is_some_and(pending) {
-            self.end_run(gl, |layer, list| layer.execute(gl, list));
+            self.end_run(gl, Start::Now, |_| {});
         }
     }
 
@@ -82,14 +107,14 @@ impl Layer {
         match &self.state.list {
             None => work(self),
             Some(list) if list.between => {}
-            Some(_) => self.end_run(gl, |layer, _| work(layer)),
+            Some(list) => {
+                let start = match list.start {
+                    Start::Later if !list.executes() => Start::Later,
+                    _ => Start::Now,
+                };
+                self.end_run(gl, start, work);
+            }
         }
-    }
-
-    fn execute(&mut self, gl: &Gl, list: &mut Compiling) {
-        let runs = list.take_unexecuted();
-        self.state.refresh(gl);
-        runs.iter().for_each(|run| self.segment(gl, run, 1));
     }
 
     /// The names of a glCallLists that was compiled, without the list base; or what else the run needs to know.
@@ -113,9 +138,7 @@ impl Layer {
         }
         list.finish();
         // Before the list has its name: it may call what had it before.
-        if list.executes() {
-            self.execute(gl, &mut list);
-        }
+        self.ended_run(gl, &list);
         let body = list.body();
         gl.new_list(list.list, c::COMPILE);
         for segment in body.iter() {
@@ -185,7 +208,8 @@ impl Layer {
             return self.unknown_list(gl, call);
         };
         let segments = || bodies.iter().flat_map(|b| b.iter());
-        if !self.state.draws_to_window() && segments().all(|s| s.run.is_plain()) {
+        let balanced = segments().all(Segment::is_balanced);
+        if balanced && !self.state.draws_to_window() && segments().all(|s| s.run.is_plain()) {
             let touch = segments().fold(Touch::NONE, |t, s| t | s.touch);
             call();
             self.state.touch(touch);
@@ -194,11 +218,13 @@ impl Layer {
         // Letters: one run a list, all of a kind. Sent as they are.
         let one = segments().next().map(|s| s.run);
         if let Some(run @ (Run::Draw | Run::Raster)) = one
+            && balanced
             && segments().all(|s| s.run == run)
         {
             let touch = segments().fold(Touch::NONE, |t, s| t | s.touch);
             let current = segments().fold(Effect::NONE, |e, s| e | s.immediate.sets());
-            return self.run(gl, run, touch, current, call);
+            let primitives = segments().all(|s| s.primitives);
+            return self.run(gl, run, touch, (current, primitives), call);
         }
         for body in &bodies {
             for segment in body.iter() {
@@ -215,6 +241,17 @@ impl Layer {
     }
 
     fn segment(&mut self, gl: &Gl, segment: &Segment, depth: u32) {
+        if self.state.begin != Begin::Outside {
+            return self.inside(gl, segment);
+        }
+        if let Some(mode) = segment.opens
+            && self.state.draws_to_window()
+        {
+            self.start_recording(mode);
+            self.ends.opener = segment.name;
+            self.immediate.note(Effect::UNKNOWN);
+            return self.state.touch(segment.touch);
+        }
         match segment.run {
             Run::List(list) => self.nested(gl, &[list], depth),
             Run::Lists => {
@@ -239,17 +276,67 @@ impl Layer {
             }
             Run::Blit => {
                 if let Ok(arguments) = <&[u32; 10]>::try_from(&*segment.names) {
-                    self.blit(gl, &mut |from, to| gl.blit(arguments, from, to));
+                    let scaled = is_scaled(&arguments.map(|v| v as i32));
+                    self.blit(gl, scaled, &mut |from, to| gl.blit(arguments, from, to));
                 }
             }
-            run => self.run(
-                gl,
-                run,
-                segment.touch,
-                segment.immediate.must_restore(),
-                &mut || gl.call_list(segment.name),
-            ),
+            run => {
+                let attribs =
+                    (!segment.is_balanced()).then(|| gl.get_integer(c::ATTRIB_STACK_DEPTH));
+                self.run(
+                    gl,
+                    run,
+                    segment.touch,
+                    (segment.immediate.must_restore(), segment.primitives),
+                    &mut || gl.call_list(segment.name),
+                );
+                match (segment.opens, attribs) {
+                    (Some(_), _) => self.state.begin = Begin::Direct,
+                    (None, Some(depth)) => self.left_attribs(gl, depth, segment),
+                    _ => {}
+                }
+            }
         }
+    }
+
+    /// A run that is called within a primitive.
+    fn inside(&mut self, gl: &Gl, segment: &Segment) {
+        if self.state.begin == Begin::Direct {
+            gl.call_list(segment.name);
+            if segment.closes {
+                self.state.begin = Begin::Outside;
+            }
+        } else if segment.closes {
+            self.immediate.note(Effect::UNKNOWN);
+            self.ends.closer = segment.name;
+            self.end(gl);
+        } else {
+            self.record(slot::glCallList, Effect::UNKNOWN)
+                .u32(segment.name);
+        }
+    }
+
+    /// Whether a list that is called within a primitive ends it.
+    pub fn closes(&self, list: u32) -> bool {
+        let lists = self.lists.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut next = list;
+        for _ in 0..NESTING {
+            let body = lists.body(next);
+            match body.as_deref().and_then(<[Segment]>::first) {
+                Some(first) if first.closes => return true,
+                Some(Segment {
+                    run: Run::List(list),
+                    ..
+                }) => next = *list,
+                _ => return false,
+            }
+        }
+        false
+    }
+
+    /// A list that ends the primitive that is being recorded; the driver stands outside of it.
+    pub fn close_by_list(&mut self, gl: &Gl, list: u32) {
+        self.nested(gl, &[list], 0);
     }
 
     fn nested(&mut self, gl: &Gl, lists: &[u32], depth: u32) {
@@ -280,8 +367,16 @@ impl Layer {
         self.state.touched = Touch::ALL;
     }
 
-    /// Executes one run, or several of a kind. `current`: the values that it starts from and changes.
-    fn run(&mut self, gl: &Gl, run: Run, touch: Touch, current: Effect, call: &mut dyn FnMut()) {
+    /// Executes one run, or several of a kind. `drawing`: the current values that it starts from and changes, and whether it is
+    /// nothing but primitives.
+    fn run(
+        &mut self,
+        gl: &Gl,
+        run: Run,
+        touch: Touch,
+        drawing: (Effect, bool),
+        call: &mut dyn FnMut(),
+    ) {
         match run {
             Run::Open
             | Run::State
@@ -293,22 +388,22 @@ impl Layer {
             Run::Draw => {
                 let plan = self.plan(gl, Kind::List);
                 if plan.method == Method::Once {
-                    call();
+                    self.once(gl, call);
                     return self.state.touch(touch);
                 }
                 // The list changes the current matrix, and that is the projection.
                 let projection =
                     touch.has(Touch::MATRIX) && self.state.matrix_mode == c::PROJECTION;
-                let again = Again::Anything {
-                    rects: touch.has(Touch::RECTS),
-                    projection,
-                    current,
+                let again = match drawing {
+                    (Effect::NONE, true) => Again::Same,
+                    (current, true) => Again::Current(current),
+                    (current, false) => Again::Anything {
+                        rects: touch.has(Touch::RECTS),
+                        projection,
+                        current,
+                    },
                 };
-                if plan.method == Method::Once {
-                    self.once(gl, call);
-                } else {
-                    self.replay(gl, &plan, again, &mut |_| call());
-                }
+                self.replay(gl, &plan, again, &mut |_| call());
             }
             Run::Clear => self.draw(gl, Kind::Clear, call),
             Run::Accum => self.draw(gl, Kind::Accum, call),
@@ -324,4 +419,11 @@ impl Layer {
             self.placed_in_window();
         }
     }
+}
+
+/// Whether a glBlitFramebuffer with these arguments changes the size, or turns the picture round.
+pub fn is_scaled(arguments: &[i32; 10]) -> bool {
+    let [x0, y0, x1, y1, to_x0, to_y0, to_x1, to_y1, ..] = *arguments;
+    let size = |a: i32, b: i32| b.wrapping_sub(a);
+    size(x0, x1) != size(to_x0, to_x1) || size(y0, y1) != size(to_y0, to_y1)
 }

@@ -4,6 +4,7 @@
 mod classing;
 mod copies;
 mod drawing;
+mod executed;
 mod explain;
 mod frame;
 mod framebuffer;
@@ -14,12 +15,13 @@ pub mod support;
 
 pub use drawing::Primitives;
 pub use frames::Frames;
+pub use lists::is_scaled;
 pub use queries::Answer;
 
 use crate::atlas::{Atlas, AtlasError, Names, Tiles};
 use crate::config::{AtlasLayout, Config, Projection, Strategy, profile};
 use crate::draw::{Driver, FixedState, Programs};
-use crate::gl::{Count, Gl, Held, Recording, consts as c};
+use crate::gl::{Count, Ends, Gl, Held, Recording, consts as c};
 use crate::interleave::Interleaver;
 use crate::plan::{Classifier, Means, Rig, Shear};
 use crate::report::Report;
@@ -67,7 +69,9 @@ pub struct Layer {
     pushed: Vec<framebuffer::Pushed>,
     queries: queries::Queries,
     copies: copies::Copies,
+    executed: Option<executed::Own>,
     recording: Recording,
+    ends: Ends,
     immediate: Immediate,
     support: Support,
     classifier: Classifier,
@@ -124,7 +128,9 @@ impl Layer {
             pushed: Vec::new(),
             queries: queries::Queries::default(),
             copies: copies::Copies::new(gl, support.compatibility),
+            executed: None,
             recording: Recording::default(),
+            ends: Ends::default(),
             immediate: Immediate::default(),
             support,
             classifier: Classifier::new(

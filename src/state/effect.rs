@@ -38,6 +38,8 @@ impl Effect {
     pub const UNKNOWN: Effect = Effect(1024);
     /// Nothing.
     pub const NONE: Effect = Effect(0);
+    /// Everything.
+    pub const ALL: Effect = Effect(4095);
 
     /// Whether any of `other` is in `self`.
     pub fn has(self, other: Effect) -> bool {

@@ -5,6 +5,7 @@
 //! itself (another list, a context without a layer, selection) gets all of it.
 
 use super::{Effect, Immediate, Touch};
+use crate::gl::consts as c;
 use std::collections::HashMap;
 use std::sync::Arc;
 
@@ -72,6 +73,23 @@ pub struct Segment {
     pub names: Arc<[u32]>,
     /// What it does to the current values.
     pub immediate: Immediate,
+    /// Of a run that draws: nothing but primitives and current values.
+    pub primitives: bool,
+    /// Levels of attributes that it pops and has not pushed.
+    pub pops: u32,
+    /// The masks of those that it pushes and leaves.
+    pub pushes: Vec<u32>,
+    /// The primitive that it leaves open (glBegin without glEnd).
+    pub opens: Option<u32>,
+    /// It begins within a primitive and ends that (glEnd without glBegin).
+    pub closes: bool,
+}
+
+impl Segment {
+    /// Whether it leaves primitives and the attribute stack as they were.
+    pub fn is_balanced(&self) -> bool {
+        self.pops == 0 && self.pushes.is_empty() && self.opens.is_none() && !self.closes
+    }
 }
 
 /// The runs of one list.
@@ -193,7 +211,31 @@ impl Lists {
     }
 }
 
+/// When the driver executes what is compiled into the open run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Start {
+    /// When the run has ended, or never.
+    Later,
+    /// At once (GL_COMPILE_AND_EXECUTE).
+    Now,
+    /// At once, in the program's own view; in the others when the run has ended.
+    Own,
+}
+
+impl Start {
+    /// The mode of glNewList.
+    pub fn mode(self) -> u32 {
+        match self {
+            Start::Later => c::COMPILE,
+            Start::Now | Start::Own => c::COMPILE_AND_EXECUTE,
+        }
+    }
+}
+
 /// A list between glNewList and glEndList.
+///
+/// With GL_COMPILE_AND_EXECUTE the driver itself executes what it compiles, for the program's own view: what it makes of incomplete
+/// primitives and of wrong calls is not what it makes of a list that is called.
 #[derive(Debug)]
 pub struct Compiling {
     /// The program's name for it.
@@ -204,13 +246,14 @@ pub struct Compiling {
     pub between: bool,
     /// It enables GL_FRAMEBUFFER_SRGB.
     pub enables_srgb: bool,
+    /// How the open run was begun.
+    pub start: Start,
     closed: Vec<Segment>,
-    executed: usize,
     open: Segment,
     used: bool,
     matrix_mode: Option<u32>,
     matrices: u32,
-    attribs: u32,
+    mode_begun: u32,
 }
 
 /// A command in a list, as far as it decides about runs.
@@ -219,7 +262,9 @@ pub enum Command {
     /// Of the kind of a run.
     Of(Run),
     /// glBegin.
-    Begin,
+    Begin(u32),
+    /// glEnd.
+    End,
     /// A vertex or a current value.
     Immediate(Effect),
     /// glMatrixMode.
@@ -231,7 +276,7 @@ pub enum Command {
     /// glPopMatrix.
     PopMatrix,
     /// glPushAttrib.
-    PushAttrib,
+    PushAttrib(u32),
     /// glPopAttrib.
     PopAttrib,
 }
@@ -243,6 +288,11 @@ fn fresh(name: u32) -> Segment {
         touch: Touch::NONE,
         names: Arc::default(),
         immediate: Immediate::default(),
+        primitives: true,
+        pops: 0,
+        pushes: Vec::new(),
+        opens: None,
+        closes: false,
     }
 }
 
@@ -254,41 +304,58 @@ impl Compiling {
             mode,
             between: false,
             enables_srgb: false,
+            start: match mode {
+                c::COMPILE_AND_EXECUTE => Start::Now,
+                _ => Start::Later,
+            },
             closed: Vec::new(),
-            executed: 0,
             open: fresh(name),
             used: false,
             matrix_mode: None,
             matrices: 0,
-            attribs: 0,
+            mode_begun: 0,
         }
     }
 
-    /// Decides on a command that is about to be compiled; true: the open run must be ended first ([`Compiling::split`]).
-    pub fn needs_split(&mut self, command: Command) -> bool {
+    /// Decides on a command that is about to be compiled; how another run has to be begun for it, if the open one must be ended
+    /// first ([`Compiling::split`]).
+    pub fn needs_split(&self, command: Command) -> Option<Start> {
         let run = self.kind(command);
-        let fits = self.open.run.takes(run) || (self.open.run == Run::Open && !self.used);
-        !self.between && !fits
+        let start = match run {
+            _ if !self.executes() => Start::Later,
+            Run::Open if self.start == Start::Own && matches!(command, Command::Immediate(_)) => {
+                Start::Own
+            }
+            Run::Open | Run::State => Start::Now,
+            Run::Draw => Start::Own,
+            _ => Start::Later,
+        };
+        let empty = self.open.run == Run::Open && !self.used;
+        let fits = self.start == start && (empty || self.open.run.takes(run)) && !self.open.closes;
+        (!self.between && !fits).then_some(start)
     }
 
     /// The driver has ended the open run's list and begun another one.
     pub fn split(&mut self, name: u32) {
         let closed = std::mem::replace(&mut self.open, fresh(name));
         self.close(closed);
-        (self.used, self.matrices, self.attribs) = (false, 0, 0);
+        (self.used, self.matrices) = (false, 0);
     }
 
     fn close(&mut self, mut segment: Segment) {
-        if self.attribs > 0 {
+        if !segment.pushes.is_empty() {
             // What stays pushed must be the program's own rectangles.
             segment.touch = segment.touch | Touch::RECTS;
+        }
+        if self.between {
+            segment.opens = Some(self.mode_begun);
         }
         self.closed.push(segment);
     }
 
     /// Whether the program wants the commands executed as well (GL_COMPILE_AND_EXECUTE).
     pub fn executes(&self) -> bool {
-        self.mode == crate::gl::consts::COMPILE_AND_EXECUTE
+        self.mode == c::COMPILE_AND_EXECUTE
     }
 
     /// Whether something has been compiled into the open run.
@@ -301,28 +368,28 @@ impl Compiling {
         self.open.name
     }
 
-    /// The closed runs that have not been executed yet; from now on they have.
-    pub fn take_unexecuted(&mut self) -> Vec<Segment> {
-        let runs = self
-            .closed
-            .get(self.executed..)
-            .unwrap_or_default()
-            .to_vec();
-        self.executed = self.closed.len();
-        runs
+    /// The run that was closed last.
+    pub fn last(&self) -> Option<&Segment> {
+        self.closed.last()
     }
 
-    /// Takes note of a command that is compiled into the open run, and of what it touches.
-    pub fn note(&mut self, command: Command, touch: Touch) {
+    /// Takes note of a command that is compiled into the open run, and of what it touches; answers what that is in this list.
+    pub fn note(&mut self, command: Command, touch: Touch) -> Touch {
         let run = self.kind(command);
+        // A list that begins within a primitive: nothing but vertices, and the end.
+        let inside = self.closed.is_empty() && self.open.run == Run::Open && self.open.primitives;
         if !self.between && run != Run::Open {
             self.open.run = run;
         }
         self.used = true;
+        self.open.primitives &= matches!(
+            command,
+            Command::Begin(_) | Command::End | Command::Immediate(_) | Command::Of(Run::Draw)
+        );
         let touch = match command {
             Command::Matrix | Command::PopMatrix => match self.matrix_mode {
                 None => Touch::MATRIX,
-                Some(crate::gl::consts::MODELVIEW) => Touch::NONE,
+                Some(c::MODELVIEW) => Touch::MODELVIEW,
                 Some(_) => Touch::DSA_MATRIX,
             },
             _ => touch,
@@ -332,13 +399,25 @@ impl Compiling {
             Command::MatrixMode(mode) => self.matrix_mode = Some(mode),
             Command::PushMatrix => self.matrices += 1,
             Command::PopMatrix => self.matrices = self.matrices.saturating_sub(1),
-            Command::PushAttrib => self.attribs += 1,
-            Command::PopAttrib => self.attribs = self.attribs.saturating_sub(1),
+            Command::PushAttrib(mask) => self.open.pushes.push(mask),
+            Command::PopAttrib => {
+                if self.open.pushes.pop().is_none() {
+                    self.open.pops += 1;
+                }
+            }
+            Command::Begin(mode) if !self.between => {
+                // A mode that does not exist begins nothing.
+                self.between = mode <= c::PATCHES;
+                self.mode_begun = mode;
+            }
+            Command::End if self.between => self.between = false,
+            Command::End => self.open.closes = inside && !self.executes(),
             Command::Immediate(effect) => self.open.immediate.note(effect),
             // Its vertices use the current values as they are before it.
             Command::Of(Run::Draw) => self.open.immediate.note(Effect::VERTEX),
-            Command::Of(_) | Command::Matrix | Command::Begin => {}
+            Command::Of(_) | Command::Matrix | Command::Begin(_) => {}
         }
+        touch
     }
 
     /// The names of glCallLists, just compiled into the open run.
@@ -359,17 +438,17 @@ impl Compiling {
     fn kind(&self, command: Command) -> Run {
         let free = |balanced: bool| if balanced { Run::Open } else { Run::State };
         // Unknown: the mode is that of the time of the call, nearly always the modelview.
-        let modelview = self
-            .matrix_mode
-            .is_none_or(|m| m == crate::gl::consts::MODELVIEW);
+        let modelview = self.matrix_mode.is_none_or(|m| m == c::MODELVIEW);
         match command {
             Command::Of(run) => run,
-            Command::Begin => Run::Draw,
+            Command::Begin(_) => Run::Draw,
+            // Alone it is an error.
+            Command::End => Run::Open,
             Command::MatrixMode(_) => Run::State,
             Command::Matrix | Command::PushMatrix => free(modelview),
             Command::PopMatrix => free(modelview && self.matrices > 0),
-            Command::PushAttrib | Command::Immediate(_) => Run::Open,
-            Command::PopAttrib => free(self.attribs > 0),
+            Command::PushAttrib(_) | Command::Immediate(_) => Run::Open,
+            Command::PopAttrib => free(!self.open.pushes.is_empty()),
         }
     }
 }
@@ -377,14 +456,13 @@ impl Compiling {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::gl::consts as c;
 
     /// The runs of a list of commands, with how many commands each has.
     fn runs(commands: &[Command]) -> Vec<(Run, usize)> {
         let mut list = Compiling::new(1, c::COMPILE, 100);
         let mut counts = vec![0];
         for &command in commands {
-            if list.needs_split(command) {
+            if list.needs_split(command).is_some() {
                 list.split(100 + counts.len() as u32);
                 counts.push(0);
             }
@@ -406,7 +484,14 @@ mod tests {
     fn what_can_be_put_back_stays_with_the_drawing() {
         use Command::*;
         let robot = [
-            PushAttrib, PushMatrix, Matrix, ANY, DRAW, PopMatrix, DRAW, PopAttrib,
+            PushAttrib(1),
+            PushMatrix,
+            Matrix,
+            ANY,
+            DRAW,
+            PopMatrix,
+            DRAW,
+            PopAttrib,
         ];
         assert_eq!(runs(&robot), [(Run::Draw, 8)]);
         assert_eq!(runs(&[ANY, Matrix]), [(Run::Open, 2)]);
@@ -437,7 +522,7 @@ mod tests {
         use Command::*;
         assert_eq!(runs(&[DRAW, PopMatrix]), [(Run::Draw, 1), (Run::State, 1)]);
         assert_eq!(runs(&[PopAttrib, DRAW]), [(Run::State, 1), (Run::Draw, 1)]);
-        let across = [PushAttrib, STATE, DRAW, PopAttrib];
+        let across = [PushAttrib(1), STATE, DRAW, PopAttrib];
         assert_eq!(
             runs(&across),
             [(Run::State, 2), (Run::Draw, 1), (Run::State, 1)]
@@ -464,10 +549,37 @@ mod tests {
         let mut list = Compiling::new(1, c::COMPILE, 9);
         list.note(DRAW, Touch::NONE);
         list.between = true;
-        assert!(!list.needs_split(Command::Of(Run::List(3))));
+        assert_eq!(list.needs_split(Command::Of(Run::List(3))), None);
         list.note(Command::Of(Run::List(3)), Touch::ALL);
         list.finish();
         assert_eq!(list.body()[0].run, Run::Draw);
+    }
+
+    #[test]
+    fn what_is_left_open_is_known() {
+        use Command::*;
+        const VERTEX: Command = Immediate(Effect::VERTEX);
+        let body = |commands: &[Command]| {
+            let mut list = Compiling::new(1, c::COMPILE, 9);
+            for &command in commands {
+                if list.needs_split(command).is_some() {
+                    list.split(10);
+                }
+                list.note(command, Touch::NONE);
+            }
+            list.finish();
+            let (first, last) = (&list.body()[0], &list.body()[list.body().len() - 1]);
+            (first.closes, first.pops, last.opens, last.pushes.clone())
+        };
+        assert_eq!(body(&[Begin(4), VERTEX, End]), (false, 0, None, vec![]));
+        assert_eq!(body(&[ANY, Begin(7), VERTEX]), (false, 0, Some(7), vec![]));
+        assert_eq!(body(&[VERTEX, End, ANY]), (true, 0, None, vec![]));
+        // An error wherever it is called.
+        assert_eq!(body(&[ANY, End]), (false, 0, None, vec![]));
+        assert_eq!(
+            body(&[PopAttrib, PopAttrib, PushAttrib(5)]),
+            (false, 2, None, vec![5])
+        );
     }
 
     #[test]

@@ -9,7 +9,7 @@ mod look;
 
 pub use effect::{Effect, Immediate};
 pub use framebuffer::{Framebuffers, Window};
-pub use lists::{Body, Command, Compiling, Left, Lists, Run, Segment};
+pub use lists::{Body, Command, Compiling, Left, Lists, Run, Segment, Start};
 pub use look::Look;
 
 use crate::gl::{Gl, consts as c};

@@ -72,7 +72,7 @@ static void object_list(void)
         CALL(glPushAttrib, whole_mask());
     CALL(glColor3f, within(0, 1), within(0, 1), within(0, 1));
     CALL(glBegin, PICK(GL_TRIANGLES, GL_QUADS, GL_TRIANGLE_STRIP));
-    vertex_calls(R->executes ? 12 : 8);
+    vertex_calls(8);
     R->part = 0;
     CALL0(glEnd);
     if (chance(30))

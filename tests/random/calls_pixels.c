@@ -43,8 +43,24 @@ static void raster_position(void)
     }
 }
 
+/* Mesa 22.3 takes the texture coordinates of pictures from what the last draw had, or from nowhere (--disturb): no textures. */
+static void without_textures(void)
+{
+    static const GLenum units[3] = {GL_TEXTURE3, GL_TEXTURE1, GL_TEXTURE0};
+    static const GLenum targets[4] = {GL_TEXTURE_1D, GL_TEXTURE_2D, GL_TEXTURE_3D, GL_TEXTURE_CUBE_MAP};
+    if (R->begin)
+        return;
+    for (int i = 0; i < 3; i++) {
+        CALL(glActiveTexture, units[i]);
+        for (int k = 0; k < 4; k++)
+            if (R->list || glIsEnabled(targets[k]))
+                CALL(glDisable, targets[k]);
+    }
+}
+
 static void drawn_pixels(void)
 {
+    without_textures();
     int width = (int)below(18), height = R->list || chance(97) ? (int)below(14) : -1; /* Mesa 22.3: not in lists */
     switch (below(8)) {
     case 0: case 1:
@@ -61,6 +77,7 @@ static void copied_pixels(void)
 {
     /* Not outside, and from the left part of the frame to the right one: an overlap comes out differently by the driver's mood. */
     int width = (int)below(16), height = (int)below(16);
+    without_textures();
     if (chance(70)) {
         CALL(glPixelZoom, 1.0f, 1.0f);
         CALL(glWindowPos2i, 26 + (int)below(20), (int)below(40));
@@ -122,6 +139,8 @@ static void image(void)
 static void copied_image(void)
 {
     int x = (int)below(32), y = (int)below(30), size = 1 << below(5);
+    if (!bound(GL_READ_BUFFER)) /* Mesa 22.3 crashes */
+        return;
     switch (below(5)) {
     case 0: CALL(glCopyTexImage1D, GL_TEXTURE_1D, 0, PICK(GL_RGBA, GL_RGB), x, y, size, 0); break;
     case 1: CALL(glCopyTexSubImage1D, GL_TEXTURE_1D, 0, 0, x, y, (int)below(4)); break;

@@ -174,8 +174,18 @@ GLbitfield whole_mask(void)
     return R->list || framebuffer_bound() ? GL_ALL_ATTRIB_BITS & ~(GLbitfield)(GL_COLOR_BUFFER_BIT | GL_PIXEL_MODE_BIT) : GL_ALL_ATTRIB_BITS;
 }
 
+/* Mesa 22.3 forgets at an inner glPushAttrib that current values have changed which no drawing or question has made it send, so that
+ * the outer glPopAttrib does not put them back: asked for first. */
+static void before_push(void)
+{
+    float color[4];
+    if (!R->begin)
+        glGetFloatv(GL_CURRENT_COLOR, color);
+}
+
 static void push_attrib(void)
 {
+    before_push();
     if (chance(50))
         CALL(glPushAttrib, chance(30) || R->list || bound(GL_ATTRIB_STACK_DEPTH) || framebuffer_bound() ? whole_mask()
                            : PICK(GL_CURRENT_BIT, GL_COLOR_BUFFER_BIT, GL_TRANSFORM_BIT, GL_VIEWPORT_BIT, GL_SCISSOR_BIT,
@@ -196,6 +206,7 @@ static void push_client(void)
 /* Many levels at once, up to the full stack. */
 static void deep_attrib(void)
 {
+    before_push();
     for (uint32_t n = 1 + below(20); n; n--)
         CALL(glPushAttrib, whole_mask());
 }
@@ -225,7 +236,7 @@ static void get_value(void)
     GLenum name = ENUM(GL_VIEWPORT, GL_SCISSOR_BOX, GL_DRAW_BUFFER, GL_READ_BUFFER, GL_PROJECTION_MATRIX, GL_MATRIX_MODE,
                        GL_MODELVIEW_MATRIX, GL_CURRENT_COLOR, GL_CURRENT_RASTER_POSITION, GL_LIST_INDEX, GL_LIST_MODE,
                        GL_LIST_BASE, GL_RENDER_MODE, GL_ATTRIB_STACK_DEPTH, GL_CURRENT_NORMAL, GL_ACTIVE_TEXTURE,
-                       GL_DOUBLEBUFFER, GL_RED_BITS, GL_DEPTH_BITS, GL_ACCUM_RED_BITS, GL_SAMPLES, GL_PROJECTION_STACK_DEPTH);
+                       GL_DOUBLEBUFFER, GL_RED_BITS, GL_DEPTH_BITS, O.without >> ACCUM & 1 ? GL_RED_BITS : GL_ACCUM_RED_BITS, GL_SAMPLES, GL_PROJECTION_STACK_DEPTH);
     CALL(glGetFloatv, name, f);
     tell(&R->answers, "%d.%d get 0x%x %a %a %a %a hash %llx", R->step, R->part, name, f[0], f[1], f[2], f[3],
          (unsigned long long)hash(f, sizeof f));

@@ -226,6 +226,12 @@ static void picture(const char *what, GLenum format, GLenum type, size_t bytes)
     }
 }
 
+/* What belongs to a class of calls that is left out. */
+static int left_out(GLenum what)
+{
+    return O.without >> ACCUM & 1 && what >= GL_ACCUM_RED_BITS && what <= GL_ACCUM_ALPHA_BITS;
+}
+
 static void stacks(void)
 {
     static const GLenum modes[3] = {GL_MODELVIEW, GL_PROJECTION, GL_TEXTURE}, depths[3] = {GL_MODELVIEW_STACK_DEPTH, GL_PROJECTION_STACK_DEPTH, GL_TEXTURE_STACK_DEPTH};
@@ -244,7 +250,8 @@ static void stacks(void)
     for (glGetIntegerv(GL_ATTRIB_STACK_DEPTH, &depth); depth > 0; depth--) {
         glPopAttrib();
         for (size_t i = 0; i < sizeof gets / sizeof *gets; i += depth % 3 == 0 ? 1 : 7)
-            get("popped ", gets[i].name, gets[i].value);
+            if (!left_out(gets[i].value))
+                get("popped ", gets[i].name, gets[i].value);
     }
 }
 
@@ -263,7 +270,7 @@ void dump_context(void)
     glGetIntegerv(GL_READ_FRAMEBUFFER_BINDING, &name);
     tell(&R->state, "reads from %d", number(c->framebuffers, FRAMES, (GLuint)name));
     for (size_t i = 0; i < sizeof gets / sizeof *gets; i++)
-        if (gets[i].value != GL_RENDERBUFFER_BINDING)
+        if (gets[i].value != GL_RENDERBUFFER_BINDING && !left_out(gets[i].value))
             get("", gets[i].name, gets[i].value);
     tables();
     units();

@@ -1,13 +1,13 @@
 /* random: makes seeded sequences of legal and illegal GL calls and prints what a program can know after each of them.
  *
  *   random [--api egl|glx|osmesa] [--seed S] [--count N] [--steps K] [--without CLASS,…] [--drop 3,5.2,…]
- *          [--verbose] [--rows] [--trace] [--flush] [--list-classes]
+ *          [--verbose] [--rows] [--trace] [--disturb] [--list-classes]
  *
  * prints one line per sequence and thread: hashes of the answers in between, of the state and of the pixels. Two runs, one of
  * them under something that must not be noticed, are compared line by line. For one seed: --verbose prints what was hashed,
  * --rows each row of pixels as well, --trace the calls, and --drop leaves out steps (3) or parts of steps (5.2; 5.2.0 is not
- * needed), each of which has random numbers of its own, so that the rest stays as it is. --flush adds a glFlush after each step:
- * what differs by that is Mesa's doing. tests/random/reduce.py reduces a seed with these.
+ * needed), each of which has random numbers of its own, so that the rest stays as it is. --disturb adds a glFlush and a culled
+ * triangle after each step: what differs by that is Mesa's doing. tests/random/reduce.py reduces a seed with these.
  *
  * Every sequence has contexts of its own. What GL leaves undefined is not done: no reads outside the framebuffer or of
  * textures without content, no memory that is not there, no infinite lists, no other context on the same drawable.
@@ -176,6 +176,27 @@ static void switch_context(struct context *to)
     W->current(to->handle, to->drawable);
 }
 
+/* Nothing that a program could see. */
+static void disturb(void)
+{
+    GLint face = 0;
+    if (R->begin || R->list)
+        return;
+    glFlush();
+    GLboolean culled = glIsEnabled(GL_CULL_FACE);
+    glGetIntegerv(GL_CULL_FACE_MODE, &face);
+    glEnable(GL_CULL_FACE);
+    glCullFace(GL_FRONT_AND_BACK);
+    glBegin(GL_TRIANGLES);
+    glVertex2f(0, 0);
+    glVertex2f(0.1f, 0);
+    glVertex2f(0, 0.1f);
+    glEnd();
+    glCullFace((GLenum)face);
+    if (!culled)
+        glDisable(GL_CULL_FACE);
+}
+
 static void take_context(struct context *c, int number, struct context *share)
 {
     memset(c, 0, sizeof *c);
@@ -231,8 +252,8 @@ static void sequence(void)
             switch_context(&R->contexts[to]);
         } else {
             any_call();
-            if (O.flush)
-                glFlush();
+            if (O.disturb)
+                disturb();
         }
     }
     for (int i = 0; i < R->context_count; i++) {
@@ -305,7 +326,7 @@ int main(int argc, char **argv)
         if (IS("--verbose")) O.verbose = 1;
         else if (IS("--rows")) O.verbose = O.rows = 1;
         else if (IS("--trace")) O.trace = 1;
-        else if (IS("--flush")) O.flush = 1;
+        else if (IS("--disturb")) O.disturb = 1;
         else if (IS("--list-classes")) {
             for (int k = 0; k < CLASSES; k++)
                 puts(class_names[k]);

@@ -34,6 +34,7 @@ struct run {
     int step, part;
     int thread; /* 0 or 1 */
     int begin, list; /* between glBegin and glEnd; the list that is being compiled */
+    int loop;        /* between glBegin(GL_LINE_LOOP) and glEnd */
     int executes;    /* with GL_COMPILE_AND_EXECUTE */
     struct context contexts[CONTEXTS], *now;
     int context_count;
@@ -44,7 +45,7 @@ struct run {
 extern __thread struct run *R;
 
 struct options {
-    int trace, verbose, rows, flush, steps;
+    int trace, verbose, rows, disturb, steps;
     unsigned without; /* bits of classes */
     const char *drop; /* ",3,5.2,": steps and parts of steps that are left out */
 };

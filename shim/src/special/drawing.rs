@@ -31,13 +31,25 @@ fn other_mode(mode: u32) -> u32 {
 }
 
 pub(crate) unsafe fn glEnd() {
+    compile(Command::End, Touch::NONE);
     // SAFETY: the program's own call.
     unsafe { real().glEnd() };
     if inside() != Inside::Outside {
         set_inside(Inside::Outside);
         enter(|gl, l| l.end(gl));
-    } else {
-        peek(|l| l.compiled_end());
+    }
+}
+
+/// After lists that may have begun or ended a primitive: the driver and the hooks stand where the program does.
+fn after_lists() {
+    match peek(|l| l.state.begin) {
+        Some(Begin::Recorded(mode)) => {
+            set_inside(Inside::Recorded);
+            // SAFETY: a primitive mode; it stays empty.
+            unsafe { real().glBegin(other_mode(mode)) };
+        }
+        Some(Begin::Direct) => set_inside(Inside::Direct),
+        _ => {}
     }
 }
 
@@ -124,14 +136,10 @@ pub(crate) unsafe fn glCopyPixels(x: i32, y: i32, width: i32, height: i32, type_
 }
 
 pub(crate) unsafe fn glNewList(list: u32, mode: u32) {
-    const COMPILE: u32 = 0x1300;
     ask();
-    let (name, mode) = match enter(|gl, l| l.new_list(gl, list, mode)).flatten() {
-        Some(run) => (run, COMPILE),
-        None => (list, mode),
-    };
+    let name = enter(|gl, l| l.new_list(gl, list, mode)).flatten();
     // SAFETY: the program's own call, or the first run of its list.
-    unsafe { real().glNewList(name, mode) };
+    unsafe { real().glNewList(name.unwrap_or(list), mode) };
 }
 
 pub(crate) unsafe fn glEndList() {
@@ -171,8 +179,12 @@ pub(crate) unsafe fn glDeleteLists(list: u32, range: i32) {
 
 pub(crate) unsafe fn glCallList(list: u32) {
     if recording() {
-        record_list(list);
-        return;
+        return record_list(list);
+    }
+    if inside() == Inside::Direct {
+        // SAFETY: the program's own call.
+        unsafe { real().glCallList(list) };
+        return direct_list(list);
     }
     compile(Command::Of(Run::List(list)), Touch::NONE);
     // SAFETY: the program's own call.
@@ -188,6 +200,7 @@ pub(crate) unsafe fn glCallList(list: u32) {
     {
         call();
     }
+    after_lists();
 }
 
 /// Asks the driver something while calls are recorded: its own primitive is empty, so it can end and begin again.
@@ -205,7 +218,22 @@ fn outside<R>(ask: impl FnOnce() -> R) -> R {
     r
 }
 
+/// A list was called between glBegin and glEnd, and the calls go to the driver.
+fn direct_list(list: u32) {
+    if peek_inside(|l| l.closes(list)) == Some(true) {
+        set_inside(Inside::Outside);
+        peek(|l| l.state.begin = Begin::Outside);
+    }
+}
+
 fn record_list(list: u32) {
+    if peek_inside(|l| l.closes(list)) == Some(true) {
+        // SAFETY: the driver is between glBegin and glEnd.
+        unsafe { real().glEnd() };
+        set_inside(Inside::Outside);
+        enter(|gl, l| l.close_by_list(gl, list));
+        return after_lists();
+    }
     if let Some(r) = crate::hooks::imm::recording(slot::glCallList, Effect::UNKNOWN) {
         r.u32(list);
     }
@@ -258,7 +286,9 @@ pub(crate) unsafe fn glCallLists(n: i32, type_: u32, lists: Ptr) {
     if recording() {
         let base = outside(list_base);
         let names = names.unwrap_or_default().into_iter();
-        return names.map(|n| n.wrapping_add(base)).for_each(record_list);
+        // One of them may end the primitive.
+        // SAFETY: the program's own call, list by list.
+        return names.for_each(|n| unsafe { glCallList(n.wrapping_add(base)) });
     }
     compile(Command::Of(Run::Lists), Touch::NONE);
     // SAFETY: the program's own call.
@@ -276,6 +306,7 @@ pub(crate) unsafe fn glCallLists(n: i32, type_: u32, lists: Ptr) {
     if done.is_none() {
         call();
     }
+    after_lists();
 }
 
 fn list_base() -> u32 {

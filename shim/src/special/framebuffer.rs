@@ -4,7 +4,7 @@ use crate::context::{enter, real};
 use crate::hooks::{ask, compile};
 use core::slice::from_raw_parts;
 use manyview_core::gl::{Gl, Ptr, consts as c};
-use manyview_core::layer::Layer;
+use manyview_core::layer::{Layer, is_scaled};
 use manyview_core::plan::Kind;
 use manyview_core::state::{Command, Run, Touch};
 
@@ -210,12 +210,13 @@ pub(crate) unsafe fn glBlitFramebuffer(
         )
     };
     let done = enter(|gl, l| {
-        l.blit(gl, &mut blit);
+        let (mask, filter) = (mask as i32, filter as i32);
+        let arguments = [
+            srcX0, srcY0, srcX1, srcY1, dstX0, dstY0, dstX1, dstY1, mask, filter,
+        ];
+        l.blit(gl, is_scaled(&arguments), &mut blit);
         if l.compiles() {
-            let rect = [srcX0, srcY0, srcX1, srcY1, dstX0, dstY0, dstX1, dstY1];
-            let mut arguments = rect.map(|v| v as u32).to_vec();
-            arguments.extend([mask, filter]);
-            l.compiled_names(&arguments);
+            l.compiled_names(&arguments.map(|v| v as u32));
         }
     });
     if done.is_none() {
@@ -257,7 +258,11 @@ pub(crate) unsafe fn glBlitNamedFramebuffer(
         .then(|| {
             enter(|gl, l| {
                 l.with_bound(gl, drawFramebuffer, Some(readFramebuffer), |l| {
-                    l.blit(gl, &mut blit)
+                    let (mask, filter) = (mask as i32, filter as i32);
+                    let arguments = [
+                        srcX0, srcY0, srcX1, srcY1, dstX0, dstY0, dstX1, dstY1, mask, filter,
+                    ];
+                    l.blit(gl, is_scaled(&arguments), &mut blit)
                 })
             })
         })

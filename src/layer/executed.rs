@@ -1,0 +1,67 @@
+//! What GL_COMPILE_AND_EXECUTE draws: by the driver while it compiles, in the program's own view; by the compiled run in the
+//! others.
+
+use super::Layer;
+use crate::draw::{Current, enter_own, others};
+use crate::gl::Gl;
+use crate::plan::{Kind, Method, Shear};
+use crate::state::Effect;
+
+/// A run that is being drawn in the program's own view.
+#[derive(Debug)]
+pub(super) struct Own {
+    shear: Option<Shear>,
+    /// Whether it is drawn in the other views as well.
+    everywhere: bool,
+    /// What the other views start from.
+    before: Current,
+}
+
+impl Layer {
+    /// Before the driver begins the list of a run that draws.
+    pub(super) fn start_own(&mut self, gl: &Gl) {
+        let plan = self.plan(gl, Kind::List);
+        self.queries.drawn();
+        if !self.state.draws_to_window() {
+            return;
+        }
+        let everywhere = plan.method != Method::Once;
+        let shear = plan.shear.filter(|_| everywhere);
+        enter_own(gl, &mut self.atlas, &self.state, &self.rig, shear);
+        self.executed = Some(Own {
+            shear,
+            everywhere,
+            before: Current::take(gl, Effect::ALL),
+        });
+    }
+
+    /// After the driver has ended it; `name` is the list.
+    pub(super) fn finish_own(&mut self, gl: &Gl, name: u32) {
+        let Some(own) = self.executed.take() else {
+            return;
+        };
+        let after = Current::take(gl, Effect::ALL);
+        let bound = self.copies.bound(gl);
+        if own.everywhere {
+            self.queries.pause(gl);
+        }
+        others(
+            gl,
+            &mut self.atlas,
+            &self.state,
+            &self.rig,
+            own.shear,
+            own.everywhere,
+            &mut |view| {
+                own.before.put(gl);
+                self.copies.bind(gl, &bound, view);
+                gl.call_list(name);
+            },
+        );
+        if own.everywhere {
+            self.copies.bind(gl, &bound, self.atlas.tiles.own());
+            after.put(gl);
+            self.queries.resume(gl);
+        }
+    }
+}
