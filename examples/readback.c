@@ -7,6 +7,7 @@
 #include <string.h>
 
 DEMO_NO_OPTIONS;
+int demo_accumulation = 2;
 
 static int version; /* 45 for 4.5 */
 
@@ -206,6 +207,73 @@ static void illegal(GLuint texture)
     error("glGetError in begin/end");
 }
 
+static void accumulation(void)
+{
+    GLint bits[4];
+    GLuint fbo;
+    GLfloat clear[4];
+    static const GLenum names[4] = {GL_ACCUM_RED_BITS, GL_ACCUM_GREEN_BITS, GL_ACCUM_BLUE_BITS, GL_ACCUM_ALPHA_BITS};
+    for (int i = 0; i < 4; i++) {
+        glGetIntegerv(names[i], &bits[i]);
+        say("accumulation bits", "", bits[i]);
+    }
+    error("accumulation bits");
+    glAccum(GL_LOAD, 0.5f);
+    error("glAccum(GL_LOAD)");
+    glAccum(GL_DEPTH, 0.5f);
+    error("glAccum(GL_DEPTH)");
+    glClearAccum(0.3f, -0.2f, 2.0f, 0.1f);
+    glGetFloatv(GL_ACCUM_CLEAR_VALUE, clear);
+    printf("accumulation clear = %g %g %g %g\n", clear[0], clear[1], clear[2], clear[3]);
+    glAccum(GL_RETURN, 1.9f);
+    hash_all("accumulation loaded");
+    glClear(GL_ACCUM_BUFFER_BIT | 0x80000);
+    error("glClear of an unknown buffer");
+    demo_scissor(7, 9, 60, 50);
+    glClear(GL_ACCUM_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    glAccum(GL_ADD, 0.1f);
+    demo_scissor_off();
+    glColorMask(GL_TRUE, GL_FALSE, GL_TRUE, GL_FALSE);
+    glAccum(GL_RETURN, 1.1f);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    hash_all("accumulation cleared in part");
+    glAccum(GL_ACCUM, 0.37f);
+    glAccum(GL_MULT, -0.83f);
+    glAccum(GL_RETURN, -1.3f);
+    hash_all("accumulation multiplied");
+    glGetError();
+    glReadBuffer(GL_NONE); /* nothing is read, and that is no error */
+    glAccum(GL_LOAD, 0.9f);
+    glReadBuffer(GL_BACK);
+    glGetError();
+    glRenderMode(GL_FEEDBACK); /* nothing is drawn */
+    glAccum(GL_LOAD, 0.8f);
+    glRenderMode(GL_RENDER);
+    error("glAccum in feedback");
+    glEnable(GL_RASTERIZER_DISCARD);
+    glAccum(GL_LOAD, 0.7f);
+    glDisable(GL_RASTERIZER_DISCARD);
+    glAccum(GL_RETURN, -0.9f);
+    hash_all("accumulation unchanged");
+    glBegin(GL_POINTS);
+    glAccum(GL_LOAD, 0.6f);
+    glEnd();
+    glGetError();
+    glGenFramebuffers(1, &fbo);
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, fbo);
+    glAccum(GL_MULT, 0.5f);
+    error("glAccum with an own framebuffer to read from");
+    glBindFramebuffer(GL_FRAMEBUFFER, fbo);
+    glAccum(GL_MULT, 0.5f);
+    error("glAccum with an own framebuffer");
+    glGetIntegerv(GL_ACCUM_RED_BITS, bits);
+    say("accumulation bits of an own framebuffer", "", bits[0]);
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    glDeleteFramebuffers(1, &fbo);
+    glAccum(GL_RETURN, -1.0f);
+    hash_all("accumulation at the end");
+}
+
 /* An own framebuffer object: draw, come back, and copy both ways. */
 static void own_framebuffer(void)
 {
@@ -330,6 +398,8 @@ void demo_frame(int frame)
     hash_all("drawn");
     copies();
     own_framebuffer();
+    picture();
+    accumulation();
     picture();
     demo_viewport(3, 5, 77, 66);
     demo_scissor(9, 8, 70, 60);

@@ -1,4 +1,4 @@
-// What all output passes share. A pass is this file, then atlas.wgsl, then interleave.wgsl or layout.wgsl.
+// What all output passes share. A pass is cover.wgsl, this file, then atlas.wgsl, then interleave.wgsl or layout.wgsl.
 //
 // Spaces. naga translates without ADJUST_COORDINATE_SPACE, so nothing is flipped: clip space is OpenGL's, and
 // @builtin(position) is gl_FragCoord, whose y counts UP from the bottom of the window. Pictures and masks count rows DOWN
@@ -27,13 +27,6 @@ struct Uniforms {
 }
 
 var<immediate> u: Uniforms;
-
-// One triangle that covers the window; needs no vertex arrays.
-@vertex
-fn cover(@builtin(vertex_index) i: u32) -> @builtin(position) vec4<f32> {
-    let corner = vec2<f32>(vec2<u32>((i << 1u) & 2u, i & 2u));
-    return vec4<f32>(corner * 2.0 - 1.0, 0.0, 1.0);
-}
 
 // Column from the left and row from the TOP of a fragment.
 fn top_down(position: vec4<f32>) -> vec2<u32> {

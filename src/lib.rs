@@ -28,6 +28,8 @@ pub mod draw;
 
 pub mod interleave;
 
+pub mod accumulation;
+
 pub mod present;
 
 pub mod layer;

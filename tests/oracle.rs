@@ -71,6 +71,7 @@ fn scene(name: &str) -> Scene {
         "gears" => scene("gears", &[], 1),
         "lists" => scene("lists", &[], 2),
         "echo" => scene("echo", &[], 3),
+        "blur" => scene("blur", &[], 3),
         "teapot" => scene("teapot", &[], 1),
         "room" => scene("room", &[], 1),
         // One fog mode a frame.
@@ -497,9 +498,9 @@ macro_rules! oracle {
 }
 
 oracle! {
-    glx: gears lists echo teapot room fogtexgen points clip mirror mesh mesh_vbo prims arrays immediate sky;
+    glx: gears lists echo blur teapot room fogtexgen points clip mirror mesh mesh_vbo prims arrays immediate sky;
     egl: gears lists echo teapot room fogtexgen points clip mirror mesh mesh_vbo prims arrays immediate sky;
-    osmesa: gears lists echo teapot room fogtexgen points clip mirror mesh mesh_vbo prims arrays immediate sky;
+    osmesa: gears lists echo blur teapot room fogtexgen points clip mirror mesh mesh_vbo prims arrays immediate sky;
 }
 
 /// Surfaces of other kinds, by replay.

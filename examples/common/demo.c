@@ -12,6 +12,8 @@
 
 int demo_width = 512, demo_height = 384, demo_x, demo_y;
 
+__attribute__((weak)) int demo_accumulation;
+
 static const char *program = "demo", *api_name, *dump;
 static const struct demo_api *api;
 static struct demo_window window = {.pbuffer = -1};
@@ -336,6 +338,7 @@ int main(int argc, char **argv)
     program = slash ? slash + 1 : argv[0];
     parse(argc, argv);
     window.title = program;
+    window.accumulation = demo_accumulation;
     api->open(&window);
     if (frames < 0)
         frames = dump || window.pbuffer == 1 || !strcmp(api->name, "osmesa") ? 60 : INT_MAX;

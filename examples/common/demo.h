@@ -21,6 +21,8 @@ struct demo_option {
 extern const struct demo_option demo_options[];
 #define DEMO_NO_OPTIONS const struct demo_option demo_options[] = {{0}}
 
+/* 1: the window has to have an accumulation buffer, 2: where windows have them. A demo that needs none leaves it out. */
+extern int demo_accumulation;
 void demo_setup(void);          /* once, with the context current */
 void demo_frame(int frame);     /* draws frame number 0, 1, 2, ...; the same picture for the same number */
 
@@ -64,7 +66,7 @@ int demo_write_png(const char *path, int width, int height, const unsigned char 
 /* ---- window systems (glx.c, egl.c, osmesa.c) ---- */
 struct demo_window {
     int width, height; /* the canvas */
-    int samples, srgb;
+    int samples, srgb, accumulation;
     int pbuffer;       /* 1: --surface pbuffer, 0: --surface window, -1: not said */
     const char *title;
 };

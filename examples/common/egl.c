@@ -23,6 +23,8 @@ static EGLDisplay default_display(void)
 
 static void open_surface(struct demo_window *w)
 {
+    if (w->accumulation == 1)
+        demo_fail(1, "EGL has no accumulation buffer");
     const char *name = getenv("DISPLAY");
     int has_display = name && *name;
     if (w->pbuffer < 0)

@@ -13,7 +13,7 @@ static XVisualInfo *choose(const struct demo_window *w)
     int screen = DefaultScreen(display);
     if (!w->samples && !w->srgb) {
         int a[] = {GLX_RGBA, GLX_DOUBLEBUFFER, GLX_RED_SIZE, 8, GLX_GREEN_SIZE, 8, GLX_BLUE_SIZE, 8,
-                   GLX_DEPTH_SIZE, 24, GLX_STENCIL_SIZE, 8, None};
+                   GLX_DEPTH_SIZE, 24, GLX_STENCIL_SIZE, 8, w->accumulation ? GLX_ACCUM_RED_SIZE : None, 16, None};
         return glXChooseVisual(display, screen, a);
     }
     int a[32] = {GLX_DOUBLEBUFFER, True, GLX_RED_SIZE, 8, GLX_GREEN_SIZE, 8, GLX_BLUE_SIZE, 8,
@@ -28,6 +28,10 @@ static XVisualInfo *choose(const struct demo_window *w)
     if (w->srgb) {
         a[n++] = GLX_FRAMEBUFFER_SRGB_CAPABLE_ARB;
         a[n++] = True;
+    }
+    if (w->accumulation && !w->samples) {
+        a[n++] = GLX_ACCUM_RED_SIZE;
+        a[n++] = 16;
     }
     a[n] = None;
     GLXFBConfig *configs = glXChooseFBConfig(display, screen, a, &count);

@@ -8,7 +8,7 @@ static unsigned char *pixels;
 
 static void open_buffer(struct demo_window *w)
 {
-    context = OSMesaCreateContextExt(OSMESA_RGBA, 24, 8, 0, NULL);
+    context = OSMesaCreateContextExt(OSMESA_RGBA, 24, 8, w->accumulation ? 16 : 0, NULL);
     pixels = calloc((size_t)w->width * (size_t)w->height, 4);
     if (!context || !pixels || !OSMesaMakeCurrent(context, pixels, GL_UNSIGNED_BYTE, w->width, w->height))
         demo_fail(1, "no OSMesa context");

@@ -11532,8 +11532,8 @@ export! { 889, glGenerateMipmapEXT, first_glGenerateMipmapEXT, hook_glGenerateMi
     unsafe { gl.glGenerateMipmapEXT(target) };
 } }
 export! { 890, glClear, first_glClear, hook_glClear, (mask: u32) -> (), {
-    // SAFETY: the program's own call.
-    hooks::draw(Kind::CLEAR, &mut |gl| unsafe { gl.glClear(mask) })
+    // SAFETY: the program's own arguments.
+    unsafe { special::glClear(mask) }
 } }
 export! { 891, glClearBufferfi, first_glClearBufferfi, hook_glClearBufferfi, (buffer: u32, drawbuffer: i32, depth: f32, stencil: i32) -> (), {
     // SAFETY: the program's own call.
@@ -11796,8 +11796,8 @@ export! { 955, glEvalMesh2, first_glEvalMesh2, hook_glEvalMesh2, (mode: u32, i1:
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glEvalMesh2(mode, i1, i2, j1, j2) })
 } }
 export! { 956, glAccum, first_glAccum, hook_glAccum, (op: u32, value: f32) -> (), {
-    // SAFETY: the program's own call.
-    hooks::draw(Kind::ACCUM, &mut |gl| unsafe { gl.glAccum(op, value) })
+    // SAFETY: the program's own arguments.
+    unsafe { special::glAccum(op, value) }
 } }
 export! { 957, glBitmap, first_glBitmap, hook_glBitmap, (width: i32, height: i32, xorig: f32, yorig: f32, xmove: f32, ymove: f32, bitmap: Ptr) -> (), {
     // SAFETY: the program's own arguments.

@@ -14,7 +14,6 @@ pub(crate) use manyview_core::state::{Command, Touch};
 pub(crate) enum Kind {
     CLEAR,
     ARRAYS,
-    ACCUM,
 }
 
 /// State groups are about to change, now or, in a display list, when it is called.
@@ -125,7 +124,6 @@ pub(crate) fn draw(kind: Kind, call: &mut dyn FnMut(&'static Real)) {
     let kind = match kind {
         Kind::CLEAR => Plan::Clear,
         Kind::ARRAYS => Plan::Other,
-        Kind::ACCUM => Plan::Accum,
     };
     if enter(|gl, l| l.draw(gl, kind, &mut || call(gl.real()))).is_none() {
         call(real());

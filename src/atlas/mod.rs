@@ -225,6 +225,11 @@ impl Atlas {
         self.targets().chain(resolve).chain(single)
     }
 
+    /// The colour texture that is drawn to.
+    pub fn drawn(&self) -> u32 {
+        self.textures.first().copied().unwrap_or(0)
+    }
+
     /// Whether a texture is the atlas's own.
     pub fn owns(&self, texture: u32) -> bool {
         self.textures.contains(&texture)

@@ -9,4 +9,4 @@ mod replay;
 pub use amplified::{Amplified, Programs};
 pub use current::Current;
 pub use fixed_state::{Driver, FixedState, limits};
-pub use replay::{Again, enter_own, others, place, replay, unplace};
+pub use replay::{Again, cut, enter_own, others, place, replay, unplace};

@@ -199,7 +199,7 @@ pub fn place(gl: &Gl, state: &State, offset: i32, size: [i32; 2]) {
 }
 
 /// What may be drawn in a tile: all of it, or what the program's scissor leaves.
-pub(super) fn cut(state: &State, offset: i32, size: [i32; 2]) -> [i32; 4] {
+pub fn cut(state: &State, offset: i32, size: [i32; 2]) -> [i32; 4] {
     if !state.scissor_test {
         return [offset, 0, size[0], size[1]];
     }

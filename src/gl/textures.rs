@@ -85,6 +85,27 @@ impl Gl {
         }
     }
 
+    /// glTexImage2D with a whole picture of signed 16-bit words; the unpack state must be the default.
+    pub fn tex_image_r16i(&self, w: i32, h: i32, data: &[i16]) {
+        if data.len() < w as usize * h as usize {
+            return;
+        }
+        // SAFETY: w·h texels of 2 bytes (checked), rows of any alignment.
+        unsafe {
+            self.real.glTexImage2D(
+                c::TEXTURE_2D,
+                0,
+                c::R16I as i32,
+                w,
+                h,
+                0,
+                c::RED_INTEGER,
+                c::SHORT,
+                data.as_ptr() as Ptr,
+            )
+        }
+    }
+
     /// glDeleteTextures of one name.
     pub fn delete_texture(&self, name: u32) {
         // SAFETY: one name.

@@ -1,13 +1,12 @@
 //! The output passes in the program's context: on the GPU, or by the CPU reference where the context's GLSL is too old.
 
-use super::shader::{self, GlslVersion, MASK_UNIT, Pass, Stage, Uniforms, VIEWS_UNIT};
-use super::{Layout, reference};
+use super::shader::{MASK_UNIT, Pass, Uniforms, VIEWS_UNIT};
+use super::{Layout, Program, reference};
 use crate::atlas::{Names, Tiles};
 use crate::config::{Config, Output};
 use crate::display::{Mask, Placement};
 use crate::gl::{Gl, consts as c};
 use image::RgbImage;
-use std::ffi::CString;
 
 /// The atlas as the passes see it.
 #[derive(Clone, Copy, Debug)]
@@ -22,17 +21,9 @@ pub struct Source {
     pub srgb: bool,
 }
 
-#[derive(Debug)]
-struct Program {
-    name: u32,
-    /// Location and words of each uniform.
-    uniforms: Vec<(i32, shader::UniformSlot)>,
-}
-
 /// Programs and mask of one context.
 #[derive(Debug)]
 pub struct Interleaver {
-    glsl: u32,
     vertex_array: u32,
     panel: Option<Program>,
     layout: Option<Program>,
@@ -62,7 +53,6 @@ impl Interleaver {
     /// Compiles the passes. Where that fails the CPU takes over and [`Interleaver::note`] says why.
     pub fn new(gl: &Gl, names: &mut Names, glsl: u32) -> Self {
         let mut i = Interleaver {
-            glsl,
             vertex_array: 0,
             panel: None,
             layout: None,
@@ -71,7 +61,8 @@ impl Interleaver {
             mask_uploaded: (0, 0),
             cpu: None,
         };
-        match (i.program(gl, Pass::Interleave), i.program(gl, Pass::Layout)) {
+        let program = |pass| Program::new(gl, glsl, pass);
+        match (program(Pass::Interleave), program(Pass::Layout)) {
             (Ok(panel), Ok(layout)) => {
                 (i.panel, i.layout) = (Some(panel), Some(layout));
                 i.vertex_array = gl.gen_vertex_array();
@@ -96,7 +87,7 @@ impl Interleaver {
 
     /// The names of its programs.
     pub fn programs(&self) -> impl Iterator<Item = u32> {
-        self.panel.iter().chain(&self.layout).map(|p| p.name)
+        self.panel.iter().chain(&self.layout).map(Program::name)
     }
 
     /// The mask's texture gets another name: its contents are made anew.
@@ -106,29 +97,6 @@ impl Interleaver {
             self.mask_texture = reserve(gl, names);
             self.mask_uploaded = (0, 0);
         }
-    }
-
-    fn program(&self, gl: &Gl, pass: Pass) -> Result<Program, String> {
-        let version = GlslVersion::Desktop(self.glsl.min(u32::from(u16::MAX)) as u16);
-        let vertex = shader::translate(pass, Stage::Vertex, version).map_err(|e| e.to_string())?;
-        let fragment =
-            shader::translate(pass, Stage::Fragment, version).map_err(|e| e.to_string())?;
-        let v = gl.compile(c::VERTEX_SHADER, &vertex.source)?;
-        let f = gl.compile(c::FRAGMENT_SHADER, &fragment.source)?;
-        let name = gl.link(&[v, f])?;
-        let current = gl.get_integer(c::CURRENT_PROGRAM) as u32;
-        let location = |n: &str| CString::new(n).map_or(-1, |n| gl.uniform_location(name, &n));
-        gl.use_program(name);
-        for t in &fragment.textures {
-            gl.uniform_1i(location(&t.name), t.unit as i32);
-        }
-        gl.use_program(current);
-        let uniforms = fragment
-            .uniforms
-            .into_iter()
-            .map(|u| (location(&u.name), u))
-            .collect();
-        Ok(Program { name, uniforms })
     }
 
     /// Draws the picture of an output over the whole framebuffer that is bound, `size` pixels; `tile` reads one view for the CPU
@@ -179,7 +147,6 @@ impl Interleaver {
         }
         gl.active_texture(c::TEXTURE0 + VIEWS_UNIT);
         gl.bind_texture(c::TEXTURE_2D_ARRAY, source.texture);
-        gl.use_program(program.name);
         let t = &source.tiles;
         let uniforms = Uniforms {
             tile: [t.width, t.height],
@@ -190,14 +157,7 @@ impl Interleaver {
             layout: layout.unwrap_or(Layout::SideBySide),
             rows_top_down: source.top_down,
         };
-        let words = uniforms.words();
-        for (location, slot) in &program.uniforms {
-            match slot.of(&words) {
-                Some(&[a]) => gl.uniform_1ui(*location, a),
-                Some(&[a, b]) => gl.uniform_2ui(*location, a, b),
-                _ => {}
-            }
-        }
+        program.bind(gl, &uniforms.words());
         gl.bind_vertex_array(self.vertex_array);
         // A view is decoded to linear light when it is fetched; written to an sRGB window it is encoded again.
         if source.srgb {

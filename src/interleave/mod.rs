@@ -1,11 +1,12 @@
 //! From N views to the picture that is shown.
 //!
 //! `reference` does it exactly on the CPU and is what the GPU is compared with; `shader` translates the passes of
-//! `shaders/*.wgsl` for the program's context; `layout` holds what both agree on; `gpu` draws.
+//! `shaders/*.wgsl` for the program's context, `program` compiles them; `layout` holds what both agree on; `gpu` draws.
 #![forbid(unsafe_code)]
 
 mod gpu;
 mod layout;
+mod program;
 pub mod reference;
 pub mod shader;
 #[cfg(test)]
@@ -13,6 +14,7 @@ mod tests;
 
 pub use gpu::{Interleaver, Source, glsl_version};
 pub use layout::Layout;
+pub use program::Program;
 
 use crate::config::Output;
 

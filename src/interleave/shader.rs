@@ -9,10 +9,12 @@ use super::Layout;
 use naga::back::glsl;
 use naga::valid::{Capabilities, ValidationFlags, Validator};
 
+const COVER: &str = include_str!("../../shaders/cover.wgsl");
 const COMMON: &str = include_str!("../../shaders/common.wgsl");
 const ATLAS: &str = include_str!("../../shaders/atlas.wgsl");
 const INTERLEAVE: &str = include_str!("../../shaders/interleave.wgsl");
 const LAYOUT: &str = include_str!("../../shaders/layout.wgsl");
+const ACCUMULATE: &str = include_str!("../../shaders/accumulate.wgsl");
 
 /// Texture unit of the views: a 2D array texture.
 pub const VIEWS_UNIT: u32 = 0;
@@ -26,6 +28,40 @@ pub enum Pass {
     Interleave,
     /// Quilt, side by side or a single view.
     Layout,
+    /// A step of the accumulation buffer.
+    Accumulate(Step),
+}
+
+/// What is done to the accumulation buffer, texel by texel; see `shaders/accumulate.wgsl`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Step {
+    /// Four values.
+    Fill,
+    /// As it is.
+    Copy,
+    /// The colour.
+    Load,
+    /// The colour is added.
+    Accumulate,
+    /// Multiplied by a value.
+    Multiply,
+    /// A value is added.
+    Add,
+    /// The colour becomes what was accumulated.
+    Return,
+}
+
+impl Step {
+    /// All of them.
+    pub const ALL: [Self; 7] = [
+        Self::Fill,
+        Self::Copy,
+        Self::Load,
+        Self::Accumulate,
+        Self::Multiply,
+        Self::Add,
+        Self::Return,
+    ];
 }
 
 /// Which half of the program.
@@ -95,7 +131,7 @@ pub struct Translated {
     pub source: String,
     /// Sampler uniforms to be set with `glUniform1i`, sorted by unit.
     pub textures: Vec<TextureBinding>,
-    /// Plain uniforms to be set with `glUniform1uiv` or `glUniform2uiv` from [`Uniforms::words`].
+    /// Plain uniforms to be set with `glUniform1uiv`, `glUniform2uiv` or `glUniform4fv` from [`Uniforms::words`] and the like.
     pub uniforms: Vec<UniformSlot>,
 }
 
@@ -104,7 +140,7 @@ pub struct Translated {
 pub struct TextureBinding {
     /// Name in the GLSL.
     pub name: String,
-    /// [`VIEWS_UNIT`] or [`MASK_UNIT`].
+    /// [`VIEWS_UNIT`] or [`MASK_UNIT`]; as `shaders/accumulate.wgsl` numbers them.
     pub unit: u32,
 }
 
@@ -115,7 +151,7 @@ pub struct UniformSlot {
     pub name: String,
     /// First of its words.
     pub first: usize,
-    /// 1 (uint) or 2 (uvec2).
+    /// 1 (uint), 2 (uvec2) or 4 (vec4 of floats).
     pub count: usize,
 }
 
@@ -223,10 +259,9 @@ pub fn translate(
         writer_flags: glsl::WriterFlags::empty(),
         ..glsl::Options::default()
     };
-    let (shader_stage, entry_point) = match (stage, pass) {
-        (Stage::Vertex, _) => (naga::ShaderStage::Vertex, "cover"),
-        (Stage::Fragment, Pass::Interleave) => (naga::ShaderStage::Fragment, "interleave"),
-        (Stage::Fragment, Pass::Layout) => (naga::ShaderStage::Fragment, "arrange"),
+    let (shader_stage, entry_point) = match stage {
+        Stage::Vertex => (naga::ShaderStage::Vertex, "cover"),
+        Stage::Fragment => (naga::ShaderStage::Fragment, entry(pass)),
     };
     let pipeline = glsl::PipelineOptions {
         shader_stage,
@@ -275,11 +310,26 @@ pub fn translate(
     })
 }
 
+/// The function of a pass.
+fn entry(pass: Pass) -> &'static str {
+    match pass {
+        Pass::Interleave => "interleave",
+        Pass::Layout => "arrange",
+        Pass::Accumulate(Step::Fill) => "fill",
+        Pass::Accumulate(Step::Copy) => "copy",
+        Pass::Accumulate(Step::Load) => "load",
+        Pass::Accumulate(Step::Accumulate) => "accumulate",
+        Pass::Accumulate(Step::Multiply) => "multiply",
+        Pass::Accumulate(Step::Add) => "add",
+        Pass::Accumulate(Step::Return) => "give_back",
+    }
+}
+
 /// The WGSL of a pass, which has no includes.
 fn source(pass: Pass) -> String {
-    let body = match pass {
-        Pass::Interleave => INTERLEAVE,
-        Pass::Layout => LAYOUT,
-    };
-    [COMMON, ATLAS, body].join("\n")
+    match pass {
+        Pass::Interleave => [COVER, COMMON, ATLAS, INTERLEAVE].join("\n"),
+        Pass::Layout => [COVER, COMMON, ATLAS, LAYOUT].join("\n"),
+        Pass::Accumulate(_) => [COVER, ACCUMULATE].join("\n"),
+    }
 }

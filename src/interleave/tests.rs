@@ -276,6 +276,26 @@ fn uniforms_are_found_by_name() {
 }
 
 #[test]
+fn every_step_of_the_accumulation_buffer_translates_for_every_version() {
+    for step in Step::ALL {
+        let textures: &[u32] = match step {
+            Step::Fill => &[],
+            Step::Load => &[0, 2],
+            Step::Accumulate => &[0, 1, 2],
+            Step::Copy | Step::Multiply | Step::Add => &[1],
+            Step::Return => &[1, 2],
+        };
+        for version in GlslVersion::SUPPORTED {
+            let got = translate(Pass::Accumulate(step), Stage::Fragment, version).unwrap();
+            let units: Vec<_> = got.textures.iter().map(|t| t.unit).collect();
+            assert_eq!(units, textures, "{step:?}");
+            let places: Vec<_> = got.uniforms.iter().map(|u| (u.first, u.count)).collect();
+            assert_eq!(places, [(0, 4), (4, 4), (8, 4), (12, 1), (13, 1), (14, 1)]);
+        }
+    }
+}
+
+#[test]
 fn contexts_get_the_nearest_version_below() {
     use GlslVersion::{Desktop, Embedded};
     assert_eq!(Desktop(459).for_context(), Some(Desktop(450)));

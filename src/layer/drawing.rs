@@ -47,11 +47,13 @@ fn method_name(m: Method) -> &'static str {
 fn run(kind: Kind) -> Run {
     match kind {
         Kind::Clear => Run::Clear,
-        Kind::Accum => Run::Accum,
         Kind::Pixels => Run::Raster,
-        Kind::Begin(_) | Kind::Arrays(_) | Kind::Elements(_) | Kind::Other | Kind::List => {
-            Run::Draw
-        }
+        Kind::Begin(_)
+        | Kind::Arrays(_)
+        | Kind::Elements(_)
+        | Kind::Other
+        | Kind::List
+        | Kind::Accum => Run::Draw,
     }
 }
 

@@ -50,7 +50,7 @@ impl Layer {
     }
 
     /// The framebuffers that the program has bound, after others were.
-    fn rebind(&mut self, gl: &Gl) {
+    pub(super) fn rebind(&mut self, gl: &Gl) {
         let f = &self.state.framebuffers;
         let (draw, read) = (f.draw, f.read);
         if draw != 0 {

@@ -253,6 +253,11 @@ impl Layer {
                 Some(buffer((name - c::DRAW_BUFFER0) as usize))
             }
             c::READ_BUFFER if f.read == 0 => Some(f.read_buffer.into()),
+            c::ACCUM_RED_BITS..=c::ACCUM_ALPHA_BITS if zero => {
+                let at = (name - c::ACCUM_RED_BITS) as usize;
+                let bits = self.state.window.accumulation.get(at);
+                bits.map(|&bits| bits.into())
+            }
             c::DOUBLEBUFFER if zero => Some(self.state.window.double_buffered.into()),
             _ => None,
         }

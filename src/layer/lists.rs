@@ -280,6 +280,16 @@ impl Layer {
                     self.blit(gl, scaled, &mut |from, to| gl.blit(arguments, from, to));
                 }
             }
+            Run::ClearAll => {
+                let mask = segment.names.first().copied().unwrap_or(0);
+                self.clear(gl, mask, &mut || gl.call_list(segment.name));
+            }
+            Run::Accum => {
+                if let &[op, value] = &*segment.names {
+                    let call = &mut || gl.call_list(segment.name);
+                    self.accum(gl, op, f32::from_bits(value), call);
+                }
+            }
             run => {
                 let attribs =
                     (!segment.is_balanced()).then(|| gl.get_integer(c::ATTRIB_STACK_DEPTH));
@@ -383,6 +393,8 @@ impl Layer {
             | Run::List(_)
             | Run::Lists
             | Run::Blit
+            | Run::ClearAll
+            | Run::Accum
             | Run::DrawBuffers
             | Run::ReadBuffer(_) => call(),
             Run::Draw => {
@@ -406,7 +418,6 @@ impl Layer {
                 self.replay(gl, &plan, again, &mut |_| call());
             }
             Run::Clear => self.draw(gl, Kind::Clear, call),
-            Run::Accum => self.draw(gl, Kind::Accum, call),
             Run::Raster => self.draw(gl, Kind::Pixels, call),
             // Which columns is in the driver's list only.
             Run::Read => self.read(gl, 0, i32::MAX, call),

@@ -1,6 +1,7 @@
 //! One context under the layer: puts the stages together. The hooks call nothing else.
 #![forbid(unsafe_code)]
 
+mod accumulate;
 mod classing;
 mod copies;
 mod drawing;
@@ -24,6 +25,7 @@ use crate::draw::{Driver, FixedState, Programs};
 use crate::gl::{Count, Ends, Gl, Held, Recording, consts as c};
 use crate::interleave::Interleaver;
 use crate::plan::{Classifier, Means, Rig, Shear};
+use crate::present::Saved;
 use crate::report::Report;
 use crate::state::{Immediate, Lists, State, Window};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -70,6 +72,7 @@ pub struct Layer {
     queries: queries::Queries,
     copies: copies::Copies,
     executed: Option<executed::Own>,
+    accumulated: accumulate::Accumulated,
     recording: Recording,
     ends: Ends,
     immediate: Immediate,
@@ -94,7 +97,10 @@ impl Layer {
         lists: SharedLists,
     ) -> Result<Layer, LayerError> {
         let support = Support::ask(gl)?;
-        let mut state = State::new(Window::ask(gl, width, height), support.compatibility);
+        let mut state = State::new(
+            Window::ask(gl, width, height, support.compatibility),
+            support.compatibility,
+        );
         state.keep_errors(gl);
         let mut names = Names::default();
         let atlas = make_atlas(gl, &mut names, config, &state, &support)?;
@@ -129,6 +135,7 @@ impl Layer {
             queries: queries::Queries::default(),
             copies: copies::Copies::new(gl, support.compatibility),
             executed: None,
+            accumulated: accumulate::Accumulated::default(),
             recording: Recording::default(),
             ends: Ends::default(),
             immediate: Immediate::default(),
@@ -160,6 +167,9 @@ impl Layer {
         self.state.window.height = height;
         let atlas = make_atlas(gl, &mut self.names, self.config, &self.state, &self.support)?;
         std::mem::replace(&mut self.atlas, atlas).delete(gl);
+        if let Some(old) = std::mem::take(&mut self.accumulated).buffer {
+            old.delete(gl);
+        }
         self.apply_buffers(gl);
         self.bind_draw(gl, true, true);
         Ok(())
@@ -170,12 +180,20 @@ impl Layer {
         name != 0
             && (self.atlas.owns(name)
                 || self.interleaver.texture() == name
-                || self.copies.owns(name))
+                || self.copies.owns(name)
+                || self
+                    .accumulated
+                    .buffer
+                    .as_ref()
+                    .is_some_and(|b| b.owns(name)))
     }
 
     /// Whether a framebuffer object is one of ours.
     pub fn owns_framebuffer(&self, name: u32) -> bool {
-        name != 0 && self.atlas.targets().any(|t| t == name)
+        let accumulation = self.accumulated.buffer.as_ref();
+        name != 0
+            && (self.atlas.targets().any(|t| t == name)
+                || accumulation.is_some_and(|a| a.framebuffer() == name))
     }
 
     /// The program uses a texture name that it never asked for and that is ours: our textures move to other names.
@@ -196,6 +214,12 @@ impl Layer {
         };
         self.report.note(note.into());
         self.interleaver.rename(gl, &mut self.names);
+        if let Some(buffer) = &mut self.accumulated.buffer {
+            let saved = Saved::take(gl, self.state.compatibility);
+            buffer.rename(gl, &mut self.names);
+            saved.restore(gl);
+            self.rebind(gl);
+        }
     }
 
     /// The program enables GL_FRAMEBUFFER_SRGB. Until then the atlas is not sRGB: drivers decode what is copied out of an sRGB
@@ -266,6 +290,11 @@ impl Layer {
         lists.left.textures.extend(textures);
         let programs = self.interleaver.programs().chain(self.programs.names());
         lists.left.programs.extend(programs);
+        if let Some(accumulation) = &self.accumulated.buffer {
+            lists.left.framebuffers.push(accumulation.framebuffer());
+            lists.left.textures.extend(accumulation.textures());
+            lists.left.programs.extend(accumulation.programs());
+        }
     }
 
     /// The layer gives up: the program gets its own framebuffer 0 back.

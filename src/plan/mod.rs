@@ -193,6 +193,8 @@ mod tests {
             srgb_capable: false,
             srgb: false,
             float: false,
+            accumulation: [0; 4],
+            names_back: true,
             default_buffer: 0,
             default_read: 0,
         };

@@ -43,8 +43,8 @@ const PIXELS: &[(u32, i32)] = &[
     (c::UNPACK_SKIP_IMAGES, 0),
 ];
 
-/// Texture units that the interleaving program samples from.
-const UNITS: u32 = 2;
+/// Texture units that passes sample from.
+const UNITS: u32 = 3;
 
 #[derive(Clone, Copy)]
 enum Needs {

@@ -21,6 +21,10 @@ pub struct Window {
     pub srgb: bool,
     /// Colours are floating point.
     pub float: bool,
+    /// Bits of red, green, blue, alpha of the accumulation buffer, 0 for none.
+    pub accumulation: [u32; 4],
+    /// Whether GL_BACK is a name of a buffer: of the front one where there is no other, which Mesa allows.
+    pub names_back: bool,
     /// The buffer that a new context draws to. GL_BACK for some drawables without a back buffer too (EGL pbuffers).
     pub default_buffer: u32,
     /// The buffer that a new context reads from.
@@ -28,8 +32,13 @@ pub struct Window {
 }
 
 impl Window {
+    /// Whether it has an accumulation buffer.
+    pub fn accumulates(&self) -> bool {
+        self.accumulation[0] > 0
+    }
+
     /// Asks the driver about the true framebuffer 0, which must be bound for drawing.
-    pub fn ask(gl: &Gl, width: u32, height: u32) -> Window {
+    pub fn ask(gl: &Gl, width: u32, height: u32, compatibility: bool) -> Window {
         let bit = |name| gl.get_integer(name).max(0) as u32;
         let names = [
             c::RED_BITS,
@@ -45,6 +54,14 @@ impl Window {
         } else {
             c::FRONT_LEFT
         };
+        let default_read = gl.get_integer(c::READ_BUFFER) as u32;
+        let names_back = double_buffered || {
+            // A new context: the program has no errors in it yet.
+            gl.read_buffer(c::BACK);
+            let refused = gl.get_error() != c::NO_ERROR;
+            gl.read_buffer(default_read);
+            !refused
+        };
         let modern = gl.version() >= (3, 0);
         let srgb_capable = modern
             && gl.attachment_parameter(color, c::FRAMEBUFFER_ATTACHMENT_COLOR_ENCODING) as u32
@@ -53,8 +70,13 @@ impl Window {
             width,
             height,
             double_buffered,
+            accumulation: match compatibility {
+                true => [0, 1, 2, 3].map(|i| bit(c::ACCUM_RED_BITS + i)),
+                false => [0; 4],
+            },
             default_buffer: gl.get_integer(c::DRAW_BUFFER) as u32,
-            default_read: gl.get_integer(c::READ_BUFFER) as u32,
+            names_back,
+            default_read,
             bits: names.map(bit),
             samples: bit(c::SAMPLES),
             srgb_capable,
@@ -78,17 +100,20 @@ pub struct Framebuffers {
     /// glReadBuffer of framebuffer 0.
     pub read_buffer: u32,
     default: u32,
+    names_back: bool,
 }
 
 impl Framebuffers {
     /// As a new context has them.
-    pub fn new(default: u32, read: u32) -> Self {
+    pub fn new(window: &Window) -> Self {
+        let (default, read) = (window.default_buffer, window.default_read);
         Framebuffers {
             draw: 0,
             read: 0,
             draw_buffers: vec![default],
             read_buffer: read,
             default,
+            names_back: window.names_back,
         }
     }
 
@@ -99,7 +124,7 @@ impl Framebuffers {
         let front = [c::FRONT, c::FRONT_LEFT, c::LEFT, c::FRONT_AND_BACK].contains(&buffer);
         match buffer {
             c::NONE => Some(c::NONE),
-            _ if front || (back && self.default == c::BACK) => Some(c::COLOR_ATTACHMENT0),
+            _ if front || (back && self.names_back) => Some(c::COLOR_ATTACHMENT0),
             _ => None,
         }
     }

@@ -20,7 +20,9 @@ pub enum Run {
     Draw,
     /// Clears.
     Clear,
-    /// The accumulation buffer.
+    /// glClear with the accumulation buffer: its mask is in [`Segment::names`].
+    ClearAll,
+    /// glAccum: its arguments are in [`Segment::names`].
     Accum,
     /// Pictures at the raster position.
     Raster,
@@ -45,7 +47,13 @@ impl Run {
     pub fn is_plain(self) -> bool {
         !matches!(
             self,
-            Run::List(_) | Run::Lists | Run::DrawBuffers | Run::ReadBuffer(_) | Run::Blit
+            Run::List(_)
+                | Run::Lists
+                | Run::DrawBuffers
+                | Run::ReadBuffer(_)
+                | Run::Blit
+                | Run::ClearAll
+                | Run::Accum
         )
     }
 
@@ -69,7 +77,7 @@ pub struct Segment {
     pub name: u32,
     /// State groups that are stale after it.
     pub touch: Touch,
-    /// The names of glCallLists, the buffers of glDrawBuffers, the arguments of glBlitFramebuffer.
+    /// The names of glCallLists, the buffers of glDrawBuffers, the arguments of glBlitFramebuffer, glClear and glAccum.
     pub names: Arc<[u32]>,
     /// What it does to the current values.
     pub immediate: Immediate,

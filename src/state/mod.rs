@@ -130,7 +130,7 @@ impl State {
             scissor: [0; 4],
             scissor_test: false,
             look: Look::default(),
-            framebuffers: Framebuffers::new(window.default_buffer, window.default_read),
+            framebuffers: Framebuffers::new(&window),
             window,
             list: None,
             begin: Begin::Outside,

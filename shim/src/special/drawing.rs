@@ -109,6 +109,22 @@ fn pixels(call: &mut dyn FnMut()) {
     }
 }
 
+pub(crate) unsafe fn glClear(mask: u32) {
+    // SAFETY: the program's own call.
+    let mut call = || unsafe { real().glClear(mask) };
+    if enter(|gl, l| l.clear(gl, mask, &mut call)).is_none() {
+        call();
+    }
+}
+
+pub(crate) unsafe fn glAccum(op: u32, value: f32) {
+    // SAFETY: the program's own call.
+    let mut call = || unsafe { real().glAccum(op, value) };
+    if enter(|gl, l| l.accum(gl, op, value, &mut call)).is_none() {
+        call();
+    }
+}
+
 pub(crate) unsafe fn glBitmap(
     width: i32,
     height: i32,

@@ -1,0 +1,364 @@
+//! The accumulation buffer, which framebuffer objects do not have: one for each view, made when it is first needed.
+//!
+//! The arithmetic is that of Mesa's, measured with Mesa 22.3: 16-bit integers, of which 32767 stands for 1; fractions are cut off,
+//! what does not fit is wrapped, colours are rounded to the nearest step. OpenGL asks for no more than the range from -1 to 1.
+#![forbid(unsafe_code)]
+
+mod srgb;
+
+use crate::atlas::{Atlas, Names};
+use crate::gl::{Gl, consts as c};
+use crate::interleave::Program;
+use crate::interleave::shader::{Pass, Step};
+use crate::state::Window;
+
+/// What 1 is stored as.
+const ONE: f32 = 32767.0;
+
+/// What is to be done.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Operation {
+    /// glClear with these values.
+    Clear([f32; 4]),
+    /// GL_LOAD.
+    Load(f32),
+    /// GL_ACCUM.
+    Accumulate(f32),
+    /// GL_MULT.
+    Multiply(f32),
+    /// GL_ADD.
+    Add(f32),
+    /// GL_RETURN, to the channels of the colour mask.
+    Return(f32, [bool; 4]),
+}
+
+impl Operation {
+    /// The operation of glAccum; `None` where there is no such one. `mask` is the colour mask.
+    pub fn of(op: u32, value: f32, mask: [bool; 4]) -> Option<Operation> {
+        match op {
+            c::LOAD => Some(Operation::Load(value)),
+            c::ACCUM => Some(Operation::Accumulate(value)),
+            c::MULT => Some(Operation::Multiply(value)),
+            c::ADD => Some(Operation::Add(value)),
+            c::RETURN => Some(Operation::Return(value, mask)),
+            _ => None,
+        }
+    }
+
+    /// The pass, and the values that it works with.
+    fn step(self) -> (Step, [f32; 4]) {
+        match self {
+            Operation::Clear(values) => (Step::Fill, values.map(clear_value)),
+            Operation::Load(v) => (Step::Load, [v * ONE; 4]),
+            Operation::Accumulate(v) => (Step::Accumulate, [v * ONE; 4]),
+            Operation::Multiply(v) => (Step::Multiply, [v; 4]),
+            Operation::Add(v) => (Step::Add, [short(v * ONE); 4]),
+            Operation::Return(v, _) => (Step::Return, [v / ONE; 4]),
+        }
+    }
+}
+
+/// A whole number of 32 bits cut to 16, as a CPU does it.
+fn short(v: f32) -> f32 {
+    let whole = if v.abs() < 2_147_483_648.0 {
+        v as i32
+    } else {
+        0
+    };
+    f32::from(whole as i16)
+}
+
+/// What a component of GL_ACCUM_CLEAR_VALUE is stored as.
+fn clear_value(v: f32) -> f32 {
+    let steps = (65535.0 * v) as i32;
+    f32::from(((steps - 1) / 2) as i16)
+}
+
+/// A rectangle of a layer: x, y, width, height in texels.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Region {
+    /// Layer of the atlas.
+    pub row: u32,
+    /// In rows of the texture.
+    pub rect: [i32; 4],
+}
+
+/// The accumulation buffers of all views of a context.
+#[derive(Debug)]
+pub struct Accumulation {
+    programs: [Program; Step::ALL.len()],
+    vertex_array: u32,
+    /// What is drawn to; its attachment is put there for each pass.
+    framebuffer: u32,
+    /// As the atlas: a tile for each view.
+    values: u32,
+    /// One layer: what was there before, while it is drawn over.
+    before: u32,
+    size: [u32; 3],
+    /// Of sRGB colours, for the value that it was made for.
+    tables: [Table; 2],
+}
+
+/// A table of `shaders/accumulate.wgsl`.
+#[derive(Debug, Default)]
+struct Table {
+    texture: u32,
+    value: Option<u32>,
+}
+
+impl Table {
+    /// Binds it, made for a value.
+    fn bind(&mut self, gl: &Gl, value: f32, make: impl FnOnce() -> (i32, Vec<i16>)) {
+        gl.bind_texture(c::TEXTURE_2D, self.texture);
+        if self.value != Some(value.to_bits()) {
+            let (height, data) = make();
+            gl.tex_image_r16i(256, height, &data);
+            self.value = Some(value.to_bits());
+        }
+    }
+}
+
+/// For each stored colour what is accumulated of it.
+fn taken(factor: f32) -> (i32, Vec<i16>) {
+    let value = |stored| short(srgb::decoded(stored) * factor) as i16;
+    (1, (0..=255).map(value).collect())
+}
+
+/// For each accumulated value the colour that is stored.
+fn stored(factor: f32) -> (i32, Vec<i16>) {
+    let colour = |v: i16| i16::from(srgb::encoded(f32::from(v) * factor));
+    (256, (i16::MIN..=i16::MAX).map(colour).collect())
+}
+
+impl Accumulation {
+    /// For an atlas, all zero. State must be as `present::Saved::take` leaves it.
+    pub fn new(gl: &Gl, names: &mut Names, glsl: u32, atlas: &Atlas) -> Result<Self, String> {
+        let program = |step| Program::new(gl, glsl, Pass::Accumulate(step));
+        let [fill, copy, load, accumulate, multiply, add, give_back] = Step::ALL.map(program);
+        let tiles = atlas.tiles;
+        let mut new = Accumulation {
+            programs: [
+                fill?,
+                copy?,
+                load?,
+                accumulate?,
+                multiply?,
+                add?,
+                give_back?,
+            ],
+            vertex_array: gl.gen_vertex_array(),
+            framebuffer: gl.gen_framebuffer(),
+            values: 0,
+            before: 0,
+            size: [tiles.texture_width(), tiles.height, tiles.rows],
+            tables: Default::default(),
+        };
+        new.make_textures(gl, names);
+        Ok(new)
+    }
+
+    fn make_textures(&mut self, gl: &Gl, names: &mut Names) {
+        let [width, height, rows] = self.size.map(|s| s as i32);
+        let mut texture = |target| {
+            let name = names.texture(gl);
+            gl.bind_texture(target, name);
+            for (p, v) in [
+                (c::TEXTURE_MIN_FILTER, c::NEAREST),
+                (c::TEXTURE_MAG_FILTER, c::NEAREST),
+                (c::TEXTURE_MAX_LEVEL, 0),
+            ] {
+                gl.tex_parameteri(target, p, v as i32);
+            }
+            name
+        };
+        self.tables = [(), ()].map(|()| Table {
+            texture: texture(c::TEXTURE_2D),
+            value: None,
+        });
+        let mut tiles = |layers: i32| {
+            let name = texture(c::TEXTURE_2D_ARRAY);
+            let (format, kind) = (c::RGBA_INTEGER, c::SHORT);
+            gl.tex_storage_3d(c::RGBA16I, width, height, layers, format, kind);
+            name
+        };
+        self.values = tiles(rows);
+        self.before = tiles(1);
+    }
+
+    /// Whether a texture is one of these.
+    pub fn owns(&self, texture: u32) -> bool {
+        self.textures().contains(&texture)
+    }
+
+    /// Its textures.
+    pub fn textures(&self) -> [u32; 4] {
+        let [a, b] = &self.tables;
+        [self.values, self.before, a.texture, b.texture]
+    }
+
+    /// Its framebuffer object, with a texture at the first colour attachment.
+    pub fn framebuffer(&self) -> u32 {
+        self.framebuffer
+    }
+
+    /// The names of its programs.
+    pub fn programs(&self) -> impl Iterator<Item = u32> {
+        self.programs.iter().map(Program::name)
+    }
+
+    /// The textures get other names. State must be as `present::Saved::take` leaves it; the draw framebuffer is left bound.
+    pub fn rename(&mut self, gl: &Gl, names: &mut Names) {
+        let old = self.textures();
+        self.make_textures(gl, names);
+        let [width, height, rows] = self.size;
+        for row in 0..rows {
+            let rect = [0, 0, width as i32, height as i32];
+            self.copy(gl, (old[0], row), (self.values, row), rect);
+        }
+        old.into_iter().for_each(|t| gl.delete_texture(t));
+    }
+
+    /// Gives textures and framebuffer back; only while the context is current.
+    pub fn delete(self, gl: &Gl) {
+        gl.delete_framebuffer(self.framebuffer);
+        let textures = self.textures();
+        textures.into_iter().for_each(|t| gl.delete_texture(t));
+        // The programs are few and stay with the context, as those of other passes do.
+    }
+
+    /// Makes one step in some regions. Colours come from and go to these layers of the atlas, which must be resolved where they
+    /// are read. State must be as `present::Saved::take` leaves it; the draw framebuffer is left bound.
+    pub fn apply(
+        &mut self,
+        gl: &Gl,
+        operation: Operation,
+        window: &Window,
+        atlas: &Atlas,
+        regions: &[Region],
+    ) {
+        let (step, values) = operation.step();
+        if window.srgb_capable {
+            self.bind_table(gl, step, values[0]);
+        }
+        let changes = matches!(step, Step::Accumulate | Step::Multiply | Step::Add);
+        gl.active_texture(c::TEXTURE0);
+        gl.bind_texture(c::TEXTURE_2D_ARRAY, atlas.color);
+        if let Operation::Return(_, mask) = operation {
+            let [r, g, b, a] = mask.map(u8::from);
+            gl.color_maski(0, r, g, b, a);
+        }
+        for &Region { row, rect } in regions {
+            let mut from = (self.values, row);
+            if changes {
+                // Not by a blit: llvmpipe 22.3 may copy what was there before the last pass.
+                from = (self.before, 0);
+                self.copy(gl, (self.values, row), from, rect);
+            }
+            let target = match step {
+                Step::Return => atlas.drawn(),
+                _ => self.values,
+            };
+            let words = words(window, values, row, from.1);
+            self.pass(gl, step, from.0, (target, row), rect, &words);
+        }
+    }
+
+    fn copy(&self, gl: &Gl, from: (u32, u32), to: (u32, u32), rect: [i32; 4]) {
+        let mut words = [0; 16];
+        words[BEFORE] = from.1;
+        self.pass(gl, Step::Copy, from.0, to, rect, &words);
+    }
+
+    /// One pass: from a texture to a layer of a texture.
+    fn pass(
+        &self,
+        gl: &Gl,
+        step: Step,
+        from: u32,
+        to: (u32, u32),
+        [x, y, w, h]: [i32; 4],
+        words: &[u32; 16],
+    ) {
+        let program = Step::ALL.iter().zip(&self.programs);
+        let Some((_, program)) = program.into_iter().find(|p| *p.0 == step) else {
+            return;
+        };
+        let attach = |texture, layer| {
+            let (target, point) = (c::DRAW_FRAMEBUFFER, c::COLOR_ATTACHMENT0);
+            gl.framebuffer_texture_layer(target, point, texture, 0, layer);
+        };
+        gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, self.framebuffer);
+        attach(to.0, to.1 as i32);
+        gl.viewport(x, y, w, h);
+        gl.active_texture(c::TEXTURE0 + 1);
+        gl.bind_texture(c::TEXTURE_2D_ARRAY, from);
+        program.bind(gl, words);
+        gl.bind_vertex_array(self.vertex_array);
+        gl.draw_arrays(c::TRIANGLES, 0, 3);
+        // The texture may be deleted while our framebuffer is not bound.
+        attach(0, 0);
+    }
+
+    fn bind_table(&mut self, gl: &Gl, step: Step, factor: f32) {
+        let [load, give_back] = &mut self.tables;
+        gl.active_texture(c::TEXTURE0 + 2);
+        match step {
+            Step::Load | Step::Accumulate => load.bind(gl, factor, || taken(factor)),
+            Step::Return => give_back.bind(gl, factor, || stored(factor)),
+            Step::Fill | Step::Copy | Step::Multiply | Step::Add => {}
+        }
+    }
+}
+
+/// The word of the layer of what was accumulated.
+const BEFORE: usize = 13;
+
+/// The uniforms, as `shaders/accumulate.wgsl` has them.
+fn words(window: &Window, values: [f32; 4], layer: u32, before: u32) -> [u32; 16] {
+    let [r, g, b, a, _, _] = window.bits;
+    let steps = [r, g, b, a].map(|bits| match bits {
+        _ if window.float => 0.0,
+        bits => ((1u64 << bits.min(24)) - 1) as f32,
+    });
+    let unit = steps.map(|s| if s > 0.0 { 1.0 / s } else { 0.0 });
+    let mut words = [0; 16];
+    let floats = [steps, unit, values];
+    for (word, float) in words.iter_mut().zip(floats.iter().flatten()) {
+        *word = float.to_bits();
+    }
+    words[12] = layer;
+    words[BEFORE] = before;
+    words[14] = match window.srgb_capable {
+        true => 1 + u32::from(window.srgb),
+        false => 0,
+    };
+    words
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn values_are_stored_as_mesa_stores_them() {
+        let clear = [0.0, 1.0, 0.5, 0.25, 1e-5, -1.0, -0.5, -1e-5].map(clear_value);
+        let expected = [0.0, 32767.0, 16383.0, 8191.0, 0.0, -32768.0, -16384.0, 0.0];
+        assert_eq!(clear, expected);
+        let add = |v: f32| Operation::Add(v).step().1[0];
+        assert_eq!(add(0.5), 16383.0);
+        assert_eq!(add(-0.5), -16383.0);
+        assert_eq!(add(2.0), -2.0, "wrapped");
+        assert_eq!(add(1e9), 0.0, "no 32-bit number");
+        assert_eq!(add(f32::NAN), 0.0);
+    }
+
+    #[test]
+    fn an_operation_has_a_name() {
+        let all = [true; 4];
+        assert_eq!(
+            Operation::of(c::MULT, 0.5, all),
+            Some(Operation::Multiply(0.5))
+        );
+        assert_eq!(Operation::of(c::ADD + 1, 0.5, all), None);
+    }
+}

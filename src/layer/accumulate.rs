@@ -1,0 +1,150 @@
+//! glAccum and glClear: the accumulation buffer of framebuffer 0, which the atlas does not have.
+
+use super::Layer;
+use crate::accumulation::{Accumulation, Operation, Region};
+use crate::gl::{Gl, consts as c};
+use crate::plan::Kind;
+use crate::present::Saved;
+use crate::state::{Command, Run, Touch};
+
+/// The bits of glClear.
+const BUFFERS: u32 =
+    c::COLOR_BUFFER_BIT | c::DEPTH_BUFFER_BIT | c::STENCIL_BUFFER_BIT | c::ACCUM_BUFFER_BIT;
+
+/// The accumulation buffer of a context.
+#[derive(Debug, Default)]
+pub(super) struct Accumulated {
+    /// Made when it is first needed.
+    pub(super) buffer: Option<Accumulation>,
+    /// What it was cleared to before it was made.
+    cleared: [f32; 4],
+    failed: bool,
+}
+
+impl Layer {
+    /// glClear; `call` is the program's own.
+    pub fn clear(&mut self, gl: &Gl, mask: u32, call: &mut dyn FnMut()) {
+        let accumulation = mask & c::ACCUM_BUFFER_BIT != 0 && mask & !BUFFERS == 0;
+        if !accumulation {
+            return self.draw(gl, Kind::Clear, call);
+        }
+        if self.compiles() {
+            self.compile(gl, Command::Of(Run::ClearAll), Touch::NONE);
+            call();
+            return self.compiled_names(&[mask]);
+        }
+        self.draw(gl, Kind::Clear, call);
+        if self.accumulates(gl) {
+            let values = gl.get_floats(c::ACCUM_CLEAR_VALUE);
+            self.accumulate(gl, Operation::Clear(values));
+        }
+    }
+
+    /// glAccum; `call` is the program's own.
+    pub fn accum(&mut self, gl: &Gl, op: u32, value: f32, call: &mut dyn FnMut()) {
+        if self.compiles() {
+            self.compile(gl, Command::Of(Run::Accum), Touch::NONE);
+            call();
+            return self.compiled_names(&[op, value.to_bits()]);
+        }
+        if !self.draws_to_zero() {
+            return call();
+        }
+        let mask: [i32; 4] = gl.get_integers_indexed(c::COLOR_WRITEMASK, 0);
+        let operation = Operation::of(op, value, mask.map(|m| m != 0))
+            .filter(|_| self.state.window.accumulates() && self.reads_from_zero());
+        let Some(operation) = operation else {
+            // The driver says what is wrong.
+            return self.with_true_zero(gl, c::DRAW_FRAMEBUFFER, call);
+        };
+        let f = &self.state.framebuffers;
+        let there = |buffer: &u32| f.translate(*buffer).is_some_and(|b| b != c::NONE);
+        let nothing = match operation {
+            Operation::Load(_) | Operation::Accumulate(_) => !there(&f.read_buffer),
+            Operation::Return(..) => !f.draw_buffers.iter().any(there),
+            _ => false,
+        };
+        if self.accumulates(gl) && !nothing {
+            self.plan(gl, Kind::Accum);
+            self.accumulate(gl, operation);
+        }
+    }
+
+    /// Whether what is accumulated now goes to the accumulation buffer of framebuffer 0.
+    fn accumulates(&self, gl: &Gl) -> bool {
+        self.state.window.accumulates()
+            && self.state.draws_to_window()
+            && !gl.is_enabled(c::RASTERIZER_DISCARD)
+    }
+
+    fn accumulate(&mut self, gl: &Gl, operation: Operation) {
+        self.state.refresh(gl);
+        if let (None, Operation::Clear(values)) = (&self.accumulated.buffer, operation)
+            && !self.state.scissor_test
+        {
+            self.accumulated.cleared = values;
+            return;
+        }
+        self.queries.pause(gl);
+        self.queries.lift_condition(gl);
+        let saved = Saved::take(gl, self.state.compatibility);
+        if let Operation::Load(_) | Operation::Accumulate(_) = operation {
+            self.atlas.resolve(gl, false, c::COLOR_BUFFER_BIT);
+        }
+        let regions = self.regions();
+        if self.accumulated.buffer.is_none() && !self.accumulated.failed {
+            self.make_accumulation(gl);
+        }
+        if let Some(buffer) = &mut self.accumulated.buffer {
+            let window = &self.state.window;
+            buffer.apply(gl, operation, window, &self.atlas, &regions);
+        }
+        saved.restore(gl);
+        self.rebind(gl);
+        self.queries.put_condition(gl);
+        self.queries.resume(gl);
+    }
+
+    fn make_accumulation(&mut self, gl: &Gl) {
+        match Accumulation::new(gl, &mut self.names, self.support.glsl, &self.atlas) {
+            Ok(mut made) => {
+                let whole = self.rows();
+                let clear = Operation::Clear(self.accumulated.cleared);
+                made.apply(gl, clear, &self.state.window, &self.atlas, &whole);
+                self.accumulated.buffer = Some(made);
+            }
+            Err(e) => {
+                self.accumulated.failed = true;
+                self.report.note(format!("glAccum has no effect: {e}"));
+            }
+        }
+    }
+
+    /// All layers as a whole.
+    fn rows(&self) -> Vec<Region> {
+        let t = &self.atlas.tiles;
+        let rect = [0, 0, t.texture_width() as i32, t.height as i32];
+        (0..t.rows).map(|row| Region { row, rect }).collect()
+    }
+
+    /// What the scissor leaves of all tiles.
+    fn regions(&self) -> Vec<Region> {
+        if !self.state.scissor_test {
+            return self.rows();
+        }
+        let tiles = self.atlas.tiles;
+        let size = self.tile_size();
+        let cut = tiles.order().map(|view| {
+            let (row, x) = tiles.place(view);
+            let [x, y, w, h] = crate::draw::cut(&self.state, x as i32, size);
+            let y = if self.atlas.flipped {
+                size[1] - y - h
+            } else {
+                y
+            };
+            let rect = [x, y, w, h];
+            Region { row, rect }
+        });
+        cut.filter(|r| r.rect[2] > 0 && r.rect[3] > 0).collect()
+    }
+}
