@@ -85,6 +85,14 @@ fn scene(name: &str) -> Scene {
         "arrays" => scene("arrays", &[], 1),
         "immediate" => scene("immediate", &[], 1),
         "sky" => scene("sky", &[], 1),
+        // Errors at the end of the first frame are found in the second.
+        "gears_unread" => scene("gears", &["--unread"], 2),
+        "gears_samples_unread" => Scene {
+            demo: "gears",
+            arguments: &["--samples", "4", "--unread"],
+            frames: 1,
+            window: true,
+        },
         "teapot_srgb" => scene("teapot", &["--srgb"], 1),
         "room_srgb" => scene("room", &["--srgb"], 1),
         "teapot_samples" => multisampled("teapot"),
@@ -516,6 +524,6 @@ macro_rules! surfaces {
 }
 
 surfaces! {
-    glx: teapot_srgb room_srgb teapot_samples room_samples;
+    glx: teapot_srgb room_srgb teapot_samples room_samples gears_unread gears_samples_unread;
     egl: teapot_srgb room_srgb teapot_samples room_samples;
 }

@@ -17,7 +17,7 @@ __attribute__((weak)) int demo_accumulation;
 static const char *program = "demo", *api_name, *dump;
 static const struct demo_api *api;
 static struct demo_window window = {.pbuffer = -1};
-static int frames = -1, view_index, view_count = 1, tiled, check, timing;
+static int frames = -1, view_index, view_count = 1, tiled, check, timing, unread;
 static double eye_spacing = 0.3, focal_depth = 8.0, hud_depth;
 
 _Noreturn void demo_fail(int status, const char *format, ...)
@@ -157,6 +157,7 @@ static void usage(void)
            "  --samples S            multisampled (glx, egl)\n"
            "  --srgb                 sRGB-capable surface, with GL_FRAMEBUFFER_SRGB on (glx, egl)\n"
            "  --check                fail with status 3 after a frame that raised a GL error\n"
+           "  --unread               frames end with glReadBuffer(GL_NONE) (glx, egl)\n"
            "  --time                 print the median milliseconds per frame on stderr\n",
            program, api->name);
     for (const struct demo_option *o = demo_options; o->name; o++)
@@ -213,6 +214,7 @@ static void parse(int argc, char **argv)
         if (own) { i += own - 1; continue; }
         if (!strcmp(o, "--srgb")) { window.srgb = 1; continue; }
         if (!strcmp(o, "--check")) { check = 1; continue; }
+        if (!strcmp(o, "--unread")) { unread = 1; continue; }
         if (!strcmp(o, "--time")) { timing = 1; continue; }
         if (!strcmp(o, "--help")) { help = 1; continue; }
         static const char *valued[] = {"--api", "--surface", "--frames", "--size", "--view", "--eye-spacing",
@@ -361,7 +363,11 @@ int main(int argc, char **argv)
             exit(3);
         if (dump && (strstr(dump, "%d") || frame == frames - 1))
             write_dump(frame);
+        if (unread)
+            glReadBuffer(GL_NONE);
         quit = api->frame_end();
+        if (unread)
+            glReadBuffer(GL_BACK);
         double now = now_ms();
         if (times && frame && timed < KEPT) /* the first frame compiles; it does not count */
             times[timed++] = now - last;

@@ -10,7 +10,7 @@
     X(glBegin) X(glClear) X(glClearColor) X(glDisable) X(glEnable) X(glEnd) X(glFrustum) X(glGetError) \
     X(glGetFloatv) X(glGetIntegerv) X(glLightfv) X(glLightModelfv) X(glLoadIdentity) X(glLoadMatrixf) \
     X(glMaterialf) X(glMaterialfv) X(glMatrixMode) X(glNormal3d) X(glPixelStorei) X(glPopClientAttrib) \
-    X(glPopMatrix) X(glPushClientAttrib) X(glPushMatrix) X(glReadPixels) X(glRotated) X(glScaled) \
+    X(glPopMatrix) X(glPushClientAttrib) X(glPushMatrix) X(glReadBuffer) X(glReadPixels) X(glRotated) X(glScaled) \
     X(glScissor) X(glShadeModel) X(glTranslated) X(glVertex3d) X(glViewport) \
     X(glXChooseFBConfig) X(glXChooseVisual) X(glXCreateContext) X(glXDestroyContext) \
     X(glXGetVisualFromFBConfig) X(glXMakeCurrent) X(glXSwapBuffers) X(glXGetProcAddressARB)
@@ -45,6 +45,7 @@ void dlgl_load(void);
 #define glPopMatrix dl_glPopMatrix
 #define glPushClientAttrib dl_glPushClientAttrib
 #define glPushMatrix dl_glPushMatrix
+#define glReadBuffer dl_glReadBuffer
 #define glReadPixels dl_glReadPixels
 #define glRotated dl_glRotated
 #define glScaled dl_glScaled

@@ -342,12 +342,13 @@ impl Atlas {
         self.single.is_some()
     }
 
-    /// Binds a copy of a view's tile for reading, single-sampled and with nothing beside it. Changes the draw framebuffer too; the
-    /// scissor test must be off.
-    pub fn take_single(&mut self, gl: &Gl, view: u32) {
+    /// Binds a copy of a view's tile for reading from a buffer, single-sampled and with nothing beside it. Changes the draw
+    /// framebuffer too; the scissor test must be off.
+    pub fn take_single(&mut self, gl: &Gl, view: u32, read: u32) {
         let (from, x) = self.target(view);
         if let Some(single) = &self.single {
             single.take(gl, from, x);
+            gl.read_buffer(read);
             // No layer is bound for drawing now.
             self.bound_row = u32::MAX;
         }

@@ -22,6 +22,17 @@ impl Layer {
         self.queries.pause(gl);
         self.queries.lift_condition(gl);
         let saved = Saved::take(gl, self.state.compatibility);
+        self.reading(gl, |layer| layer.present(gl));
+        saved.restore(gl);
+        self.rebind(gl);
+        self.queries.put_condition(gl);
+        self.queries.resume(gl);
+        self.drawn = false;
+        self.frame = Default::default();
+    }
+
+    /// Draws the picture into the true framebuffer 0 and captures what is wanted.
+    fn present(&mut self, gl: &Gl) {
         self.atlas.resolve(gl, false, c::COLOR_BUFFER_BIT);
         gl.bind_framebuffer(c::FRAMEBUFFER, 0);
         let source = Source {
@@ -41,12 +52,6 @@ impl Layer {
             self.report.note(e);
         }
         self.capture(gl, &source);
-        saved.restore(gl);
-        self.rebind(gl);
-        self.queries.put_condition(gl);
-        self.queries.resume(gl);
-        self.drawn = false;
-        self.frame = Default::default();
     }
 
     /// The framebuffers that the program has bound, after others were.
@@ -67,8 +72,10 @@ impl Layer {
         self.queries.pause(gl);
         self.queries.lift_condition(gl);
         let saved = Saved::take(gl, self.state.compatibility);
-        self.atlas.resolve(gl, true, c::COLOR_BUFFER_BIT);
-        let picture = tile(gl, &self.atlas, self.atlas.tiles.own());
+        let picture = self.reading(gl, |layer| {
+            layer.atlas.resolve(gl, true, c::COLOR_BUFFER_BIT);
+            tile(gl, &layer.atlas, layer.atlas.tiles.own())
+        });
         saved.restore(gl);
         self.rebind(gl);
         self.queries.put_condition(gl);

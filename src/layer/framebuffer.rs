@@ -180,6 +180,27 @@ impl Layer {
         Some(())
     }
 
+    /// Runs something of ours that reads colours from the atlas, also where the program has chosen GL_NONE to read from. Changes
+    /// the read framebuffer.
+    pub(super) fn reading<R>(&mut self, gl: &Gl, read: impl FnOnce(&mut Self) -> R) -> R {
+        let f = &self.state.framebuffers;
+        let chosen = f.translate(f.read_buffer);
+        if chosen != Some(c::NONE) {
+            return read(self);
+        }
+        self.read_from(gl, c::COLOR_ATTACHMENT0);
+        let r = read(self);
+        self.read_from(gl, c::NONE);
+        r
+    }
+
+    fn read_from(&self, gl: &Gl, buffer: u32) {
+        for target in self.atlas.targets() {
+            gl.bind_framebuffer(c::READ_FRAMEBUFFER, target);
+            gl.read_buffer(buffer);
+        }
+    }
+
     /// Draw and read buffers are kept in each framebuffer object of the atlas.
     pub(super) fn apply_buffers(&mut self, gl: &Gl) {
         let f = &self.state.framebuffers;
@@ -310,11 +331,9 @@ impl Layer {
         if self.state.scissor_test {
             gl.disable(c::SCISSOR_TEST);
         }
-        self.atlas.take_single(gl, view);
-        // Where the program reads from no buffer, it is told so.
-        let buffer = self.state.framebuffers.read_buffer;
-        let buffer = self.state.framebuffers.translate(buffer);
-        gl.read_buffer(buffer.unwrap_or(c::COLOR_ATTACHMENT0));
+        let f = &self.state.framebuffers;
+        let read = f.translate(f.read_buffer).unwrap_or(c::COLOR_ATTACHMENT0);
+        self.atlas.take_single(gl, view, read);
         if self.state.scissor_test {
             gl.enable(c::SCISSOR_TEST);
         }

@@ -251,7 +251,7 @@ impl Layer {
         let switches = [c::SCISSOR_TEST, c::FRAMEBUFFER_SRGB];
         let on = switches.map(|s| gl.is_enabled(s));
         switches.into_iter().for_each(|s| gl.disable(s));
-        atlas.copy(gl, &self.atlas);
+        self.reading(gl, |layer| atlas.copy(gl, &layer.atlas));
         for (switch, on) in switches.into_iter().zip(on) {
             if on {
                 gl.enable(switch);
