@@ -10,7 +10,7 @@ mod support;
 #[path = "random/build.rs"]
 mod build;
 
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 use std::fs;
 use std::path::Path;
 use std::process::{Command, Stdio};
@@ -23,7 +23,7 @@ const OURS: &str = "libmanyview.so";
 struct Found {
     kind: String,
     what: String,
-    /// Innermost first, each `object function file:line`; the first stack is where it happened, others say where the memory is from.
+    /// Innermost first, each an object and a function or place in it; the first stack is where it happened, others say where the memory is from.
     stacks: Vec<Vec<String>>,
 }
 
@@ -44,16 +44,33 @@ fn elements<'a>(xml: &'a str, name: &str) -> Vec<&'a str> {
 }
 
 fn found(xml: &str) -> Vec<Found> {
-    let frame = |frame: &str| {
-        let part = |name| element(frame, name).unwrap_or("?");
-        let object = part("obj").rsplit('/').next().unwrap_or_default();
-        let line = element(frame, "line").map_or(String::new(), |line| format!(":{line}"));
-        let text = format!("{object} {} {}{line}", part("fn"), part("file"));
-        text.replace("&lt;", "<")
-            .replace("&gt;", ">")
-            .replace("&amp;", "&")
+    let stack = |stack: &&str| {
+        // Drivers come without symbols and lie elsewhere in each run: frames are told by their distance from the first in the object.
+        let mut first: HashMap<&str, i128> = HashMap::new();
+        let mut frame = |frame| {
+            let part = |name| element(frame, name);
+            let object = part("obj").and_then(|path| path.rsplit('/').next());
+            let object = object.unwrap_or("?");
+            let ip = part("ip")
+                .and_then(|ip| i128::from_str_radix(ip.trim_start_matches("0x"), 16).ok());
+            let ip = ip.unwrap_or(0);
+            let distance = ip - *first.entry(object).or_insert(ip);
+            let text = match (part("fn"), part("line")) {
+                (Some(function), Some(line)) => {
+                    format!("{object} {function} {}:{line}", part("file").unwrap_or("?"))
+                }
+                (Some(function), None) => format!("{object} {function}"),
+                (None, _) => format!("{object} {distance:+}"),
+            };
+            text.replace("&lt;", "<")
+                .replace("&gt;", ">")
+                .replace("&amp;", "&")
+        };
+        elements(stack, "frame")
+            .into_iter()
+            .map(&mut frame)
+            .collect()
     };
-    let stack = |stack: &&str| elements(stack, "frame").into_iter().map(frame).collect();
     elements(xml, "error")
         .into_iter()
         .map(|error| Found {
