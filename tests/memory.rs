@@ -18,6 +18,9 @@ use support::{Compiled, bare, compiled, demo, has, layered, scratch, succeed};
 
 const OURS: &str = "libmanyview.so";
 
+/// Frames by which two reports from inside the driver are the same.
+const DEPTH: usize = 8;
+
 /// One of valgrind's reports.
 #[derive(Debug)]
 struct Found {
@@ -85,11 +88,12 @@ fn found(xml: &str) -> Vec<Found> {
 }
 
 impl Found {
-    /// What happened inside of calls that are not ours: the frames up to the first of ours, all of them without the layer.
+    /// What happened inside of calls that are not ours: the frames up to the first of ours, all of them without the layer. At most
+    /// [`DEPTH`]: what the driver has put off it does in another call of ours than of the program's.
     fn inside(&self) -> (&str, &[String]) {
         let stack = self.stacks.first().map_or(&[][..], Vec::as_slice);
         let end = stack.iter().position(|frame| is_ours(frame));
-        (&self.kind, &stack[..end.unwrap_or(stack.len())])
+        (&self.kind, &stack[..end.unwrap_or(stack.len()).min(DEPTH)])
     }
 
     fn is_ours(&self) -> bool {
