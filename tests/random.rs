@@ -25,6 +25,8 @@ const KNOWN: [(u64, &str); 0] = [];
 
 /// Sequences in one process; a crash costs only these.
 const BATCH: u64 = 50;
+/// Sequences of a hundred on which Mesa alone may be of two minds ([`of_two_minds`]).
+const TWO_MINDS: u64 = 3;
 /// How many failures are shown.
 const SHOWN: usize = 5;
 
@@ -100,6 +102,26 @@ fn explain(bare: &Side, layer: &Side, seed: u64, without: &str) -> String {
     )
 }
 
+/// Whether Mesa alone answers otherwise when something is drawn in between that no program could see (`--disturb`), and the layer
+/// differs in nothing else. Mesa 22.3 takes some things from what was drawn before: the texture coordinates of pictures, which
+/// edges a loop has, what glPopAttrib puts back. Such a sequence has no right answer.
+fn of_two_minds(bare: &Side, layer: &Side, seed: u64, without: &str) -> bool {
+    let words = |side: &Side, more: &[&str]| -> Vec<String> {
+        let (lines, _) = side.lines(side.command(seed, 1, without, more));
+        let words = lines.iter().flat_map(|line| line.split(' '));
+        words.map(str::to_owned).collect()
+    };
+    let expected = words(bare, &[]);
+    let (disturbed, actual) = (words(bare, &["--disturb"]), words(layer, &[]));
+    let explained = |i: usize| actual[i] == expected[i] || disturbed[i] != expected[i];
+    // What differs only among others is a failure as well.
+    expected != actual
+        && [&disturbed, &actual]
+            .iter()
+            .all(|w| w.len() == expected.len())
+        && (0..expected.len()).all(explained)
+}
+
 fn compare(api: Api, atlas: &str, seeds: std::ops::Range<u64>) {
     let screen = (api == Api::Glx).then(own_screen);
     let program = build::program(api == Api::OsMesa);
@@ -146,6 +168,9 @@ fn compare(api: Api, atlas: &str, seeds: std::ops::Range<u64>) {
     wrong.sort_unstable();
     wrong.dedup();
     wrong.retain(|seed| !KNOWN.iter().any(|(known, _)| known == seed));
+    let found = wrong.len() as u64;
+    wrong.retain(|&seed| !of_two_minds(&bare, &layer, seed, &without));
+    let minds = found - wrong.len() as u64;
     let shown: Vec<String> = wrong
         .iter()
         .take(SHOWN)
@@ -157,7 +182,11 @@ fn compare(api: Api, atlas: &str, seeds: std::ops::Range<u64>) {
         wrong.len(),
         shown.join("\n")
     );
-    println!("{compared} sequences are the same");
+    assert!(
+        minds * 100 <= compared.max(100) * TWO_MINDS,
+        "Mesa alone is of two minds on {minds} of {compared} sequences"
+    );
+    println!("{compared} sequences are the same, but {minds} on which Mesa alone is of two minds");
 }
 
 #[test]
@@ -166,20 +195,17 @@ fn random_calls_side_by_side() {
 }
 
 #[test]
-#[ignore = "differences remain"]
-fn full_random_calls_in_layers() {
+fn random_calls_in_layers() {
     compare(Api::Egl, "layers", 10_000..10_100);
 }
 
 #[test]
-#[ignore = "differences remain"]
-fn full_random_calls_in_windows() {
+fn random_calls_in_windows() {
     compare(Api::Glx, "side-by-side", 20_000..20_050);
 }
 
 #[test]
-#[ignore = "differences remain"]
-fn full_random_calls_in_memory() {
+fn random_calls_in_memory() {
     compare(Api::OsMesa, "side-by-side", 30_000..30_050);
 }
 

@@ -171,6 +171,31 @@ impl Layer {
         Some(())
     }
 
+    /// glDrawBuffer(s) with a name that the layer does not know: the driver answers for it. OSMesa calls its only
+    /// buffer by the names of a back buffer too.
+    pub fn other_draw_buffers(
+        &mut self,
+        gl: &Gl,
+        target: u32,
+        buffers: &[u32],
+        call: &mut dyn FnMut(),
+    ) {
+        let mut taken = false;
+        let default = self.state.window.default_buffer;
+        self.with_true_zero(gl, target, &mut || {
+            call();
+            let is = |(i, b): (u32, &u32)| gl.get_integer(c::DRAW_BUFFER0 + i) as u32 == *b;
+            taken = !buffers.is_empty() && (0..).zip(buffers).all(is);
+            if taken && buffers != [default] {
+                gl.draw_buffer(default);
+            }
+        });
+        if taken && target != 0 {
+            self.state.framebuffers.draw_buffers = buffers.to_vec();
+            self.apply_buffers(gl);
+        }
+    }
+
     /// glReadBuffer for framebuffer 0; as [`Layer::draw_buffers`].
     pub fn read_buffer(&mut self, gl: &Gl, buffer: u32) -> Option<()> {
         let f = &mut self.state.framebuffers;
@@ -207,7 +232,7 @@ impl Layer {
         let draw: Vec<u32> = f
             .draw_buffers
             .iter()
-            .filter_map(|&b| f.translate(b))
+            .map(|&b| f.translate(b).unwrap_or(c::COLOR_ATTACHMENT0))
             .collect();
         let read = f.translate(f.read_buffer).unwrap_or(c::COLOR_ATTACHMENT0);
         let (bound_draw, bound_read) = (

@@ -262,9 +262,8 @@ impl Layer {
             // A wrong name: the driver answers for it.
             Run::DrawBuffers if self.draws_to_zero() => {
                 if self.draw_buffers(gl, &segment.names).is_none() {
-                    self.with_true_zero(gl, c::DRAW_FRAMEBUFFER, &mut || {
-                        gl.call_list(segment.name)
-                    });
+                    let (target, names) = (c::DRAW_FRAMEBUFFER, segment.names.clone());
+                    self.other_draw_buffers(gl, target, &names, &mut || gl.call_list(segment.name));
                 }
             }
             Run::ReadBuffer(buffer) if self.reads_from_zero() => {
@@ -289,6 +288,14 @@ impl Layer {
                     let call = &mut || gl.call_list(segment.name);
                     self.accum(gl, op, f32::from_bits(value), call);
                 }
+            }
+            Run::BeginQuery(target, query) => {
+                gl.call_list(segment.name);
+                self.begun_query(gl, target, query);
+            }
+            Run::EndQuery(target) => {
+                gl.call_list(segment.name);
+                self.ended_query(target);
             }
             run => {
                 let attribs =
@@ -395,6 +402,8 @@ impl Layer {
             | Run::Blit
             | Run::ClearAll
             | Run::Accum
+            | Run::BeginQuery(..)
+            | Run::EndQuery(_)
             | Run::DrawBuffers
             | Run::ReadBuffer(_) => call(),
             Run::Draw => {

@@ -142,9 +142,9 @@ impl Layer {
         self.catch_up(gl);
         self.state.keep_errors(gl);
         let q = &self.queries;
-        if let Some(active) = q.active.iter().find(|a| a.query == query) {
+        if q.active.iter().any(|a| a.query == query) {
             // Refused, if it is the driver's as well.
-            return active.more.last().copied().unwrap_or(query);
+            return self.asked_query(query);
         }
         let more = q.more.get(&query).map_or(&[][..], |(_, names)| names);
         let counted = |&q: &u32| gl.query_object(q, c::QUERY_RESULT) != 0;
@@ -165,6 +165,12 @@ impl Layer {
     /// glEndConditionalRender, after the driver's own: there is no condition then, whether there was one or not.
     pub fn ended_condition(&mut self) {
         self.queries.condition = None;
+    }
+
+    /// The query to ask the driver about in the place of one of the program's: while ours counts on, the program's is active.
+    pub fn asked_query(&self, query: u32) -> u32 {
+        let active = self.queries.active.iter().find(|a| a.query == query);
+        active.and_then(|a| a.more.last().copied()).unwrap_or(query)
     }
 
     /// What our queries add to the answer about one of the program's, if there are any.

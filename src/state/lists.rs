@@ -40,6 +40,10 @@ pub enum Run {
     Lists,
     /// glBlitFramebuffer: its arguments are in [`Segment::names`].
     Blit,
+    /// glBeginQuery of a target and a query.
+    BeginQuery(u32, u32),
+    /// glEndQuery of a target.
+    EndQuery(u32),
 }
 
 impl Run {
@@ -54,6 +58,8 @@ impl Run {
                 | Run::Blit
                 | Run::ClearAll
                 | Run::Accum
+                | Run::BeginQuery(..)
+                | Run::EndQuery(_)
         )
     }
 

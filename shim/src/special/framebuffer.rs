@@ -61,16 +61,28 @@ fn choose(
     }
 }
 
+/// As [`choose`], of the buffers that the bound framebuffer is drawn to.
+fn choose_draw(names: Option<&[u32]>, call: &mut dyn FnMut()) {
+    let done = enter(|gl, l| {
+        if !l.draws_to_zero() {
+            call();
+        } else if names.and_then(|names| l.draw_buffers(gl, names)).is_none() {
+            l.other_draw_buffers(gl, c::DRAW_FRAMEBUFFER, names.unwrap_or_default(), call);
+        }
+    });
+    if done.is_none() {
+        call();
+    }
+}
+
 pub(crate) unsafe fn glDrawBuffer(buf: u32) {
     if compile(Command::Of(Run::DrawBuffers), Touch::NONE) {
         enter(|_, l| l.compiled_names(&[buf]));
         // SAFETY: compiled into the program's list.
         return unsafe { real().glDrawBuffer(buf) };
     }
-    choose(
-        Layer::draws_to_zero,
-        |gl, l| l.draw_buffers(gl, &[buf]),
-        c::DRAW_FRAMEBUFFER,
+    choose_draw(
+        Some(&[buf]),
         // SAFETY: the program's own call.
         &mut || unsafe { real().glDrawBuffer(buf) },
     );
@@ -95,10 +107,8 @@ pub(crate) unsafe fn glDrawBuffers(n: i32, bufs: Ptr) {
         // SAFETY: compiled into the program's list.
         return unsafe { real().glDrawBuffers(n, bufs) };
     }
-    choose(
-        Layer::draws_to_zero,
-        |gl, l| l.draw_buffers(gl, names.as_deref()?),
-        c::DRAW_FRAMEBUFFER,
+    choose_draw(
+        names.as_deref(),
         // SAFETY: the program's own call.
         &mut || unsafe { real().glDrawBuffers(n, bufs) },
     );

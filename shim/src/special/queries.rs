@@ -1,21 +1,29 @@
 //! Queries that count what is drawn, in one view instead of in all.
 
 use crate::context::{enter, peek, real};
+use crate::hooks::{ask, compile};
 use core::slice::from_raw_parts;
 use manyview_core::gl::Ptr;
 use manyview_core::gl::consts::CURRENT_QUERY;
 use manyview_core::layer::Answer;
+use manyview_core::state::{Command, Run, Touch};
 
 pub(crate) unsafe fn glBeginQuery(target: u32, id: u32) {
+    let compiled = compile(Command::Of(Run::BeginQuery(target, id)), Touch::NONE);
     // SAFETY: the program's own call.
     unsafe { real().glBeginQuery(target, id) };
-    enter(|gl, l| l.begun_query(gl, target, id));
+    if !compiled {
+        enter(|gl, l| l.begun_query(gl, target, id));
+    }
 }
 
 pub(crate) unsafe fn glEndQuery(target: u32) {
+    let compiled = compile(Command::Of(Run::EndQuery(target)), Touch::NONE);
     // SAFETY: the program's own call.
     unsafe { real().glEndQuery(target) };
-    enter(|_, l| l.ended_query(target));
+    if !compiled {
+        enter(|_, l| l.ended_query(target));
+    }
 }
 
 pub(crate) unsafe fn glDeleteQueries(n: i32, ids: Ptr) {
@@ -63,8 +71,10 @@ fn more(id: u32, pname: u32, params: Ptr) -> Option<Answer> {
 macro_rules! query_object {
     ($name:ident, $value:ty) => {
         pub(crate) unsafe fn $name(id: u32, pname: u32, params: Ptr) {
+            ask();
+            let asked = peek(|l| l.asked_query(id)).unwrap_or(id);
             // SAFETY: the program's own call.
-            unsafe { real().$name(id, pname, params) };
+            unsafe { real().$name(asked, pname, params) };
             if let Some(answer) = more(id, pname, params) {
                 // SAFETY: the driver has written one value there.
                 let value = unsafe { &mut *params.cast::<$value>() };
