@@ -21,8 +21,11 @@ LONG_PACKAGES := gltron xscreensaver-gl
 FULL_PACKAGES := valgrind
 # Only for those who make the pictures of the documents again.
 PICTURE_PACKAGES := netpbm
+# A game with a timedemo: 423 MB, and only for the targets that play it.
+OPENARENA_PACKAGES := openarena unzip
 
-.PHONY: help build demos demo pictures test test-long test-full programs soak lint packages install uninstall clean
+.PHONY: help build demos demo pictures test test-long test-full programs soak openarena openarena-pictures lint packages \
+	install uninstall clean
 
 help: ## list the targets
 	@sed -n 's/^\([a-z-]*\):.*## /\1	/p' $(MAKEFILE_LIST) | expand -t 20
@@ -81,6 +84,16 @@ programs: packages build ## run real programs with and without the layer; writes
 soak: packages build ## play a game's demo for SOAK_MINUTES (240) and watch memory and GL names; target/soak
 	$(CARGO) test --release --test soak soak_ -- --ignored --nocapture
 
+openarena: packages build ## play OpenArena's timedemo with and without the layer; prints the frame rates (423 MB, half an hour)
+	@sh scripts/packages.sh $(OPENARENA_PACKAGES)
+	@sh scripts/openarena.sh $(BIN) $(TARGET)/openarena
+
+openarena-pictures: packages build ## make the pictures of OpenArena in the README
+	@sh scripts/packages.sh $(OPENARENA_PACKAGES) $(PICTURE_PACKAGES)
+	@sh scripts/openarena.sh $(BIN) $(TARGET)/openarena pictures
+	cp $(TARGET)/openarena/quilt.png docs/openarena-views.png
+	cp $(TARGET)/openarena/panel.png docs/openarena-panel.png
+
 lint: rust ## check format, clippy and documentation
 	$(CARGO) fmt --all --check
 	$(CARGO) clippy --workspace --all-targets -- -D warnings
@@ -108,7 +121,7 @@ install: ## install to PREFIX after `make build` (default /usr/local)
 	for shader in $(wildcard shaders/*.wgsl); do \
 		install -m 644 $$shader $(DESTDIR)$(PREFIX)/share/manyview/shaders/ || exit 1; done
 	install -m 644 README.md ARCHITECTURE.md CHANGELOG.md LICENSE $(DESTDIR)$(PREFIX)/share/doc/manyview/
-	install -m 644 docs/mirror.png docs/compatibility.md $(DESTDIR)$(PREFIX)/share/doc/manyview/docs/
+	install -m 644 docs/*.png docs/*.md $(DESTDIR)$(PREFIX)/share/doc/manyview/docs/
 
 uninstall: ## remove what install has put to PREFIX
 	rm -f $(DESTDIR)$(PREFIX)/bin/manyview

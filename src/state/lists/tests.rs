@@ -1,0 +1,142 @@
+//! Which commands make one run, and which names lists have.
+
+use super::*;
+
+/// The runs of a list of commands, with how many commands each has.
+fn runs(commands: &[Command]) -> Vec<(Run, usize)> {
+    let mut list = Compiling::new(1, c::COMPILE, 100);
+    let mut counts = vec![0];
+    for &command in commands {
+        if list.needs_split(command).is_some() {
+            list.split(100 + counts.len() as u32);
+            counts.push(0);
+        }
+        list.note(command, Touch::NONE);
+        if let Some(last) = counts.last_mut() {
+            *last += 1;
+        }
+    }
+    list.finish();
+    list.body().iter().map(|s| s.run).zip(counts).collect()
+}
+
+const ANY: Command = Command::Of(Run::Open);
+const DRAW: Command = Command::Of(Run::Draw);
+const STATE: Command = Command::Of(Run::State);
+const RASTER: Command = Command::Of(Run::Raster);
+
+#[test]
+fn what_can_be_put_back_stays_with_the_drawing() {
+    use Command::*;
+    let robot = [
+        PushAttrib(1),
+        PushMatrix,
+        Matrix,
+        ANY,
+        DRAW,
+        PopMatrix,
+        DRAW,
+        PopAttrib,
+    ];
+    assert_eq!(runs(&robot), [(Run::Draw, 8)]);
+    assert_eq!(runs(&[ANY, Matrix]), [(Run::Open, 2)]);
+    assert_eq!(runs(&[]), [(Run::Open, 0)]);
+}
+
+#[test]
+fn the_projection_is_set_once() {
+    use Command::*;
+    let list = [
+        MatrixMode(c::PROJECTION),
+        PushMatrix,
+        Matrix,
+        MatrixMode(c::MODELVIEW),
+        Matrix,
+        DRAW,
+        MatrixMode(c::PROJECTION),
+        PopMatrix,
+    ];
+    assert_eq!(
+        runs(&list),
+        [(Run::State, 5), (Run::Draw, 1), (Run::State, 2)]
+    );
+}
+
+#[test]
+fn a_stack_is_popped_once_where_the_list_did_not_push() {
+    use Command::*;
+    assert_eq!(runs(&[DRAW, PopMatrix]), [(Run::Draw, 1), (Run::State, 1)]);
+    assert_eq!(runs(&[PopAttrib, DRAW]), [(Run::State, 1), (Run::Draw, 1)]);
+    let across = [PushAttrib(1), STATE, DRAW, PopAttrib];
+    assert_eq!(
+        runs(&across),
+        [(Run::State, 2), (Run::Draw, 1), (Run::State, 1)]
+    );
+}
+
+#[test]
+fn clears_pictures_and_calls_stand_alone() {
+    let clear = Command::Of(Run::Clear);
+    assert_eq!(
+        runs(&[ANY, clear, clear, ANY, DRAW]),
+        [(Run::Open, 1), (Run::Clear, 2), (Run::Draw, 2)]
+    );
+    assert_eq!(runs(&[RASTER, RASTER]), [(Run::Raster, 2)]);
+    let call = |list| Command::Of(Run::List(list));
+    assert_eq!(
+        runs(&[call(7), call(7)]),
+        [(Run::List(7), 1), (Run::List(7), 1)]
+    );
+}
+
+#[test]
+fn nothing_is_split_inside_a_primitive() {
+    let mut list = Compiling::new(1, c::COMPILE, 9);
+    list.note(DRAW, Touch::NONE);
+    list.between = true;
+    assert_eq!(list.needs_split(Command::Of(Run::List(3))), None);
+    list.note(Command::Of(Run::List(3)), Touch::ALL);
+    list.finish();
+    assert_eq!(list.body()[0].run, Run::Draw);
+}
+
+#[test]
+fn what_is_left_open_is_known() {
+    use Command::*;
+    const VERTEX: Command = Immediate(Effect::VERTEX);
+    let body = |commands: &[Command]| {
+        let mut list = Compiling::new(1, c::COMPILE, 9);
+        for &command in commands {
+            if list.needs_split(command).is_some() {
+                list.split(10);
+            }
+            list.note(command, Touch::NONE);
+        }
+        list.finish();
+        let (first, last) = (&list.body()[0], &list.body()[list.body().len() - 1]);
+        (first.closes, first.pops, last.opens, last.pushes.clone())
+    };
+    assert_eq!(body(&[Begin(4), VERTEX, End]), (false, 0, None, vec![]));
+    assert_eq!(body(&[ANY, Begin(7), VERTEX]), (false, 0, Some(7), vec![]));
+    assert_eq!(body(&[VERTEX, End, ANY]), (true, 0, None, vec![]));
+    // An error wherever it is called.
+    assert_eq!(body(&[ANY, End]), (false, 0, None, vec![]));
+    assert_eq!(
+        body(&[PopAttrib, PopAttrib, PushAttrib(5)]),
+        (false, 2, None, vec![5])
+    );
+}
+
+#[test]
+fn names_come_from_the_top_and_are_used_again() {
+    let mut lists = Lists::default();
+    let mut taken = vec![u32::MAX - 1];
+    let a = lists.name(|n| taken.contains(&n));
+    taken.push(a);
+    assert_eq!(a, u32::MAX - 2);
+    let body: Body = [fresh(a)].into();
+    assert!(lists.define(5, body.clone()).is_empty());
+    assert_eq!(lists.delete(0, u32::MAX), [a]);
+    assert!(lists.body(5).is_none());
+    assert_eq!(lists.name(|_| false), a);
+}
