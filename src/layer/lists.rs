@@ -224,7 +224,13 @@ impl Layer {
             let touch = segments().fold(Touch::NONE, |t, s| t | s.touch);
             let current = segments().fold(Effect::NONE, |e, s| e | s.immediate.sets());
             let primitives = segments().all(|s| s.primitives);
-            return self.run(gl, run, touch, (current, primitives), call);
+            return self.run(gl, run, touch, (current, primitives), &mut || {
+                // Mesa 22.3 sets current values from before glCallLists again after it, unless they have been asked for.
+                if current != Effect::NONE {
+                    gl.get_floats::<4>(c::CURRENT_COLOR);
+                }
+                call();
+            });
         }
         for body in &bodies {
             for segment in body.iter() {
