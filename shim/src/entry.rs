@@ -6564,7 +6564,8 @@ export! { 245, glIndexubv, first_glIndexubv, hook_glIndexubv, (c: Ptr) -> (), {
     }
 } }
 export! { 246, glMaterialf, first_glMaterialf, hook_glMaterialf, (face: u32, pname: u32, param: f32) -> (), {
-    if let Some(rec) = imm::recording(slot::glMaterialf, Effect::MATERIAL) {
+    if imm::is_material(face, pname)
+        && let Some(rec) = imm::recording(slot::glMaterialf, Effect::MATERIAL) {
         rec.u32(face);
         rec.u32(pname);
         rec.f32(param);
@@ -6576,7 +6577,8 @@ export! { 246, glMaterialf, first_glMaterialf, hook_glMaterialf, (face: u32, pna
     }
 } }
 export! { 247, glMaterialfv, first_glMaterialfv, hook_glMaterialfv, (face: u32, pname: u32, params: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glMaterialfv, Effect::MATERIAL) {
+    if imm::is_material(face, pname)
+        && let Some(rec) = imm::recording(slot::glMaterialfv, Effect::MATERIAL) {
         rec.u32(face);
         rec.u32(pname);
         // SAFETY: the program's array, of as many elements as the command reads.
@@ -6589,7 +6591,8 @@ export! { 247, glMaterialfv, first_glMaterialfv, hook_glMaterialfv, (face: u32, 
     }
 } }
 export! { 248, glMateriali, first_glMateriali, hook_glMateriali, (face: u32, pname: u32, param: i32) -> (), {
-    if let Some(rec) = imm::recording(slot::glMateriali, Effect::MATERIAL) {
+    if imm::is_material(face, pname)
+        && let Some(rec) = imm::recording(slot::glMateriali, Effect::MATERIAL) {
         rec.u32(face);
         rec.u32(pname);
         rec.i32(param);
@@ -6601,7 +6604,8 @@ export! { 248, glMateriali, first_glMateriali, hook_glMateriali, (face: u32, pna
     }
 } }
 export! { 249, glMaterialiv, first_glMaterialiv, hook_glMaterialiv, (face: u32, pname: u32, params: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glMaterialiv, Effect::MATERIAL) {
+    if imm::is_material(face, pname)
+        && let Some(rec) = imm::recording(slot::glMaterialiv, Effect::MATERIAL) {
         rec.u32(face);
         rec.u32(pname);
         // SAFETY: the program's array, of as many elements as the command reads.

@@ -181,6 +181,12 @@ pub(crate) mod imm {
         }
     }
 
+    /// Whether there is such a parameter of a material.
+    pub(crate) fn is_material(face: u32, pname: u32) -> bool {
+        let faces = [0x0404, 0x0405, 0x0408]; // GL_FRONT, GL_BACK, GL_FRONT_AND_BACK
+        faces.contains(&face) && matches!(pname, 0x1600..=0x1603 | 0x1200..=0x1202)
+    }
+
     /// Number of values of glMaterial*v.
     pub(crate) fn material_len(pname: u32) -> usize {
         match pname {

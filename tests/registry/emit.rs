@@ -240,9 +240,15 @@ pub fn entry(commands: &[Command]) -> String {
         match class {
             "imm" => {
                 let writes = record(c);
+                // The driver refuses a wrong one at once, as it does between the program's own glBegin and glEnd.
+                let right = if name.starts_with("glMaterial") {
+                    "imm::is_material(face, pname)\n        && "
+                } else {
+                    ""
+                };
                 writeln!(
                     o,
-                    "    if let Some(rec) = imm::recording(slot::{name}, Effect::{}) {{",
+                    "    if {right}let Some(rec) = imm::recording(slot::{name}, Effect::{}) {{",
                     effect(name)
                 )
                 .unwrap();
