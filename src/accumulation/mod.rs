@@ -211,9 +211,15 @@ impl Accumulation {
         let old = self.textures();
         self.make_textures(gl, names);
         let [width, height, rows] = self.size;
-        for row in 0..rows {
-            let rect = [0, 0, width as i32, height as i32];
-            self.copy(gl, (old[0], row), (self.values, row), rect);
+        // A pass would be fed back to the program where it selects or feeds back.
+        if gl.version() >= (4, 3) {
+            let size = self.size.map(|s| s as i32);
+            gl.copy_image(c::TEXTURE_2D_ARRAY, old[0], self.values, size);
+        } else {
+            for row in 0..rows {
+                let rect = [0, 0, width as i32, height as i32];
+                self.copy(gl, (old[0], row), (self.values, row), rect);
+            }
         }
         old.into_iter().for_each(|t| gl.delete_texture(t));
     }

@@ -49,12 +49,12 @@ impl Gl {
         };
     }
 
-    /// glCopyImageSubData of the whole level 0 of a two-dimensional texture.
-    pub fn copy_image(&self, target: u32, from: u32, to: u32, w: i32, h: i32) {
+    /// glCopyImageSubData of the whole level 0: width, height and layers.
+    pub fn copy_image(&self, target: u32, from: u32, to: u32, [w, h, d]: [i32; 3]) {
         // SAFETY: no pointers.
         unsafe {
             self.real
-                .glCopyImageSubData(from, target, 0, 0, 0, 0, to, target, 0, 0, 0, 0, w, h, 1)
+                .glCopyImageSubData(from, target, 0, 0, 0, 0, to, target, 0, 0, 0, 0, w, h, d)
         };
     }
 

@@ -233,7 +233,7 @@ impl Layer {
             if size[0] > 0 && target != c::TEXTURE_1D {
                 gl.tex_image_2d_empty(target, internal, size[0], size[1], depth);
                 if copies_images {
-                    gl.copy_image(target, texture, name, size[0], size[1]);
+                    gl.copy_image(target, texture, name, [size[0], size[1], 1]);
                 }
             }
             name

@@ -180,12 +180,15 @@ impl State {
             touched.without(Touch::RECTS | Touch::PROJECTION | Touch::MODE | Touch::OBJECTS);
     }
 
-    /// Takes the program's errors out of the driver's queue, before calls of ours that may raise some.
+    /// Takes the program's errors out of the driver's queue, before calls of ours that may raise some. While the program has not asked
+    /// for those that are kept, further ones are nothing new: the driver, too, would keep the first only.
     pub fn keep_errors(&mut self, gl: &Gl) {
-        while let e @ 1.. = gl.get_error() {
-            self.errors.push_back(e);
-            if self.errors.len() > 16 {
-                break;
+        let kept = !self.errors.is_empty();
+        for _ in 0..16 {
+            match gl.get_error() {
+                c::NO_ERROR => break,
+                error if !kept => self.errors.push_back(error),
+                _ => {}
             }
         }
     }
