@@ -65,6 +65,11 @@ pub fn replay(
         call(atlas.tiles.own());
         return false;
     }
+    if saves != 0 {
+        // Mesa 22.3 forgets at a glPushAttrib what it has not sent of the current values, and a glPopAttrib of the program's that is
+        // still to come does not put them back.
+        gl.get_floats::<4>(c::CURRENT_COLOR);
+    }
     let tiles = atlas.tiles;
     let size = size(atlas);
     let beside = tiles.columns > 1;

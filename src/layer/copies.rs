@@ -182,7 +182,11 @@ impl Layer {
         if !self.copies.textures.contains_key(&texture) {
             self.make_copies(gl, target, texture);
         }
+        self.state.keep_errors(gl);
         self.read(gl, x, width, call);
+        if self.state.keep_errors(gl) {
+            return; // a wrong call is as wrong in the other views
+        }
         self.state.refresh(gl);
         let own = self.atlas.tiles.own();
         let views = match self.copies.textures.get(&texture) {
@@ -199,6 +203,7 @@ impl Layer {
             }
         }
         gl.bind_texture(target, texture);
+        self.drain_own_errors(gl);
         let f = &self.state.framebuffers;
         let draw = match f.draw {
             0 => self.atlas.framebuffer(),

@@ -381,6 +381,8 @@ impl Layer {
         }
         self.plan(gl, Kind::Pixels);
         let own = self.atlas.tiles.own();
+        // As in `draw::replay`: before a glPushAttrib of ours.
+        gl.get_floats::<4>(c::CURRENT_COLOR);
         self.queries.pause(gl);
         for view in self.atlas.tiles.order() {
             self.take_single(gl, view);

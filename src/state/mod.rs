@@ -181,16 +181,17 @@ impl State {
     }
 
     /// Takes the program's errors out of the driver's queue, before calls of ours that may raise some. While the program has not asked
-    /// for those that are kept, further ones are nothing new: the driver, too, would keep the first only.
-    pub fn keep_errors(&mut self, gl: &Gl) {
+    /// for those that are kept, further ones are nothing new: the driver, too, would keep the first only. Whether there were any.
+    pub fn keep_errors(&mut self, gl: &Gl) -> bool {
         let kept = !self.errors.is_empty();
-        for _ in 0..16 {
+        for count in 0..16 {
             match gl.get_error() {
-                c::NO_ERROR => break,
+                c::NO_ERROR => return count > 0,
                 error if !kept => self.errors.push_back(error),
                 _ => {}
             }
         }
+        true
     }
 
     /// Whether a draw now lands in framebuffer 0 as picture: not in a list, a selection, a feedback or an own framebuffer.
