@@ -172,11 +172,14 @@ impl Library<'_> {
         (start, end)
     }
 
-    /// Whether the linker made an entry read-only after it was bound.
-    fn is_protected(&self, entry: usize) -> bool {
+    /// Whether the linker made an entry read-only after it was bound: that is whole pages only, and what lies beyond them the library
+    /// still writes to.
+    fn is_protected(&self, entry: usize, page: usize) -> bool {
+        let whole = |address: usize| address & !(page - 1);
         self.headers.iter().any(|h| {
             let start = self.base + h.p_vaddr as usize;
-            h.p_type == PT_GNU_RELRO && (start..start + h.p_memsz as usize).contains(&entry)
+            let end = whole(start + h.p_memsz as usize);
+            h.p_type == PT_GNU_RELRO && (whole(start)..end).contains(&entry)
         })
     }
 
@@ -266,26 +269,31 @@ impl Library<'_> {
         let bound = unsafe { entry.read_volatile() };
         let open = self.holds(bound) && gl.first;
         if gl.holds(bound) || open {
+            // SAFETY: asks for a number.
+            let page = unsafe { libc::sysconf(libc::_SC_PAGESIZE) }.max(1) as usize;
+            let protected = self.is_protected(entry as usize, page);
             // SAFETY: as above.
-            unsafe { write(entry, ours as usize, self.is_protected(entry as usize)) };
+            unsafe { write(entry, ours as usize, protected.then_some(page)) };
         }
     }
 }
 
 /// # Safety
-/// `entry` is an entry of a loaded library's table; `protected`: its page is read-only.
-unsafe fn write(entry: *mut usize, value: usize, protected: bool) {
-    // SAFETY: asks for a number.
-    let page = unsafe { libc::sysconf(libc::_SC_PAGESIZE) }.max(1) as usize;
-    let start = (entry as usize & !(page - 1)) as *mut c_void;
-    // SAFETY: the page of the library that holds the entry.
-    let set = |access| unsafe { libc::mprotect(start, page, access) } == 0;
-    if protected && !set(libc::PROT_READ | libc::PROT_WRITE) {
+/// `entry` is an entry of a loaded library's table; `protected`: the size of its page, if that is read-only.
+unsafe fn write(entry: *mut usize, value: usize, protected: Option<usize>) {
+    let set = |page: usize, access| {
+        let start = (entry as usize & !(page - 1)) as *mut c_void;
+        // SAFETY: the page of the library that holds the entry.
+        unsafe { libc::mprotect(start, page, access) == 0 }
+    };
+    if let Some(page) = protected
+        && !set(page, libc::PROT_READ | libc::PROT_WRITE)
+    {
         return;
     }
     // SAFETY: aligned and writable; other threads read one address or the other, and both are good.
     unsafe { AtomicUsize::from_ptr(entry) }.store(value, Relaxed);
-    if protected {
-        set(libc::PROT_READ);
+    if let Some(page) = protected {
+        set(page, libc::PROT_READ);
     }
 }
