@@ -25,7 +25,8 @@ pub struct Atlas {
     rows: Vec<u32>,
     layered: Option<u32>,
     resolve: Option<Vec<u32>>,
-    single: Option<Single>,
+    /// What is read from, and what a scaled blit is drawn to.
+    singles: Vec<Single>,
     bound_row: u32,
 }
 
@@ -196,7 +197,7 @@ impl Atlas {
             rows,
             layered,
             resolve,
-            single: None,
+            singles: Vec::new(),
             bound_row: 0,
         };
         if status != c::FRAMEBUFFER_COMPLETE {
@@ -221,8 +222,8 @@ impl Atlas {
     /// All framebuffer objects; each has a texture at the first colour attachment.
     pub fn framebuffers(&self) -> impl Iterator<Item = u32> {
         let resolve = self.resolve.iter().flatten().copied();
-        let single = self.single.iter().map(Single::framebuffer);
-        self.targets().chain(resolve).chain(single)
+        let singles = self.singles.iter().map(Single::framebuffer);
+        self.targets().chain(resolve).chain(singles)
     }
 
     /// The colour texture that is drawn to.
@@ -329,28 +330,50 @@ impl Atlas {
         (f.unwrap_or(0), x as i32)
     }
 
-    /// Makes what [`Atlas::take_single`] copies to, if it is not there. The caller saves and restores bindings as for [`Atlas::new`].
-    pub fn make_single(&mut self, gl: &Gl, names: &mut Names, window: &Window) {
-        if self.single.is_none() {
+    /// Makes what [`Atlas::take_single`] copies to, and with `staged` what [`Atlas::stage`] does, where it is not there. The caller
+    /// saves and restores bindings as for [`Atlas::new`].
+    pub fn make_singles(&mut self, gl: &Gl, names: &mut Names, window: &Window, staged: bool) {
+        while !self.has_singles(staged) {
             let single = Single::new(gl, names, window, self.flipped, &mut self.textures);
-            self.single = Some(single);
+            self.singles.push(single);
         }
     }
 
-    /// Whether [`Atlas::make_single`] was called.
-    pub fn has_single(&self) -> bool {
-        self.single.is_some()
+    /// Whether [`Atlas::make_singles`] has nothing to do.
+    pub fn has_singles(&self, staged: bool) -> bool {
+        self.singles.len() > usize::from(staged)
     }
 
     /// Binds a copy of a view's tile for reading from a buffer, single-sampled and with nothing beside it. Changes the draw
     /// framebuffer too; the scissor test must be off.
     pub fn take_single(&mut self, gl: &Gl, view: u32, read: u32) {
         let (from, x) = self.target(view);
-        if let Some(single) = &self.single {
+        if let Some(single) = self.singles.first() {
             single.take(gl, from, x);
+            gl.bind_framebuffer(c::READ_FRAMEBUFFER, single.framebuffer());
             gl.read_buffer(read);
             // No layer is bound for drawing now.
             self.bound_row = u32::MAX;
+        }
+    }
+
+    /// Binds another copy of a view's tile for drawing and answers its framebuffer; [`Atlas::unstage`] puts it back. Changes the
+    /// read framebuffer too; the scissor test must be off.
+    pub fn stage(&mut self, gl: &Gl, view: u32) -> u32 {
+        let (from, x) = self.target(view);
+        let Some(single) = self.singles.get(1) else {
+            return from;
+        };
+        single.take(gl, from, x);
+        self.bound_row = u32::MAX;
+        single.framebuffer()
+    }
+
+    /// After [`Atlas::stage`]. Changes the framebuffer bindings; the scissor test must be off.
+    pub fn unstage(&mut self, gl: &Gl, view: u32) {
+        let (to, x) = self.target(view);
+        if let Some(single) = self.singles.get(1) {
+            single.give(gl, to, x);
         }
     }
 

@@ -1,6 +1,7 @@
 //! Names of the layer's own textures and buffers.
 
 use crate::gl::{Gl, Held, consts as c};
+use std::collections::BTreeSet;
 
 /// Gives out names that the program does not come upon.
 ///
@@ -11,6 +12,7 @@ use crate::gl::{Gl, Held, consts as c};
 #[derive(Debug, Default)]
 pub struct Names {
     next: Option<u32>,
+    promised: BTreeSet<u32>,
 }
 
 /// "MV" in the upper half.
@@ -27,10 +29,23 @@ impl Names {
         self.next.is_some()
     }
 
+    /// A display list of the program will bind this texture, which may not be there yet.
+    pub fn promise(&mut self, name: u32) {
+        self.promised.insert(name);
+    }
+
     /// A texture, to be bound at once: only then is a high name taken.
     pub fn texture(&mut self, gl: &Gl) -> u32 {
         let Some(next) = &mut self.next else {
-            return gl.gen_texture();
+            let mut name = gl.gen_texture();
+            // Given back when another one has been found, or it would be found again.
+            let mut promised = Vec::new();
+            while self.promised.contains(&name) {
+                promised.push(name);
+                name = gl.gen_texture();
+            }
+            promised.into_iter().for_each(|n| gl.delete_texture(n));
+            return name;
         };
         // Contexts that share objects share the names, and each has its own atlas.
         while gl.is_texture(*next) != 0 {

@@ -42,25 +42,23 @@ impl Single {
         Single { framebuffer, size }
     }
 
-    /// Takes a copy of the tile at an x offset in pixels of a framebuffer and binds it for reading. Changes the draw
-    /// framebuffer too; the scissor test must be off.
+    /// Takes a copy of the tile at an x offset in pixels of a framebuffer. Binds that one for reading and itself for drawing; the
+    /// scissor test must be off.
     pub(super) fn take(&self, gl: &Gl, from: u32, x: i32) {
+        self.copy(gl, (from, x), (self.framebuffer, 0));
+    }
+
+    /// Copies itself to such a tile. Binds itself for reading and that one for drawing; the scissor test must be off.
+    pub(super) fn give(&self, gl: &Gl, to: u32, x: i32) {
+        self.copy(gl, (self.framebuffer, 0), (to, x));
+    }
+
+    fn copy(&self, gl: &Gl, (from, x): (u32, i32), (to, to_x): (u32, i32)) {
         let [w, h] = self.size;
+        let all = c::COLOR_BUFFER_BIT | c::DEPTH_BUFFER_BIT | c::STENCIL_BUFFER_BIT;
         gl.bind_framebuffer(c::READ_FRAMEBUFFER, from);
-        gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, self.framebuffer);
-        gl.blit_framebuffer(
-            x,
-            0,
-            x + w,
-            h,
-            0,
-            0,
-            w,
-            h,
-            c::COLOR_BUFFER_BIT | c::DEPTH_BUFFER_BIT | c::STENCIL_BUFFER_BIT,
-            c::NEAREST,
-        );
-        gl.bind_framebuffer(c::READ_FRAMEBUFFER, self.framebuffer);
+        gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, to);
+        gl.blit_framebuffer(x, 0, x + w, h, to_x, 0, to_x + w, h, all, c::NEAREST);
     }
 
     /// Its name.

@@ -16,11 +16,14 @@ pub struct Current {
     fog: Option<f32>,
     edge: Option<bool>,
     material: Vec<(u32, u32, [f32; 4])>,
+    /// The material follows the colour (GL_COLOR_MATERIAL), and may have been left behind.
+    follows: bool,
 }
 
 impl Current {
-    /// Reads the values of some kinds from the driver.
-    pub fn take(gl: &Gl, kinds: Effect) -> Current {
+    /// Reads the values of some kinds from the driver. `popped`: something else than calls may have changed them
+    /// before they are put, such as a glPopAttrib.
+    pub fn take(gl: &Gl, kinds: Effect, popped: bool) -> Current {
         let mut current = Current::default();
         // What an array element or an evaluator sets is not known here.
         let kinds = if kinds.has(Effect::UNKNOWN) {
@@ -30,6 +33,7 @@ impl Current {
         };
         if kinds.has(Effect::COLOR) {
             current.color = Some(gl.get_floats(c::CURRENT_COLOR));
+            current.follows = popped && gl.is_enabled(c::COLOR_MATERIAL);
         }
         if kinds.has(Effect::NORMAL) {
             current.normal = Some(gl.get_floats(c::CURRENT_NORMAL));
@@ -80,6 +84,11 @@ impl Current {
         }
         if let Some([r, g, b, a]) = self.color {
             gl.color_4f(r, g, b, a);
+        }
+        if self.follows {
+            // Mesa 22.3 leaves it at the last colour of the calls before: enabling takes it anew.
+            gl.disable(c::COLOR_MATERIAL);
+            gl.enable(c::COLOR_MATERIAL);
         }
         if let Some([x, y, z]) = self.normal {
             gl.normal_3f(x, y, z);

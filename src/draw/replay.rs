@@ -75,7 +75,7 @@ pub fn replay(
     let beside = tiles.columns > 1;
     let own = tiles.own();
     let current = match again {
-        Again::Current(e) | Again::Anything { current: e, .. } => Current::take(gl, e),
+        Again::Current(e) | Again::Anything { current: e, .. } => Current::take(gl, e, saves != 0),
         _ => Current::default(),
     };
     let projection = Projection { gl, state, shear };

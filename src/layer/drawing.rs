@@ -298,7 +298,7 @@ impl Layer {
             Some(how) => {
                 // Several calls (many views, several layers) each start from the same current values.
                 let current = match again {
-                    Again::Current(e) => Current::take(gl, e),
+                    Again::Current(e) => Current::take(gl, e, false),
                     _ => Current::default(),
                 };
                 let mut first = true;

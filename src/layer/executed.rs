@@ -31,7 +31,7 @@ impl Layer {
         self.executed = Some(Own {
             shear,
             everywhere,
-            before: Current::take(gl, Effect::ALL),
+            before: Current::take(gl, Effect::ALL, true),
         });
     }
 
@@ -40,7 +40,7 @@ impl Layer {
         let Some(own) = self.executed.take() else {
             return;
         };
-        let after = Current::take(gl, Effect::ALL);
+        let after = Current::take(gl, Effect::ALL, true);
         let bound = self.copies.bound(gl);
         if own.everywhere {
             self.queries.pause(gl);

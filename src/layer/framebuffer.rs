@@ -347,21 +347,30 @@ impl Layer {
 
     /// Binds a copy of a view's tile for reading. Changes the draw framebuffer; the state is refreshed.
     pub(super) fn take_single(&mut self, gl: &Gl, view: u32) {
-        if !self.atlas.has_single() {
+        self.make_singles(gl, false);
+        let f = &self.state.framebuffers;
+        let read = f.translate(f.read_buffer).unwrap_or(c::COLOR_ATTACHMENT0);
+        self.unscissored(gl, |layer| layer.atlas.take_single(gl, view, read));
+    }
+
+    fn make_singles(&mut self, gl: &Gl, staged: bool) {
+        if !self.atlas.has_singles(staged) {
             keep_bindings(gl, || {
-                self.atlas
-                    .make_single(gl, &mut self.names, &self.state.window);
+                let (names, window) = (&mut self.names, &self.state.window);
+                self.atlas.make_singles(gl, names, window, staged);
             });
         }
+    }
+
+    fn unscissored<T>(&mut self, gl: &Gl, work: impl FnOnce(&mut Self) -> T) -> T {
         if self.state.scissor_test {
             gl.disable(c::SCISSOR_TEST);
         }
-        let f = &self.state.framebuffers;
-        let read = f.translate(f.read_buffer).unwrap_or(c::COLOR_ATTACHMENT0);
-        self.atlas.take_single(gl, view, read);
+        let answer = work(self);
         if self.state.scissor_test {
             gl.enable(c::SCISSOR_TEST);
         }
+        answer
     }
 
     /// glCopyPixels: each view from its own tile. Columns in pixels; `call` is the program's own.
@@ -418,17 +427,13 @@ impl Layer {
             return blit(0, 0);
         }
         self.state.refresh(gl);
-        // Where pixels lie between others, the nearest is a matter of rounding, which is that of the window only in its size.
-        let single = read && scaled && self.atlas.tiles.columns > 1 && !self.atlas.multisampled();
+        let single = scaled && self.atlas.tiles.columns > 1 && !self.atlas.multisampled();
         for view in self.atlas.tiles.order() {
             if single {
-                self.take_single(gl, view);
-            }
-            let x = self.atlas.enter(gl, view);
-            if single {
-                self.scissored(gl, x, &mut || blit(0, x));
+                self.scaled_blit(gl, view, read, blit);
                 continue;
             }
+            let x = self.atlas.enter(gl, view);
             if read {
                 let (from, _) = self.atlas.target(view);
                 gl.bind_framebuffer(c::READ_FRAMEBUFFER, from);
@@ -436,6 +441,21 @@ impl Layer {
             self.scissored(gl, x, &mut || blit(if read { x } else { 0 }, x));
         }
         self.bind_draw(gl, true, true);
+    }
+
+    /// Where pixels lie between others, the nearest is a matter of rounding, and that is the window's only in a framebuffer of its
+    /// size.
+    fn scaled_blit(&mut self, gl: &Gl, view: u32, read: bool, blit: &mut dyn FnMut(i32, i32)) {
+        self.make_singles(gl, true);
+        let staged = self.unscissored(gl, |layer| layer.atlas.stage(gl, view));
+        if read {
+            self.take_single(gl, view);
+            gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, staged);
+        } else {
+            gl.bind_framebuffer(c::READ_FRAMEBUFFER, self.state.framebuffers.read);
+        }
+        blit(0, 0);
+        self.unscissored(gl, |layer| layer.atlas.unstage(gl, view));
     }
 
     /// Runs a call with the scissor cut to a tile, where tiles lie beside each other.

@@ -225,10 +225,7 @@ impl Layer {
             let current = segments().fold(Effect::NONE, |e, s| e | s.immediate.sets());
             let primitives = segments().all(|s| s.primitives);
             return self.run(gl, run, touch, (current, primitives), &mut || {
-                // Mesa 22.3 sets current values from before glCallLists again after it, unless they have been asked for.
-                if current != Effect::NONE {
-                    gl.get_floats::<4>(c::CURRENT_COLOR);
-                }
+                settle(gl, current);
                 call();
             });
         }
@@ -306,12 +303,16 @@ impl Layer {
             run => {
                 let attribs =
                     (!segment.is_balanced()).then(|| gl.get_integer(c::ATTRIB_STACK_DEPTH));
+                let sets = segment.immediate.sets();
                 self.run(
                     gl,
                     run,
                     segment.touch,
                     (segment.immediate.must_restore(), segment.primitives),
-                    &mut || gl.call_list(segment.name),
+                    &mut || {
+                        settle(gl, sets);
+                        gl.call_list(segment.name);
+                    },
                 );
                 match (segment.opens, attribs) {
                     (Some(_), _) => self.state.begin = Begin::Direct,
@@ -444,6 +445,15 @@ impl Layer {
         } else if touch.has(Touch::WINDOW_POS) {
             self.placed_in_window();
         }
+    }
+}
+
+/// Before the driver's call of a list that sets current values. One of them, whichever, has to have been set by a call since the last
+/// such list: else Mesa 22.3 sets those from before the list's vertices once more, at the next change of state.
+fn settle(gl: &Gl, sets: Effect) {
+    if sets != Effect::NONE {
+        let [r, g, b, a] = gl.get_floats(c::CURRENT_COLOR);
+        gl.color_4f(r, g, b, a);
     }
 }
 

@@ -196,6 +196,15 @@ impl Layer {
                 || accumulation.is_some_and(|a| a.framebuffer() == name))
     }
 
+    /// The program is about to bind a texture, or to compile that into a list.
+    pub fn binds_texture(&mut self, gl: &Gl, name: u32) {
+        if self.owns_texture(name) {
+            self.yield_names(gl);
+        } else if name != 0 {
+            self.names.promise(name);
+        }
+    }
+
     /// The program uses a texture name that it never asked for and that is ours: our textures move to other names.
     pub fn yield_names(&mut self, gl: &Gl) {
         if self.names.hidden() || !self.state.compatibility {

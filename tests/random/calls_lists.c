@@ -1,13 +1,53 @@
 /* Display lists. */
 #include "random.h"
 
+/* With --apart a list is compiled in pieces with something invisible between them, and then as one that calls them: to a program
+ * that is the same. */
+static __thread struct {
+    GLuint name, pieces;
+    GLenum mode;
+} list;
+
+static void next_piece(void)
+{
+    if (!list.mode || R->begin)
+        return;
+    if (list.pieces) {
+        glEndList();
+        disturb();
+    }
+    glNewList(1000 * (list.name + 1) + list.pieces++, list.mode);
+}
+
+static void open_list(GLuint name, GLenum mode)
+{
+    int apart = O.apart && (mode == GL_COMPILE || mode == GL_COMPILE_AND_EXECUTE);
+    list.name = name, list.mode = apart ? mode : 0, list.pieces = 0;
+    next_piece();
+    if (!apart)
+        CALL(glNewList, name, mode);
+    R->list = (int)name;
+    R->executes = mode == GL_COMPILE_AND_EXECUTE;
+}
+
+static void close_list(void)
+{
+    R->list = R->executes = 0;
+    CALL0(glEndList);
+    if (!list.mode)
+        return;
+    list.mode = 0;
+    glNewList(list.name, GL_COMPILE);
+    for (GLuint i = 0; i < list.pieces; i++)
+        glCallList(1000 * (list.name + 1) + i);
+    glEndList();
+}
+
 /* Lists 1 to 8 call only lower ones, at most two in each; 101 to 112 call none: so no list is endless, whatever the base. */
 static void define(GLuint name, int parts, int may_call)
 {
     GLenum mode = chance(97) ? PICK(GL_COMPILE, GL_COMPILE, GL_COMPILE_AND_EXECUTE) : GL_RGBA;
-    CALL(glNewList, name, mode);
-    R->list = (int)name;
-    R->executes = mode == GL_COMPILE_AND_EXECUTE;
+    open_list(name, mode);
     int begin = R->begin;
     for (int i = 0; i < parts; i++) {
         part();
@@ -17,6 +57,7 @@ static void define(GLuint name, int parts, int may_call)
         any_call();
         R->part = at + 64; /* a primitive has parts of its own */
         R->begin = begin;
+        next_piece();
     }
     part();
     GLuint other = 1 + below(name > 1 && name <= 8 ? name - 1 : 1);
@@ -30,8 +71,7 @@ static void define(GLuint name, int parts, int may_call)
         else if (chance(70))
             CALL(glCallLists, 2, GL_UNSIGNED_BYTE, (const GLubyte *)names);
     }
-    R->list = R->executes = 0;
-    CALL0(glEndList);
+    close_list();
 }
 
 static void new_list(void)
@@ -63,23 +103,22 @@ static void object_list(void)
     if (R->list || R->begin)
         return;
     GLenum mode = PICK(GL_COMPILE, GL_COMPILE_AND_EXECUTE);
-    CALL(glNewList, 1 + below(8), mode);
-    R->list = 1;
-    R->executes = mode == GL_COMPILE_AND_EXECUTE;
+    open_list(1 + below(8), mode);
     CALL0(glPushMatrix);
     CALL(glRotatef, within(-180, 180), 0.0f, 1.0f, 0.2f);
     if (chance(30))
         CALL(glPushAttrib, whole_mask());
-    CALL(glColor3f, within(0, 1), within(0, 1), within(0, 1));
+    CALL(glColor4f, within(0, 1), within(0, 1), within(0, 1), 1.0f);
+    next_piece();
     CALL(glBegin, PICK(GL_TRIANGLES, GL_QUADS, GL_TRIANGLE_STRIP));
     vertex_calls(8);
     R->part = 0;
     CALL0(glEnd);
+    next_piece();
     if (chance(30))
         CALL0(glPopAttrib);
     CALL0(glPopMatrix);
-    R->list = R->executes = 0;
-    CALL0(glEndList);
+    close_list();
 }
 
 static void call_list(void)

@@ -1,13 +1,13 @@
 /* random: makes seeded sequences of legal and illegal GL calls and prints what a program can know after each of them.
  *
  *   random [--api egl|glx|osmesa] [--seed S] [--count N] [--steps K] [--without CLASS,…] [--drop 3,5.2,…]
- *          [--verbose] [--rows] [--trace] [--disturb] [--list-classes]
+ *          [--verbose] [--rows] [--trace] [--disturb] [--apart] [--list-classes]
  *
  * prints one line per sequence and thread: hashes of the answers in between, of the state and of the pixels. Two runs, one of
  * them under something that must not be noticed, are compared line by line. For one seed: --verbose prints what was hashed,
  * --rows each row of pixels as well, --trace the calls, and --drop leaves out steps (3) or parts of steps (5.2; 5.2.0 is not
  * needed), each of which has random numbers of its own, so that the rest stays as it is. --disturb adds a glFlush and a culled
- * triangle after each step: what differs by that is Mesa's doing. tests/random/reduce.py reduces a seed with these.
+ * triangle after each step, --apart compiles lists in pieces: what differs by that is Mesa's doing. tests/random/reduce.py reduces a seed with these.
  *
  * Every sequence has contexts of its own. What GL leaves undefined is not done: no reads outside the framebuffer or of
  * textures without content, no memory that is not there, no infinite lists, no other context on the same drawable.
@@ -176,13 +176,22 @@ static void switch_context(struct context *to)
     W->current(to->handle, to->drawable);
 }
 
-/* Nothing that a program could see. */
-static void disturb(void)
+/* Nothing that a program could see: a flush, the current colour and each attribute group touched, a triangle culled. */
+void disturb(void)
 {
+    static const GLenum caps[] = {GL_DITHER, GL_DEPTH_TEST, GL_MAP1_INDEX, GL_FOG, GL_LIGHTING, GL_LINE_STIPPLE, GL_POINT_SMOOTH,
+                                  GL_POLYGON_STIPPLE, GL_SCISSOR_TEST, GL_STENCIL_TEST, GL_TEXTURE_GEN_Q, GL_NORMALIZE,
+                                  GL_MULTISAMPLE};
     GLint face = 0;
-    if (R->begin || R->list)
-        return;
+    GLfloat colour[4];
     glFlush();
+    glGetFloatv(GL_CURRENT_COLOR, colour);
+    glColor4fv(colour);
+    for (size_t i = 0; i < sizeof caps / sizeof *caps; i++) {
+        GLboolean on = glIsEnabled(caps[i]);
+        (on ? glDisable : glEnable)(caps[i]);
+        (on ? glEnable : glDisable)(caps[i]);
+    }
     GLboolean culled = glIsEnabled(GL_CULL_FACE);
     glGetIntegerv(GL_CULL_FACE_MODE, &face);
     glEnable(GL_CULL_FACE);
@@ -252,7 +261,7 @@ static void sequence(void)
             switch_context(&R->contexts[to]);
         } else {
             any_call();
-            if (O.disturb)
+            if (O.disturb && !R->begin && !R->list)
                 disturb();
         }
     }
@@ -327,6 +336,7 @@ int main(int argc, char **argv)
         else if (IS("--rows")) O.verbose = O.rows = 1;
         else if (IS("--trace")) O.trace = 1;
         else if (IS("--disturb")) O.disturb = 1;
+        else if (IS("--apart")) O.apart = 1;
         else if (IS("--list-classes")) {
             for (int k = 0; k < CLASSES; k++)
                 puts(class_names[k]);

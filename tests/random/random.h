@@ -45,7 +45,7 @@ struct run {
 extern __thread struct run *R;
 
 struct options {
-    int trace, verbose, rows, disturb, steps;
+    int trace, verbose, rows, disturb, apart, steps;
     unsigned without; /* bits of classes */
     const char *drop; /* ",3,5.2,": steps and parts of steps that are left out */
 };
@@ -132,6 +132,7 @@ struct generator {
 extern const struct generator state_calls[], draw_calls[], pixel_calls[], object_calls[], list_calls[];
 void any_call(void);        /* of all tables (main.c) */
 void vertex_calls(int n);   /* as between glBegin and glEnd (calls_draw.c) */
+void disturb(void);
 void after_primitive(void); /* in a list (calls_draw.c) */
 GLbitfield whole_mask(void); /* what a glPushAttrib within another one pushes (calls_state.c) */
 int bound(GLenum name);     /* glGetIntegerv; 0 between glBegin and glEnd */

@@ -67,7 +67,8 @@ def differs(sides, seed, drop):
     # A crash of the driver alone is no difference, nor is what a glFlush and a culled triangle change.
     if bare == layer or bare[-1].startswith("it "):
         return False
-    return sides[0].options.mesa or bare == sides[0].lines(seed, 1, drop, ("--disturb",))
+    other = (sides[0].lines(seed, 1, drop, (how,)) for how in ("--disturb", "--apart"))
+    return sides[0].options.mesa or all(lines == bare for lines in other)
 
 
 def differing(sides, first, count, batch=50):

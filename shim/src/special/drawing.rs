@@ -300,8 +300,13 @@ pub(crate) unsafe fn glCallLists(n: i32, type_: u32, lists: Ptr) {
     // SAFETY: the program's arrays.
     let names = unsafe { list_names(n, type_, lists) };
     if recording() {
+        let Some(names) = names else {
+            // A wrong call: the driver, which is between glBegin and glEnd as well, says so.
+            // SAFETY: the program's own call.
+            return unsafe { real().glCallLists(n, type_, lists) };
+        };
         let base = outside(list_base);
-        let names = names.unwrap_or_default().into_iter();
+        let names = names.into_iter();
         // One of them may end the primitive.
         // SAFETY: the program's own call, list by list.
         return names.for_each(|n| unsafe { glCallList(n.wrapping_add(base)) });

@@ -34,8 +34,8 @@ pub(crate) unsafe fn glViewport(x: i32, y: i32, width: i32, height: i32) {
 }
 
 pub(crate) unsafe fn glBindTexture(target: u32, texture: u32) {
-    if peek(|l| l.owns_texture(texture)) == Some(true) {
-        enter(|gl, l| l.yield_names(gl));
+    if peek(|l| l.compiles() || l.owns_texture(texture)) == Some(true) {
+        enter(|gl, l| l.binds_texture(gl, texture));
     }
     touch(Touch::TEXTURE);
     // SAFETY: the program's own call.

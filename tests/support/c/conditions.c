@@ -1,10 +1,5 @@
 /* Conditional rendering on queries that count several draws; prints what is drawn, and every error. */
-#define GL_GLEXT_PROTOTYPES 1
-#include <EGL/egl.h>
-#include <EGL/eglext.h>
-#include <GL/gl.h>
-#include <GL/glext.h>
-#include <stdio.h>
+#include "surface.h"
 
 /* What is behind the wall counts nothing. */
 static void quad(float depth, float red)
@@ -33,20 +28,9 @@ static void wall(void)
 
 int main(void)
 {
-    PFNEGLGETPLATFORMDISPLAYEXTPROC get =
-        (PFNEGLGETPLATFORMDISPLAYEXTPROC)eglGetProcAddress("eglGetPlatformDisplayEXT");
-    EGLDisplay d = get(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, NULL);
-    if (!d || !eglInitialize(d, NULL, NULL) || !eglBindAPI(EGL_OPENGL_API))
+    if (!open_surface())
         return 2;
-    const EGLint wanted[] = {EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_DEPTH_SIZE, 24, EGL_NONE};
-    const EGLint size[] = {EGL_WIDTH, 64, EGL_HEIGHT, 48, EGL_NONE};
-    EGLConfig config;
-    EGLint count;
-    if (!eglChooseConfig(d, wanted, &config, 1, &count) || !count)
-        return 2;
-    EGLSurface s = eglCreatePbufferSurface(d, config, size);
-    EGLContext c = eglCreateContext(d, config, EGL_NO_CONTEXT, NULL);
-    if (!c || !eglMakeCurrent(d, s, s, c))
+    if (!new_context(EGL_NO_CONTEXT))
         return 2;
     glEnable(GL_DEPTH_TEST);
     GLuint query;
@@ -82,7 +66,7 @@ int main(void)
     glBeginQuery(GL_SAMPLES_PASSED, query);
     glEndQuery(GL_SAMPLES_PASSED);
     glBeginConditionalRender(query, GL_QUERY_WAIT);
-    eglSwapBuffers(d, s);
+    eglSwapBuffers(display, surface);
     glBeginConditionalRender(query, GL_QUERY_WAIT);
     tell("one in the other");
     glClear(GL_DEPTH_BUFFER_BIT);
@@ -100,6 +84,6 @@ int main(void)
     glBeginConditionalRender(query, GL_QUERY_WAIT);
     tell("while it counts");
     glEndQuery(GL_SAMPLES_PASSED);
-    eglSwapBuffers(d, s);
+    eglSwapBuffers(display, surface);
     return 0;
 }

@@ -1,0 +1,37 @@
+/* A surface of 64 x 48 pixels without a window system, for small programs. */
+#define GL_GLEXT_PROTOTYPES 1
+#include <EGL/egl.h>
+#include <EGL/eglext.h>
+#include <GL/gl.h>
+#include <GL/glext.h>
+#include <stdio.h>
+
+enum { WIDTH = 64, HEIGHT = 48 };
+
+static EGLDisplay display;
+static EGLConfig config;
+static EGLSurface surface;
+
+/* Answers 0 if there is none. */
+static int open_surface(void)
+{
+    PFNEGLGETPLATFORMDISPLAYEXTPROC get =
+        (PFNEGLGETPLATFORMDISPLAYEXTPROC)eglGetProcAddress("eglGetPlatformDisplayEXT");
+    const EGLint wanted[] = {EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_DEPTH_SIZE, 24, EGL_NONE};
+    const EGLint size[] = {EGL_WIDTH, WIDTH, EGL_HEIGHT, HEIGHT, EGL_NONE};
+    EGLint count;
+    display = get(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, NULL);
+    if (!display || !eglInitialize(display, NULL, NULL) || !eglBindAPI(EGL_OPENGL_API))
+        return 0;
+    if (!eglChooseConfig(display, wanted, &config, 1, &count) || !count)
+        return 0;
+    surface = eglCreatePbufferSurface(display, config, size);
+    return surface != EGL_NO_SURFACE;
+}
+
+/* A context, current; EGL_NO_CONTEXT if there is none. */
+static EGLContext new_context(EGLContext share)
+{
+    EGLContext context = eglCreateContext(display, config, share, NULL);
+    return context && eglMakeCurrent(display, surface, surface, context) ? context : EGL_NO_CONTEXT;
+}
