@@ -14,11 +14,9 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 use support::{Screen, bare, layered, own_screen};
 
-/// Classes of calls that are left out, and why. Each is a gap of the layer.
-const GAPS: [(&str, &str); 1] = [(
-    "front",
-    "the front and the back buffer are the same in the atlas",
-)];
+/// Classes of calls that are not made in one sequence: after a swap the front buffer of a window is undefined in part. Mesa 22.3
+/// reads from it what was there before, the layer what was shown.
+const APART: [&str; 2] = ["front", "swaps"];
 
 /// Seeds that are known to differ, and what it is.
 const KNOWN: [(u64, &str); 0] = [];
@@ -133,6 +131,16 @@ fn of_two_minds(bare: &Side, layer: &Side, seed: u64, without: &str) -> bool {
 }
 
 fn compare(api: Api, atlas: &str, strategy: &str, seeds: std::ops::Range<u64>) {
+    compare_without("", api, atlas, strategy, seeds);
+}
+
+fn compare_without(
+    without: &str,
+    api: Api,
+    atlas: &str,
+    strategy: &str,
+    seeds: std::ops::Range<u64>,
+) {
     let screen = (api == Api::Glx).then(own_screen);
     let program = build::program(api == Api::OsMesa);
     let side = |atlas| Side {
@@ -143,9 +151,8 @@ fn compare(api: Api, atlas: &str, strategy: &str, seeds: std::ops::Range<u64>) {
         strategy,
     };
     let (bare, layer) = (side(None), side(Some(atlas)));
-    let without = GAPS.map(|(class, _)| class).join(",");
     let run =
-        |side: &Side, first: u64, count: u64| side.lines(side.command(first, count, &without, &[]));
+        |side: &Side, first: u64, count: u64| side.lines(side.command(first, count, without, &[]));
     let mut wrong: Vec<u64> = Vec::new();
     let mut compared = 0;
     let mut first = seeds.start;
@@ -180,12 +187,12 @@ fn compare(api: Api, atlas: &str, strategy: &str, seeds: std::ops::Range<u64>) {
     wrong.dedup();
     wrong.retain(|seed| !KNOWN.iter().any(|(known, _)| known == seed));
     let found = wrong.len() as u64;
-    wrong.retain(|&seed| !of_two_minds(&bare, &layer, seed, &without));
+    wrong.retain(|&seed| !of_two_minds(&bare, &layer, seed, without));
     let minds = found - wrong.len() as u64;
     let shown: Vec<String> = wrong
         .iter()
         .take(SHOWN)
-        .map(|&seed| explain(&bare, &layer, seed, &without))
+        .map(|&seed| explain(&bare, &layer, seed, without))
         .collect();
     assert!(
         wrong.is_empty(),
@@ -212,7 +219,15 @@ fn random_calls_in_layers() {
 
 #[test]
 fn random_calls_in_windows() {
-    compare(Api::Glx, "side-by-side", "replay", 20_000..20_050);
+    let [front, _] = APART;
+    compare_without(front, Api::Glx, "side-by-side", "replay", 20_000..20_050);
+}
+
+#[test]
+fn random_calls_with_front_buffers() {
+    let [_, swaps] = APART;
+    compare_without(swaps, Api::Glx, "side-by-side", "replay", 21_000..21_030);
+    compare_without(swaps, Api::Glx, "layers", "replay", 21_030..21_050);
 }
 
 #[test]

@@ -366,7 +366,7 @@ pub(crate) fn frame<R>(drawable: Option<Drawable>, swap: impl FnOnce() -> R) -> 
     if ours {
         with_context(|gl, c| {
             if let Some(l) = &mut c.layer {
-                l.show(gl);
+                l.show(gl, drawable.is_some());
             }
             if let Some(f) = &mut c.frames {
                 f.show(gl);

@@ -232,14 +232,14 @@ impl Accumulation {
         // The programs are few and stay with the context, as those of other passes do.
     }
 
-    /// Makes one step in some regions. Colours come from and go to these layers of the atlas, which must be resolved where they
-    /// are read. State must be as `present::Saved::take` leaves it; the draw framebuffer is left bound.
+    /// Makes one step in some regions. Colours come from the layers of a texture, and go to those of others, of the atlas's size;
+    /// they must be resolved where they are read. State must be as `present::Saved::take` leaves it; the draw framebuffer is left bound.
     pub fn apply(
         &mut self,
         gl: &Gl,
         operation: Operation,
         window: &Window,
-        atlas: &Atlas,
+        (from, to): (u32, &[u32]),
         regions: &[Region],
     ) {
         let (step, values) = operation.step();
@@ -248,24 +248,26 @@ impl Accumulation {
         }
         let changes = matches!(step, Step::Accumulate | Step::Multiply | Step::Add);
         gl.active_texture(c::TEXTURE0);
-        gl.bind_texture(c::TEXTURE_2D_ARRAY, atlas.color);
+        gl.bind_texture(c::TEXTURE_2D_ARRAY, from);
         if let Operation::Return(_, mask) = operation {
             let [r, g, b, a] = mask.map(u8::from);
             gl.color_maski(0, r, g, b, a);
         }
         for &Region { row, rect } in regions {
-            let mut from = (self.values, row);
+            let mut before = (self.values, row);
             if changes {
                 // Not by a blit: llvmpipe 22.3 may copy what was there before the last pass.
-                from = (self.before, 0);
-                self.copy(gl, (self.values, row), from, rect);
+                before = (self.before, 0);
+                self.copy(gl, (self.values, row), before, rect);
             }
-            let target = match step {
-                Step::Return => atlas.drawn(),
-                _ => self.values,
+            let targets = match step {
+                Step::Return => to,
+                _ => &[self.values],
             };
-            let words = words(window, values, row, from.1);
-            self.pass(gl, step, from.0, (target, row), rect, &words);
+            let words = words(window, values, row, before.1);
+            for &target in targets {
+                self.pass(gl, step, before.0, (target, row), rect, &words);
+            }
         }
     }
 

@@ -1,10 +1,12 @@
 //! The program's framebuffer 0, redirected: one array texture with a tile per view, a framebuffer per layer.
 #![forbid(unsafe_code)]
 
+mod front;
 mod names;
 mod single;
 mod tiles;
 
+use front::Front;
 pub use names::Names;
 use single::Single;
 pub use tiles::{Limits, Tiles, TilesError};
@@ -25,6 +27,7 @@ pub struct Atlas {
     rows: Vec<u32>,
     layered: Option<u32>,
     resolve: Option<Vec<u32>>,
+    front: Option<Front>,
     /// What is read from, and what a scaled blit is drawn to.
     singles: Vec<Single>,
     bound_row: u32,
@@ -197,6 +200,7 @@ impl Atlas {
             rows,
             layered,
             resolve,
+            front: None,
             singles: Vec::new(),
             bound_row: 0,
         };
@@ -226,11 +230,6 @@ impl Atlas {
         self.targets().chain(resolve).chain(singles)
     }
 
-    /// The colour texture that is drawn to.
-    pub fn drawn(&self) -> u32 {
-        self.textures.first().copied().unwrap_or(0)
-    }
-
     /// Whether a texture is the atlas's own.
     pub fn owns(&self, texture: u32) -> bool {
         self.textures.contains(&texture)
@@ -241,7 +240,8 @@ impl Atlas {
         &self.textures
     }
 
-    /// Copies all that `other`, of the same size and format, holds. Changes the framebuffer bindings; the scissor test must be off.
+    /// Copies all that `other`, of the same size and format, holds; its back buffer must be the one that is read from. Changes the
+    /// framebuffer bindings, and the buffers where there is a front one; the scissor test must be off.
     pub fn copy(&self, gl: &Gl, other: &Atlas) {
         let (w, h) = (self.tiles.texture_width() as i32, self.tiles.height as i32);
         for (&from, &to) in other.rows.iter().zip(&self.rows) {
@@ -357,14 +357,17 @@ impl Atlas {
         }
     }
 
-    /// Binds another copy of a view's tile for drawing and answers its framebuffer; [`Atlas::unstage`] puts it back. Changes the
-    /// read framebuffer too; the scissor test must be off.
-    pub fn stage(&mut self, gl: &Gl, view: u32) -> u32 {
+    /// Binds another copy of a view's tile for drawing and answers its framebuffer; [`Atlas::unstage`] puts it back. `image` is
+    /// what is drawn to, `read` what is read from. Changes the read framebuffer too; the scissor test must be off.
+    pub fn stage(&mut self, gl: &Gl, view: u32, image: u32, read: u32) -> u32 {
         let (from, x) = self.target(view);
         let Some(single) = self.singles.get(1) else {
             return from;
         };
+        gl.bind_framebuffer(c::READ_FRAMEBUFFER, from);
+        gl.read_buffer(image);
         single.take(gl, from, x);
+        gl.read_buffer(read);
         self.bound_row = u32::MAX;
         single.framebuffer()
     }

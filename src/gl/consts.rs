@@ -26,6 +26,7 @@ pub const FRONT_AND_BACK: u32 = 0x0408;
 pub const AUX0: u32 = 0x0409;
 pub const AUX3: u32 = 0x040C;
 pub const COLOR_ATTACHMENT0: u32 = 0x8CE0;
+pub const COLOR_ATTACHMENT1: u32 = 0x8CE1;
 pub const COLOR: u32 = 0x1800;
 pub const DEPTH_ATTACHMENT: u32 = 0x8D00;
 pub const DEPTH_STENCIL_ATTACHMENT: u32 = 0x821A;

@@ -58,10 +58,9 @@ impl Layer {
             return self.with_true_zero(gl, c::DRAW_FRAMEBUFFER, call);
         };
         let f = &self.state.framebuffers;
-        let there = |buffer: &u32| f.translate(*buffer).is_some_and(|b| b != c::NONE);
         let nothing = match operation {
-            Operation::Load(_) | Operation::Accumulate(_) => !there(&f.read_buffer),
-            Operation::Return(..) => !f.draw_buffers.iter().any(there),
+            Operation::Load(_) | Operation::Accumulate(_) => f.read_image() == c::NONE,
+            Operation::Return(..) => f.draw_images().iter().all(|&i| i == c::NONE),
             _ => false,
         };
         if self.accumulates(gl) && !nothing {
@@ -96,8 +95,11 @@ impl Layer {
             self.make_accumulation(gl);
         }
         if let Some(buffer) = &mut self.accumulated.buffer {
-            let window = &self.state.window;
-            buffer.apply(gl, operation, window, &self.atlas, &regions);
+            let (window, f) = (&self.state.window, &self.state.framebuffers);
+            let from = self.atlas.sampled(f.read_image());
+            let images = f.draw_images().into_iter().filter(|&i| i != c::NONE);
+            let to: Vec<u32> = images.map(|i| self.atlas.drawn(i)).collect();
+            buffer.apply(gl, operation, window, (from, &to), &regions);
         }
         saved.restore(gl);
         self.rebind(gl);
@@ -110,7 +112,7 @@ impl Layer {
             Ok(mut made) => {
                 let whole = self.rows();
                 let clear = Operation::Clear(self.accumulated.cleared);
-                made.apply(gl, clear, &self.state.window, &self.atlas, &whole);
+                made.apply(gl, clear, &self.state.window, (0, &[]), &whole);
                 self.accumulated.buffer = Some(made);
             }
             Err(e) => {

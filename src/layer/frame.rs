@@ -5,11 +5,13 @@ use crate::config::CaptureWhat;
 use crate::gl::{Gl, consts as c};
 use crate::interleave::{Layout, Source, reference};
 use crate::present::{Saved, capture};
+use crate::state::{BACK, FRONT};
 use image::RgbImage;
 
 impl Layer {
-    /// Shows the frame in the true framebuffer 0. The caller swaps after it; nothing of the program's state has changed.
-    pub fn show(&mut self, gl: &Gl) {
+    /// Shows the frame in the true framebuffer 0. The caller swaps after it, or
+    /// flushes; nothing of the program's state has changed.
+    pub fn show(&mut self, gl: &Gl, swap: bool) {
         // Our drawing would be a hit of the program's selection, or be fed back to it.
         if self.state.list.is_some()
             || self.state.begin != crate::state::Begin::Outside
@@ -22,7 +24,23 @@ impl Layer {
         self.queries.pause(gl);
         self.queries.lift_condition(gl);
         let saved = Saved::take(gl, self.state.compatibility);
-        self.reading(gl, |layer| layer.present(gl));
+        // A flush shows what is drawn to the front buffer; where that is the only image, so does a swap.
+        let front = !swap && self.atlas.has_front() && self.state.framebuffers.draws_front();
+        let image = if front { FRONT } else { BACK };
+        self.reading(gl, image, |layer| layer.present(gl, image));
+        if !swap {
+            // Mesa shows the front buffer of what is bound when it flushes.
+            gl.bind_framebuffer(c::FRAMEBUFFER, 0);
+            gl.flush();
+        }
+        if image == FRONT {
+            gl.draw_buffer(self.state.window.default_buffer);
+            gl.read_buffer(self.state.window.default_read);
+        }
+        let used = self.state.framebuffers.uses_front();
+        if swap && self.atlas.swapped(gl, used) {
+            self.apply_buffers(gl);
+        }
         saved.restore(gl);
         self.rebind(gl);
         self.queries.put_condition(gl);
@@ -32,12 +50,16 @@ impl Layer {
     }
 
     /// Draws the picture into the true framebuffer 0 and captures what is wanted.
-    fn present(&mut self, gl: &Gl) {
+    fn present(&mut self, gl: &Gl, image: u32) {
         self.atlas.resolve(gl, false, c::COLOR_BUFFER_BIT);
         gl.bind_framebuffer(c::FRAMEBUFFER, 0);
+        if image == FRONT {
+            gl.draw_buffer(c::FRONT);
+            gl.read_buffer(c::FRONT);
+        }
         let source = Source {
             tiles: self.atlas.tiles,
-            texture: self.atlas.color,
+            texture: self.atlas.sampled(image),
             top_down: self.atlas.flipped,
             srgb: self.state.window.srgb,
         };
@@ -72,7 +94,7 @@ impl Layer {
         self.queries.pause(gl);
         self.queries.lift_condition(gl);
         let saved = Saved::take(gl, self.state.compatibility);
-        let picture = self.reading(gl, |layer| {
+        let picture = self.reading(gl, BACK, |layer| {
             layer.atlas.resolve(gl, true, c::COLOR_BUFFER_BIT);
             tile(gl, &layer.atlas, layer.atlas.tiles.own())
         });

@@ -1,10 +1,10 @@
 //! The program's framebuffer 0: bound, drawn to, read from and asked about.
 
-use super::{Layer, keep_bindings};
+use super::{Layer, as_they_are, keep_bindings};
 use crate::atlas::Atlas;
 use crate::gl::{Gl, consts as c};
 use crate::plan::Kind;
-use crate::state::{Command, Run, Segment, Touch};
+use crate::state::{BACK, Command, Run, Segment, Touch};
 
 /// What glPushAttrib saved of framebuffer 0.
 #[derive(Debug)]
@@ -156,14 +156,18 @@ impl Layer {
         self.bind_draw(gl, draw, read);
     }
 
-    /// glDrawBuffer(s) for framebuffer 0; `None` when a name is one that framebuffer 0 refuses: the caller then asks the
-    /// driver, with the true framebuffer 0 bound, for its error.
-    pub fn draw_buffers(&mut self, gl: &Gl, buffers: &[u32]) -> Option<()> {
+    /// glDrawBuffer, or glDrawBuffers (`several`), for framebuffer 0; `None` when a name is one that framebuffer 0 refuses: the
+    /// caller then asks the driver, with the true framebuffer 0 bound, for its error.
+    pub fn draw_buffers(&mut self, gl: &Gl, buffers: &[u32], several: bool) -> Option<()> {
+        // Names of more than one buffer, which glDrawBuffers does not take.
+        let many = [c::FRONT, c::LEFT, c::RIGHT, c::FRONT_AND_BACK];
         let f = &mut self.state.framebuffers;
-        let twice = |(i, b): (usize, &u32)| *b != c::NONE && buffers[..i].contains(b);
-        if buffers.iter().any(|&b| f.translate(b).is_none())
-            || buffers.iter().enumerate().any(twice)
-        {
+        let refused = |b: &u32| f.images(*b).is_none() || (several && many.contains(b));
+        let image = |b: &u32| f.images(*b).and_then(<[u32]>::first).copied();
+        let twice = |(i, b): (usize, &u32)| {
+            image(b).is_some() && buffers[..i].iter().any(|other| image(other) == image(b))
+        };
+        if buffers.iter().any(refused) || buffers.iter().enumerate().any(twice) {
             return None;
         }
         f.draw_buffers = buffers.to_vec();
@@ -199,49 +203,52 @@ impl Layer {
     /// glReadBuffer for framebuffer 0; as [`Layer::draw_buffers`].
     pub fn read_buffer(&mut self, gl: &Gl, buffer: u32) -> Option<()> {
         let f = &mut self.state.framebuffers;
-        f.translate(buffer)?;
+        f.images(buffer).filter(|_| buffer != c::FRONT_AND_BACK)?;
         f.read_buffer = buffer;
         self.apply_buffers(gl);
         Some(())
     }
 
-    /// Runs something of ours that reads colours from the atlas, also where the program has chosen GL_NONE to read from. Changes
-    /// the read framebuffer.
-    pub(super) fn reading<R>(&mut self, gl: &Gl, read: impl FnOnce(&mut Self) -> R) -> R {
-        let f = &self.state.framebuffers;
-        let chosen = f.translate(f.read_buffer);
-        if chosen != Some(c::NONE) {
+    /// Runs something of ours that reads an image of the atlas, whatever the program has chosen to read from. Changes the read
+    /// framebuffer.
+    pub(super) fn reading<R>(
+        &mut self,
+        gl: &Gl,
+        image: u32,
+        read: impl FnOnce(&mut Self) -> R,
+    ) -> R {
+        if self.state.framebuffers.read_image() == image {
             return read(self);
         }
-        self.read_from(gl, c::COLOR_ATTACHMENT0);
+        self.read_from(gl, image);
         let r = read(self);
-        self.read_from(gl, c::NONE);
+        self.read_from(gl, self.state.framebuffers.read_image());
         r
     }
 
-    fn read_from(&self, gl: &Gl, buffer: u32) {
+    fn read_from(&self, gl: &Gl, image: u32) {
         for target in self.atlas.targets() {
             gl.bind_framebuffer(c::READ_FRAMEBUFFER, target);
-            gl.read_buffer(buffer);
+            gl.read_buffer(image);
         }
     }
 
     /// Draw and read buffers are kept in each framebuffer object of the atlas.
     pub(super) fn apply_buffers(&mut self, gl: &Gl) {
+        if self.state.framebuffers.uses_front() && !self.atlas.has_front() {
+            let (names, window) = (&mut self.names, &self.state.window);
+            let swapped = self.report.frames() > 0;
+            let make = || self.atlas.make_front(gl, names, window, swapped);
+            as_they_are(gl, || keep_bindings(gl, make));
+        }
         let f = &self.state.framebuffers;
-        let draw: Vec<u32> = f
-            .draw_buffers
-            .iter()
-            .map(|&b| f.translate(b).unwrap_or(c::COLOR_ATTACHMENT0))
-            .collect();
-        let read = f.translate(f.read_buffer).unwrap_or(c::COLOR_ATTACHMENT0);
+        let (draw, read) = (f.draw_images(), f.read_image());
         let (bound_draw, bound_read) = (
             gl.get_integer(c::DRAW_FRAMEBUFFER_BINDING) as u32,
             gl.get_integer(c::READ_FRAMEBUFFER_BINDING) as u32,
         );
-        let targets: Vec<u32> = self.atlas.targets().collect();
-        for t in targets {
-            gl.bind_framebuffer(c::FRAMEBUFFER, t);
+        for target in self.atlas.targets() {
+            gl.bind_framebuffer(c::FRAMEBUFFER, target);
             gl.draw_buffers(&draw);
             gl.read_buffer(read);
         }
@@ -348,8 +355,10 @@ impl Layer {
     /// Binds a copy of a view's tile for reading. Changes the draw framebuffer; the state is refreshed.
     pub(super) fn take_single(&mut self, gl: &Gl, view: u32) {
         self.make_singles(gl, false);
-        let f = &self.state.framebuffers;
-        let read = f.translate(f.read_buffer).unwrap_or(c::COLOR_ATTACHMENT0);
+        let read = match self.state.framebuffers.read_image() {
+            c::NONE => c::NONE,
+            _ => BACK,
+        };
         self.unscissored(gl, |layer| layer.atlas.take_single(gl, view, read));
     }
 
@@ -427,10 +436,16 @@ impl Layer {
             return blit(0, 0);
         }
         self.state.refresh(gl);
-        let single = scaled && self.atlas.tiles.columns > 1 && !self.atlas.multisampled();
+        let images = self.state.framebuffers.draw_images();
+        let single = match images[..] {
+            [image] if image != c::NONE => Some(image),
+            _ => None,
+        };
+        let beside = self.atlas.tiles.columns > 1 && !self.atlas.multisampled();
+        let single = single.filter(|_| scaled && beside);
         for view in self.atlas.tiles.order() {
-            if single {
-                self.scaled_blit(gl, view, read, blit);
+            if let Some(image) = single {
+                self.scaled_blit(gl, view, (image, read), blit);
                 continue;
             }
             let x = self.atlas.enter(gl, view);
@@ -440,14 +455,21 @@ impl Layer {
             }
             self.scissored(gl, x, &mut || blit(if read { x } else { 0 }, x));
         }
-        self.bind_draw(gl, true, true);
+        self.rebind(gl);
     }
 
     /// Where pixels lie between others, the nearest is a matter of rounding, and that is the window's only in a framebuffer of its
     /// size.
-    fn scaled_blit(&mut self, gl: &Gl, view: u32, read: bool, blit: &mut dyn FnMut(i32, i32)) {
+    fn scaled_blit(
+        &mut self,
+        gl: &Gl,
+        view: u32,
+        (image, read): (u32, bool),
+        blit: &mut dyn FnMut(i32, i32),
+    ) {
         self.make_singles(gl, true);
-        let staged = self.unscissored(gl, |layer| layer.atlas.stage(gl, view));
+        let from = self.state.framebuffers.read_image();
+        let staged = self.unscissored(gl, |layer| layer.atlas.stage(gl, view, image, from));
         if read {
             self.take_single(gl, view);
             gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, staged);

@@ -264,9 +264,12 @@ impl Layer {
             }
             // A wrong name: the driver answers for it.
             Run::DrawBuffers if self.draws_to_zero() => {
-                if self.draw_buffers(gl, &segment.names).is_none() {
-                    let (target, names) = (c::DRAW_FRAMEBUFFER, segment.names.clone());
-                    self.other_draw_buffers(gl, target, &names, &mut || gl.call_list(segment.name));
+                let names = segment.names.clone();
+                if let Some((several, names)) = names.split_first()
+                    && self.draw_buffers(gl, names, *several != 0).is_none()
+                {
+                    let call = &mut || gl.call_list(segment.name);
+                    self.other_draw_buffers(gl, c::DRAW_FRAMEBUFFER, names, call);
                 }
             }
             Run::ReadBuffer(buffer) if self.reads_from_zero() => {

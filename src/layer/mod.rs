@@ -27,7 +27,7 @@ use crate::interleave::Interleaver;
 use crate::plan::{Classifier, Means, Rig, Shear};
 use crate::present::Saved;
 use crate::report::Report;
-use crate::state::{Immediate, Lists, State, Window};
+use crate::state::{BACK, Immediate, Lists, State, Window};
 use std::sync::{Arc, Mutex, PoisonError};
 use support::Support;
 
@@ -256,16 +256,15 @@ impl Layer {
         else {
             return false;
         };
-        // The bits are copied as they are.
-        let switches = [c::SCISSOR_TEST, c::FRAMEBUFFER_SRGB];
-        let on = switches.map(|s| gl.is_enabled(s));
-        switches.into_iter().for_each(|s| gl.disable(s));
-        self.reading(gl, |layer| atlas.copy(gl, &layer.atlas));
-        for (switch, on) in switches.into_iter().zip(on) {
-            if on {
-                gl.enable(switch);
+        let mut atlas = atlas;
+        as_they_are(gl, || {
+            self.reading(gl, BACK, |layer| atlas.copy(gl, &layer.atlas));
+            if self.atlas.has_front() {
+                let (names, window) = (&mut self.names, &self.state.window);
+                keep_bindings(gl, || atlas.make_front(gl, names, window, false));
+                atlas.copy_front(gl, &self.atlas);
             }
-        }
+        });
         std::mem::replace(&mut self.atlas, atlas).delete(gl);
         self.apply_buffers(gl);
         let f = &self.state.framebuffers;
@@ -400,6 +399,20 @@ fn make_atlas(
     Ok(keep_bindings(gl, || {
         Atlas::new(gl, names, w, tiles, support.flip)
     })?)
+}
+
+/// Runs something that copies bits as they are: no scissor, no conversion.
+fn as_they_are<R>(gl: &Gl, copy: impl FnOnce() -> R) -> R {
+    let switches = [c::SCISSOR_TEST, c::FRAMEBUFFER_SRGB];
+    let on = switches.map(|s| gl.is_enabled(s));
+    switches.into_iter().for_each(|s| gl.disable(s));
+    let copied = copy();
+    for (switch, on) in switches.into_iter().zip(on) {
+        if on {
+            gl.enable(switch);
+        }
+    }
+    copied
 }
 
 /// Runs with no unpack buffer, and puts the bindings of textures and framebuffers back that making an atlas changes.

@@ -32,6 +32,12 @@ pub struct Window {
 }
 
 impl Window {
+    /// Whether front and back buffer are two images. Those of multisampled windows are taken for one: which of them a program
+    /// resolves and when is the driver's choice.
+    pub fn has_two_images(&self) -> bool {
+        self.double_buffered && self.samples == 0
+    }
+
     /// Whether it has an accumulation buffer.
     pub fn accumulates(&self) -> bool {
         self.accumulation[0] > 0
@@ -88,6 +94,11 @@ impl Window {
     }
 }
 
+/// The attachment of the atlas that is the back buffer, or the only one.
+pub const BACK: u32 = c::COLOR_ATTACHMENT0;
+/// The attachment that is the front buffer, where that is another image.
+pub const FRONT: u32 = c::COLOR_ATTACHMENT1;
+
 /// Which framebuffers are bound and which buffers of framebuffer 0 are drawn to and read from, in the program's words.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Framebuffers {
@@ -101,6 +112,7 @@ pub struct Framebuffers {
     pub read_buffer: u32,
     default: u32,
     names_back: bool,
+    two: bool,
 }
 
 impl Framebuffers {
@@ -114,19 +126,46 @@ impl Framebuffers {
             read_buffer: read,
             default,
             names_back: window.names_back,
+            two: window.has_two_images(),
         }
     }
 
-    /// What a buffer of framebuffer 0 is called on the atlas; `None` for a name that framebuffer 0 of this window refuses, which
-    /// the driver must be asked about.
-    pub fn translate(&self, buffer: u32) -> Option<u32> {
-        let back = [c::BACK, c::BACK_LEFT].contains(&buffer);
-        let front = [c::FRONT, c::FRONT_LEFT, c::LEFT, c::FRONT_AND_BACK].contains(&buffer);
+    /// The images that a name of a buffer of framebuffer 0 stands for, as attachments of the atlas; `None` for a name that
+    /// framebuffer 0 of this window refuses, which the driver must be asked about.
+    pub fn images(&self, buffer: u32) -> Option<&'static [u32]> {
+        const BOTH: [u32; 2] = [FRONT, BACK];
+        let (front, both) = match self.two {
+            true => (&BOTH[..1], &BOTH[..]),
+            false => (&BOTH[1..], &BOTH[1..]),
+        };
         match buffer {
-            c::NONE => Some(c::NONE),
-            _ if front || (back && self.names_back) => Some(c::COLOR_ATTACHMENT0),
+            c::NONE => Some(&[]),
+            c::FRONT | c::FRONT_LEFT => Some(front),
+            c::LEFT | c::FRONT_AND_BACK => Some(both),
+            c::BACK | c::BACK_LEFT if self.names_back => Some(&BOTH[1..]),
             _ => None,
         }
+    }
+
+    /// The images that are drawn to, as glDrawBuffers takes them.
+    pub fn draw_images(&self) -> Vec<u32> {
+        let images = |&b: &u32| match self.images(b) {
+            Some([]) => &[c::NONE],
+            Some(images) => images,
+            None => &[BACK],
+        };
+        self.draw_buffers.iter().flat_map(images).copied().collect()
+    }
+
+    /// The image that is read from, or GL_NONE.
+    pub fn read_image(&self) -> u32 {
+        let images = self.images(self.read_buffer);
+        images.map_or(BACK, |i| i.first().copied().unwrap_or(c::NONE))
+    }
+
+    /// Whether the front buffer is drawn to or read from, and is another image than the back buffer.
+    pub fn uses_front(&self) -> bool {
+        self.read_image() == FRONT || self.draw_images().contains(&FRONT)
     }
 
     /// Whether the program draws to the front buffer, so that a flush must show it.

@@ -32,7 +32,7 @@ pub enum Run {
     Copy,
     /// glCallList of another list, known when it is called.
     List(u32),
-    /// glDrawBuffer and glDrawBuffers: the program's names of the buffers are in [`Segment::names`].
+    /// glDrawBuffer and glDrawBuffers: 0 or 1, and the program's names of the buffers, are in [`Segment::names`].
     DrawBuffers,
     /// glReadBuffer.
     ReadBuffer(u32),

@@ -8,7 +8,7 @@ mod lists;
 mod look;
 
 pub use effect::{Effect, Immediate};
-pub use framebuffer::{Framebuffers, Window};
+pub use framebuffer::{BACK, FRONT, Framebuffers, Window};
 pub use lists::{Body, Command, Compiling, Left, Lists, Run, Segment, Start};
 pub use look::Look;
 

@@ -176,7 +176,7 @@ static void switch_context(struct context *to)
     W->current(to->handle, to->drawable);
 }
 
-/* Nothing that a program could see: a flush, the current colour and each attribute group touched, a triangle culled. */
+/* Nothing that a program could see: a flush, each attribute group and the current colour touched, a triangle culled. */
 void disturb(void)
 {
     static const GLenum caps[] = {GL_DITHER, GL_DEPTH_TEST, GL_MAP1_INDEX, GL_FOG, GL_LIGHTING, GL_LINE_STIPPLE, GL_POINT_SMOOTH,
@@ -185,8 +185,6 @@ void disturb(void)
     GLint face = 0;
     GLfloat colour[4];
     glFlush();
-    glGetFloatv(GL_CURRENT_COLOR, colour);
-    glColor4fv(colour);
     for (size_t i = 0; i < sizeof caps / sizeof *caps; i++) {
         GLboolean on = glIsEnabled(caps[i]);
         (on ? glDisable : glEnable)(caps[i]);
@@ -204,6 +202,8 @@ void disturb(void)
     glCullFace((GLenum)face);
     if (!culled)
         glDisable(GL_CULL_FACE);
+    glGetFloatv(GL_CURRENT_COLOR, colour);
+    glColor4fv(colour);
 }
 
 static void take_context(struct context *c, int number, struct context *share)

@@ -21,7 +21,7 @@ TARGET = os.path.join(ROOT, "target")
 def arguments():
     parser = argparse.ArgumentParser()
     parser.add_argument("--api", default="egl")
-    parser.add_argument("--without", default="accum,front")
+    parser.add_argument("--without", default="")
     parser.add_argument("--atlas", default="side-by-side")
     parser.add_argument("--views", default="3")
     parser.add_argument("--reduce", action="store_true")

@@ -61,12 +61,15 @@ fn choose(
     }
 }
 
-/// As [`choose`], of the buffers that the bound framebuffer is drawn to.
-fn choose_draw(names: Option<&[u32]>, call: &mut dyn FnMut()) {
+/// As [`choose`], of the buffers that the bound framebuffer is drawn to; `several`: by glDrawBuffers.
+fn choose_draw(names: Option<&[u32]>, several: bool, call: &mut dyn FnMut()) {
     let done = enter(|gl, l| {
         if !l.draws_to_zero() {
             call();
-        } else if names.and_then(|names| l.draw_buffers(gl, names)).is_none() {
+        } else if names
+            .and_then(|names| l.draw_buffers(gl, names, several))
+            .is_none()
+        {
             l.other_draw_buffers(gl, c::DRAW_FRAMEBUFFER, names.unwrap_or_default(), call);
         }
     });
@@ -77,12 +80,13 @@ fn choose_draw(names: Option<&[u32]>, call: &mut dyn FnMut()) {
 
 pub(crate) unsafe fn glDrawBuffer(buf: u32) {
     if compile(Command::Of(Run::DrawBuffers), Touch::NONE) {
-        enter(|_, l| l.compiled_names(&[buf]));
+        enter(|_, l| l.compiled_names(&[0, buf]));
         // SAFETY: compiled into the program's list.
         return unsafe { real().glDrawBuffer(buf) };
     }
     choose_draw(
         Some(&[buf]),
+        false,
         // SAFETY: the program's own call.
         &mut || unsafe { real().glDrawBuffer(buf) },
     );
@@ -103,12 +107,15 @@ pub(crate) unsafe fn glDrawBuffers(n: i32, bufs: Ptr) {
     let names = unsafe { buffers(n, bufs) };
     if compile(Command::Of(Run::DrawBuffers), Touch::NONE) {
         // What has no names is wrong with any framebuffer.
-        enter(|_, l| l.compiled_names(names.as_deref().unwrap_or(&[u32::MAX])));
+        let mut compiled = vec![1];
+        compiled.extend_from_slice(names.as_deref().unwrap_or(&[u32::MAX]));
+        enter(|_, l| l.compiled_names(&compiled));
         // SAFETY: compiled into the program's list.
         return unsafe { real().glDrawBuffers(n, bufs) };
     }
     choose_draw(
         names.as_deref(),
+        true,
         // SAFETY: the program's own call.
         &mut || unsafe { real().glDrawBuffers(n, bufs) },
     );
@@ -131,7 +138,7 @@ pub(crate) unsafe fn glReadBuffer(src: u32) {
 pub(crate) unsafe fn glNamedFramebufferDrawBuffer(framebuffer: u32, buf: u32) {
     choose(
         |_| framebuffer == 0,
-        |gl, l| l.draw_buffers(gl, &[buf]),
+        |gl, l| l.draw_buffers(gl, &[buf], false),
         0,
         // SAFETY: the program's own call.
         &mut || unsafe { real().glNamedFramebufferDrawBuffer(framebuffer, buf) },
@@ -141,7 +148,7 @@ pub(crate) unsafe fn glNamedFramebufferDrawBuffer(framebuffer: u32, buf: u32) {
 pub(crate) unsafe fn glFramebufferDrawBufferEXT(framebuffer: u32, mode: u32) {
     choose(
         |_| framebuffer == 0,
-        |gl, l| l.draw_buffers(gl, &[mode]),
+        |gl, l| l.draw_buffers(gl, &[mode], false),
         0,
         // SAFETY: the program's own call.
         &mut || unsafe { real().glFramebufferDrawBufferEXT(framebuffer, mode) },
@@ -153,7 +160,7 @@ pub(crate) unsafe fn glNamedFramebufferDrawBuffers(framebuffer: u32, n: i32, buf
     let names = unsafe { buffers(n, bufs) };
     choose(
         |_| framebuffer == 0,
-        |gl, l| l.draw_buffers(gl, names.as_deref()?),
+        |gl, l| l.draw_buffers(gl, names.as_deref()?, true),
         0,
         // SAFETY: the program's own call.
         &mut || unsafe { real().glNamedFramebufferDrawBuffers(framebuffer, n, bufs) },
@@ -165,7 +172,7 @@ pub(crate) unsafe fn glFramebufferDrawBuffersEXT(framebuffer: u32, n: i32, bufs:
     let names = unsafe { buffers(n, bufs) };
     choose(
         |_| framebuffer == 0,
-        |gl, l| l.draw_buffers(gl, names.as_deref()?),
+        |gl, l| l.draw_buffers(gl, names.as_deref()?, true),
         0,
         // SAFETY: the program's own call.
         &mut || unsafe { real().glFramebufferDrawBuffersEXT(framebuffer, n, bufs) },

@@ -1,0 +1,119 @@
+//! The front buffer of a window that has two: another image of every tile, made when the program asks for it.
+
+use super::{Atlas, Names, color_format};
+use crate::gl::{Gl, consts as c};
+use crate::state::{BACK, FRONT, Window};
+
+/// Swaps after which a front buffer that nobody asks for is given up.
+const IDLE: u32 = 30;
+
+/// The other image.
+#[derive(Debug)]
+pub(super) struct Front {
+    texture: u32,
+    /// Swaps since it was drawn to or read from.
+    idle: u32,
+}
+
+impl Atlas {
+    /// Makes it: after a swap (`swapped`) with what the back buffer holds now, before it as the driver makes it. The caller saves
+    /// and restores bindings as for [`Atlas::new`] and the buffers of all framebuffers; the scissor test must be off.
+    pub fn make_front(&mut self, gl: &Gl, names: &mut Names, window: &Window, swapped: bool) {
+        let (internal, format, kind) = color_format(window);
+        let t = self.tiles;
+        let texture = names.texture(gl);
+        gl.bind_texture(c::TEXTURE_2D_ARRAY, texture);
+        let size = [t.texture_width(), t.height, t.rows].map(|n| n as i32);
+        gl.tex_storage_3d(internal, size[0], size[1], size[2], format, kind);
+        for (p, v) in [
+            (c::TEXTURE_MIN_FILTER, c::NEAREST),
+            (c::TEXTURE_MAG_FILTER, c::NEAREST),
+            (c::TEXTURE_MAX_LEVEL, 0),
+        ] {
+            gl.tex_parameteri(c::TEXTURE_2D_ARRAY, p, v as i32);
+        }
+        gl.bind_texture(c::TEXTURE_2D_ARRAY, 0);
+        self.textures.push(texture);
+        self.attach_front(gl, texture);
+        self.front = Some(Front { texture, idle: 0 });
+        if swapped {
+            self.copy_to_front(gl);
+        }
+    }
+
+    fn attach_front(&self, gl: &Gl, texture: u32) {
+        for (layer, &row) in (0..).zip(&self.rows) {
+            gl.bind_framebuffer(c::FRAMEBUFFER, row);
+            gl.framebuffer_texture_layer(c::FRAMEBUFFER, FRONT, texture, 0, layer);
+        }
+        if let Some(layered) = self.layered {
+            gl.bind_framebuffer(c::FRAMEBUFFER, layered);
+            gl.framebuffer_texture(c::FRAMEBUFFER, FRONT, texture, 0);
+        }
+    }
+
+    /// Whether [`Atlas::make_front`] has nothing to do.
+    pub fn has_front(&self) -> bool {
+        self.front.is_some()
+    }
+
+    /// The texture behind an attachment, to be sampled.
+    pub fn sampled(&self, image: u32) -> u32 {
+        let front = self.front.as_ref().filter(|_| image == FRONT);
+        front.map_or(self.color, |f| f.texture)
+    }
+
+    /// The texture behind an attachment, to be drawn to.
+    pub fn drawn(&self, image: u32) -> u32 {
+        let front = self.front.as_ref().filter(|_| image == FRONT);
+        front.map_or_else(
+            || self.textures.first().copied().unwrap_or(0),
+            |f| f.texture,
+        )
+    }
+
+    /// A swap: the front buffer holds what the back buffer does. `used`: the program draws to it or reads from it. Answers whether
+    /// there was a front buffer, and the buffers and bindings of all framebuffers have changed. The scissor test must be off.
+    pub fn swapped(&mut self, gl: &Gl, used: bool) -> bool {
+        let Some(front) = &mut self.front else {
+            return false;
+        };
+        front.idle = if used { 0 } else { front.idle + 1 };
+        let texture = front.texture;
+        if front.idle > IDLE {
+            self.attach_front(gl, 0);
+            gl.delete_texture(texture);
+            self.textures.retain(|&t| t != texture);
+            self.front = None;
+        } else {
+            self.copy_to_front(gl);
+        }
+        true
+    }
+
+    fn copy_to_front(&self, gl: &Gl) {
+        let (w, h) = (self.tiles.texture_width() as i32, self.tiles.height as i32);
+        for &row in &self.rows {
+            gl.bind_framebuffer(c::FRAMEBUFFER, row);
+            gl.read_buffer(BACK);
+            gl.draw_buffers(&[FRONT]);
+            gl.blit_framebuffer(0, 0, w, h, 0, 0, w, h, c::COLOR_BUFFER_BIT, c::NEAREST);
+        }
+    }
+
+    /// Copies the front buffer of another atlas of the same size and format, where both have one. The caller restores as for
+    /// [`Atlas::make_front`].
+    pub fn copy_front(&self, gl: &Gl, other: &Atlas) {
+        if !(self.has_front() && other.has_front()) {
+            return;
+        }
+        let (w, h) = (self.tiles.texture_width() as i32, self.tiles.height as i32);
+        for (&from, &to) in other.rows.iter().zip(&self.rows) {
+            gl.bind_framebuffer(c::READ_FRAMEBUFFER, from);
+            gl.read_buffer(FRONT);
+            gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, to);
+            gl.draw_buffers(&[FRONT]);
+            gl.blit_framebuffer(0, 0, w, h, 0, 0, w, h, c::COLOR_BUFFER_BIT, c::NEAREST);
+        }
+    }
+}
