@@ -125,7 +125,6 @@ fn watch(name: &str, mut program: Command) -> Vec<Found> {
     let out = scratch("memory").join(format!("{name}.xml"));
     program
         // Frames of Mesa's threads would say nothing of who called.
-        .env("LP_NUM_THREADS", "0")
         .env_remove("DISPLAY")
         .stdout(Stdio::null())
         .stderr(Stdio::null());
@@ -248,7 +247,7 @@ fn full_memory_of_random_calls() {
 
 /// Bytes in use after some contexts and after sixty more.
 fn grown(mut program: Command) -> u64 {
-    let output = succeed(program.env_remove("DISPLAY").env("LP_NUM_THREADS", "0"));
+    let output = succeed(program.env_remove("DISPLAY"));
     let text = String::from_utf8(output.stdout).expect("numbers");
     let bytes: Vec<u64> = text.lines().map(|l| l.parse().expect("bytes")).collect();
     assert_eq!(bytes.len(), 2, "{text}");

@@ -62,8 +62,6 @@ impl Side<'_> {
             .args(["--seed", &first.to_string(), "--count", &count.to_string()])
             .args(["--without", without])
             .args(more)
-            // Pictures of 64 x 48: threads cost more than they bring.
-            .env("LP_NUM_THREADS", "0")
             // Most of the time goes into compiling shaders for a few triangles each.
             .env("GALLIVM_PERF", "nopt")
             .stderr(Stdio::null());

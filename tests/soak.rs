@@ -114,7 +114,6 @@ impl Side {
             .args(program.command)
             .env("HOME", home.path())
             .env("SDL_AUDIODRIVER", "dummy")
-            .env("LP_NUM_THREADS", "1")
             .stdin(Stdio::null())
             .stdout(Stdio::null())
             .stderr(Stdio::null());

@@ -11,7 +11,7 @@ use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
 /// A trace that is not repeated after this time hangs: the slowest programs of the table show 2 frames a second in 8 views.
-const PATIENCE: Duration = Duration::from_secs(600);
+const PATIENCE: Duration = Duration::from_secs(1200);
 
 /// How a command ended.
 pub(crate) struct Ended {
