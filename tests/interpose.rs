@@ -183,8 +183,16 @@ fn glretrace_of_a_recording() {
     }
     let screen = screen();
     let folder = tempfile::tempdir().expect("a folder");
-    let program = ["glxgears", "-geometry", "300x220"];
-    let trace = record(&screen, &program, 3, "gl", folder.path());
+    let gears = demo("gears");
+    let program = [
+        gears.to_str().expect("UTF-8"),
+        "--size",
+        "300x220",
+        "--frames",
+        "40",
+    ];
+    // It ends by itself, however slow the machine is.
+    let trace = record(&screen, &program, 120, "gl", folder.path());
     let program = ["glretrace", trace.to_str().expect("UTF-8")];
     panel_is_the_reference(|what, out| {
         succeed(screen.give(&mut with_variables(what, out, &program)));

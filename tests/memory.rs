@@ -124,7 +124,6 @@ fn ours<'a>(bare: &[Found], layer: &'a [Found]) -> Vec<&'a Found> {
 fn watch(name: &str, mut program: Command) -> Vec<Found> {
     let out = scratch("memory").join(format!("{name}.xml"));
     program
-        // Frames of Mesa's threads would say nothing of who called.
         .env_remove("DISPLAY")
         .stdout(Stdio::null())
         .stderr(Stdio::null());

@@ -87,6 +87,7 @@ fn prepared<'a>(command: &'a mut Command, program: &Program, screen: &Screen) ->
         .give(command)
         // Games find no sound card and need none.
         .env("SDL_AUDIODRIVER", "dummy")
+        .env("ALSOFT_DRIVERS", "null")
         .envs(&program.env)
 }
 

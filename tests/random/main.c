@@ -190,6 +190,18 @@ void disturb(void)
         (on ? glDisable : glEnable)(caps[i]);
         (on ? glEnable : glDisable)(caps[i]);
     }
+    GLint base = 0, hint = 0;
+    GLfloat zoom[2];
+    glGetFloatv(GL_ZOOM_X, &zoom[0]);
+    glGetFloatv(GL_ZOOM_Y, &zoom[1]);
+    glPixelZoom(zoom[0] + 1, zoom[1]);
+    glPixelZoom(zoom[0], zoom[1]);
+    glGetIntegerv(GL_LIST_BASE, &base);
+    glListBase((GLuint)base + 1);
+    glListBase((GLuint)base);
+    glGetIntegerv(GL_FOG_HINT, &hint);
+    glHint(GL_FOG_HINT, hint == GL_NICEST ? GL_FASTEST : GL_NICEST);
+    glHint(GL_FOG_HINT, (GLenum)hint);
     GLboolean culled = glIsEnabled(GL_CULL_FACE);
     glGetIntegerv(GL_CULL_FACE_MODE, &face);
     glEnable(GL_CULL_FACE);
