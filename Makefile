@@ -78,7 +78,7 @@ test-full: packages build demos ## run all tests but those of programs, also all
 	else $(CARGO) test --release --no-fail-fast --workspace --lib --bins --tests -- --include-ignored --skip programs_ --skip soak_; fi
 	$(CARGO) test --release -p manyview --doc
 
-programs: packages build ## run real programs with and without the layer; writes docs/compatibility.md (an hour)
+programs: packages build ## run real programs with and without the layer; writes docs/compatibility.md (two hours)
 	$(CARGO) test --release --test programs programs_ -- --ignored --nocapture
 
 soak: packages build ## play a game's demo for SOAK_MINUTES (240) and watch memory and GL names; target/soak

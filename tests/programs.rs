@@ -1,6 +1,6 @@
 //! Real programs: each is recorded once with apitrace and repeated with and without the layer; docs/compatibility.md is the result.
 //!
-//! `make programs` runs all of tests/programs/programs.toml and takes about an hour. `MANYVIEW_PROGRAMS=glxgears,cage` runs only
+//! `make programs` runs all of tests/programs/programs.toml and takes about two hours. `MANYVIEW_PROGRAMS=glxgears,cage` runs only
 //! these, `-` none; the rows of the others are those of their last run, kept in target/programs. Traces are kept there as well: a program
 //! whose folder is deleted is recorded again. `MANYVIEW_PROGRAMS_JOBS` is how many run at a time, 1 unless given;
 //! `MANYVIEW_PROGRAMS_FRAMES` how many frames at most, for a quick look.
@@ -63,7 +63,7 @@ fn run(programs: Vec<&Program>) {
 }
 
 #[test]
-#[ignore = "an hour: make programs"]
+#[ignore = "two hours: make programs"]
 fn programs_are_compatible() {
     assert!(has("apitrace") && has("glretrace"), "make packages");
     let table = table::read();

@@ -87,8 +87,8 @@ Real programs of Debian 12 under the layer, on Mesa's software renderer. `make p
 
 Each program is recorded once by apitrace and repeated by glretrace or eglretrace. The columns:
 
-- frames: at most 500; fewer where the program gave no more while it was recorded, or where the row is of a quick look only
-  (`MANYVIEW_PROGRAMS_FRAMES=60`), which is still so for all rows with 60 or 150.
+- frames: at most 500 (`frames` of the file of commands may say otherwise); fewer where the program gave no more while it was
+  recorded, with apitrace and software rendering.
 - 8 views: all frames in 8 views under `replay`, `auto` and `geometry`; no crash, and the three make the same number of draws.
 - replay, auto, geometry: 10 frames of the first 120, the middle view of 7 against the frame without the layer. Under `replay` every
   byte is equal, under the others the gate holds (ARCHITECTURE, What is right).
