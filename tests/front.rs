@@ -9,7 +9,7 @@ use support::{Compiled, bare, compiled, layered, own_screen, succeed};
 fn the_front_buffer_is_shown_at_a_flush() {
     let screen = own_screen();
     let program = compiled("front", Compiled::Program, &["-lGL", "-lX11"]);
-    for (buffers, lines) in [("double", 5), ("single", 2)] {
+    for (buffers, lines) in [("double", 5), ("single", 3)] {
         let told = |mut command: std::process::Command| {
             let output = succeed(screen.give(command.arg(buffers)));
             String::from_utf8(output.stdout).expect("text")

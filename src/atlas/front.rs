@@ -1,6 +1,6 @@
 //! The front buffer of a window that has two: another image of every tile, made when the program asks for it.
 
-use super::{Atlas, Names, color_format};
+use super::{Atlas, Names, color_format, store};
 use crate::gl::{Gl, consts as c};
 use crate::state::{BACK, FRONT, Window};
 
@@ -19,20 +19,10 @@ impl Atlas {
     /// Makes it: after a swap (`swapped`) with what the back buffer holds now, before it as the driver makes it. The caller saves
     /// and restores bindings as for [`Atlas::new`] and the buffers of all framebuffers; the scissor test must be off.
     pub fn make_front(&mut self, gl: &Gl, names: &mut Names, window: &Window, swapped: bool) {
-        let (internal, format, kind) = color_format(window);
         let t = self.tiles;
-        let texture = names.texture(gl);
-        gl.bind_texture(c::TEXTURE_2D_ARRAY, texture);
         let size = [t.texture_width(), t.height, t.rows].map(|n| n as i32);
-        gl.tex_storage_3d(internal, size[0], size[1], size[2], format, kind);
-        for (p, v) in [
-            (c::TEXTURE_MIN_FILTER, c::NEAREST),
-            (c::TEXTURE_MAG_FILTER, c::NEAREST),
-            (c::TEXTURE_MAX_LEVEL, 0),
-        ] {
-            gl.tex_parameteri(c::TEXTURE_2D_ARRAY, p, v as i32);
-        }
-        gl.bind_texture(c::TEXTURE_2D_ARRAY, 0);
+        let texture = names.texture(gl);
+        store(gl, texture, color_format(window), size);
         self.textures.push(texture);
         self.attach_front(gl, texture);
         self.front = Some(Front { texture, idle: 0 });

@@ -108,6 +108,20 @@ fn depth_format(w: &Window) -> Option<(u32, u32, u32, u32)> {
     }
 }
 
+/// Gives a texture layers of a size, single-sampled. Changes the binding of array textures.
+fn store(gl: &Gl, name: u32, format: (u32, u32, u32), [width, height, layers]: [i32; 3]) {
+    gl.bind_texture(c::TEXTURE_2D_ARRAY, name);
+    gl.tex_storage_3d(format.0, width, height, layers, format.1, format.2);
+    for (p, v) in [
+        (c::TEXTURE_MIN_FILTER, c::NEAREST),
+        (c::TEXTURE_MAG_FILTER, c::NEAREST),
+        (c::TEXTURE_MAX_LEVEL, 0),
+    ] {
+        gl.tex_parameteri(c::TEXTURE_2D_ARRAY, p, v as i32);
+    }
+    gl.bind_texture(c::TEXTURE_2D_ARRAY, 0);
+}
+
 impl Atlas {
     /// Makes the atlas for a window. The caller saves and restores bindings (textures, framebuffers, unpack buffer).
     pub fn new(
@@ -140,16 +154,7 @@ impl Atlas {
                 );
                 gl.bind_texture(c::TEXTURE_2D_MULTISAMPLE_ARRAY, 0);
             } else {
-                gl.bind_texture(c::TEXTURE_2D_ARRAY, name);
-                gl.tex_storage_3d(format.0, width, height, layers, format.1, format.2);
-                for (p, v) in [
-                    (c::TEXTURE_MIN_FILTER, c::NEAREST),
-                    (c::TEXTURE_MAG_FILTER, c::NEAREST),
-                    (c::TEXTURE_MAX_LEVEL, 0),
-                ] {
-                    gl.tex_parameteri(c::TEXTURE_2D_ARRAY, p, v as i32);
-                }
-                gl.bind_texture(c::TEXTURE_2D_ARRAY, 0);
+                store(gl, name, format, [width, height, layers]);
             }
             name
         };

@@ -9,8 +9,8 @@ use crate::state::{BACK, FRONT};
 use image::RgbImage;
 
 impl Layer {
-    /// Shows the frame in the true framebuffer 0. The caller swaps after it, or
-    /// flushes; nothing of the program's state has changed.
+    /// Shows the frame in the true framebuffer 0. The caller swaps or flushes after it; nothing of the program's state
+    /// has changed.
     pub fn show(&mut self, gl: &Gl, swap: bool) {
         // Our drawing would be a hit of the program's selection, or be fed back to it.
         if self.state.list.is_some()
@@ -28,7 +28,7 @@ impl Layer {
         let front = !swap && self.atlas.has_front() && self.state.framebuffers.draws_front();
         let image = if front { FRONT } else { BACK };
         self.reading(gl, image, |layer| layer.present(gl, image));
-        if !swap {
+        if !swap || !self.state.window.double_buffered {
             // Mesa shows the front buffer of what is bound when it flushes.
             gl.bind_framebuffer(c::FRAMEBUFFER, 0);
             gl.flush();

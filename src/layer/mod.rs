@@ -252,11 +252,11 @@ impl Layer {
     /// Puts a new atlas with the same contents in the place of the old one.
     fn remake(&mut self, gl: &Gl) -> bool {
         self.state.refresh(gl);
-        let Ok(atlas) = make_atlas(gl, &mut self.names, self.config, &self.state, &self.support)
+        let Ok(mut atlas) =
+            make_atlas(gl, &mut self.names, self.config, &self.state, &self.support)
         else {
             return false;
         };
-        let mut atlas = atlas;
         as_they_are(gl, || {
             self.reading(gl, BACK, |layer| atlas.copy(gl, &layer.atlas));
             if self.atlas.has_front() {

@@ -47,12 +47,12 @@ static void list_colours(void)
     }
 }
 
-/* Textures that only a list has named when the layer needs some of its own. */
+/* Textures that only a list has named when the layer needs some of its own: above those that it has from the start. */
 static void list_textures(void)
 {
     GLint bound;
     glNewList(1, GL_COMPILE);
-    for (GLuint texture = 1; texture < 30; texture++)
+    for (GLuint texture = 4; texture < 30; texture++)
         glBindTexture(GL_TEXTURE_2D, texture);
     glEndList();
     glWindowPos2i(4, 4);

@@ -46,7 +46,11 @@ int main(int argc, char **argv)
     glRectf(-0.5f, -0.5f, 0.5f, 0.5f);
     glFlush();
     shown("flushed");
-    if (!single) {
+    if (single) {
+        clear(1, 0, 0);
+        glXSwapBuffers(display, window);
+        shown("swapped");
+    } else {
         glDrawBuffer(GL_BACK);
         clear(1, 0, 0);
         glFlush();
