@@ -27,11 +27,11 @@ const KNOWN: [(u64, &str); 6] = [
     ),
     (
         105_854,
-        "not analysed: pixels of a list of loops and a clear",
+        "Mesa draws nothing of a list whose first normal stands within its second primitive; here such a list is a piece of the program's",
     ),
     (
         108_300,
-        "open: a list that is compiled and executed after a draw of no instances takes the colour of an earlier draw",
+        "after a draw of no instances Mesa gives a list an earlier colour, if the glColor before it was compiled into another",
     ),
     (108_733, COLOUR),
     (109_793, COLOUR),

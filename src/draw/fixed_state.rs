@@ -44,6 +44,7 @@ pub fn limits(gl: &Gl, glsl: u32) -> Limits {
 pub struct Driver {
     mesa: bool,
     fog_distance: bool,
+    clip_planes: u32,
 }
 
 impl Driver {
@@ -52,6 +53,8 @@ impl Driver {
         Driver {
             mesa: gl.get_string(c::VERSION).contains("Mesa"),
             fog_distance: gl.has_extension("GL_NV_fog_distance"),
+            // One bit of the key for each.
+            clip_planes: (gl.get_integer(c::MAX_CLIP_DISTANCES).max(0) as u32).min(u8::BITS),
         }
     }
 }
@@ -101,7 +104,7 @@ impl FixedState {
             },
             fog: fog(gl, driver),
             point: PointSize::Unused,
-            clip_planes: (0..6)
+            clip_planes: (0..driver.clip_planes)
                 .filter(|i| on(c::CLIP_PLANE0 + i))
                 .fold(0, |m, i| m | 1 << i),
             units,

@@ -19,12 +19,6 @@ const CAPABILITIES: &[(u32, Needs)] = &[
     (c::SAMPLE_MASK, Needs::Version(3, 2)),
     (c::RASTERIZER_DISCARD, Needs::Version(3, 0)),
     (c::FRAMEBUFFER_SRGB, Needs::Version(3, 0)),
-    (c::CLIP_DISTANCE0, Needs::Any),
-    (c::CLIP_DISTANCE0 + 1, Needs::Any),
-    (c::CLIP_DISTANCE0 + 2, Needs::Any),
-    (c::CLIP_DISTANCE0 + 3, Needs::Any),
-    (c::CLIP_DISTANCE0 + 4, Needs::Any),
-    (c::CLIP_DISTANCE0 + 5, Needs::Any),
 ];
 
 /// Values of glPixelStore that a read or an upload of ours depends on, with what we set.
@@ -85,10 +79,13 @@ impl Saved {
         };
         let modern = version >= (3, 1);
         let name = |n| gl.get_integer(n) as u32;
+        let planes = gl.get_integer(c::MAX_CLIP_DISTANCES).max(0) as u32;
         let enabled: Vec<u32> = CAPABILITIES
             .iter()
-            .filter(|k| has(k.1) && gl.is_enabled(k.0))
+            .filter(|k| has(k.1))
             .map(|k| k.0)
+            .chain((0..planes).map(|i| c::CLIP_DISTANCE0 + i))
+            .filter(|&k| gl.is_enabled(k))
             .collect();
         enabled.iter().for_each(|&e| gl.disable(e));
         let indexed = version >= (3, 0);

@@ -445,7 +445,7 @@ fn write_planes(w: &mut Writer) {
         return;
     }
     for _ in 0..1 + w.random.below(3) {
-        let plane = w.random.below(6);
+        let plane = w.random.below(8);
         let [a, b, c] = std::array::from_fn(|_| w.random.float(-1.0, 1.0));
         let d = w.random.float(0.3, 1.5);
         w.say(
