@@ -316,9 +316,9 @@ fn encode(v: f64) -> u8 {
 #[test]
 fn quilts_rows_and_single_views() {
     for (api, output, layout, views) in [
-        ("glx", "quilt", Layout::quilt(8), 8),
-        ("egl", "quilt", Layout::quilt(9), 9),
-        ("osmesa", "quilt", Layout::quilt(5), 5),
+        ("glx", "quilt", Layout::quilt(8, None), 8),
+        ("egl", "quilt", Layout::quilt(9, None), 9),
+        ("osmesa", "quilt", Layout::quilt(5, None), 5),
         ("glx", "sbs", Layout::SideBySide, 8),
         ("glx", "sbs", Layout::SideBySide, 2),
         ("egl", "sbs", Layout::SideBySide, 3),

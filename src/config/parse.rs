@@ -8,7 +8,7 @@ use super::{
     AtlasLayout, Camera, Capture, CaptureWhat, Config, Explain, MAX_VIEWS, Output, Profile,
     Strategy, panel, profile,
 };
-use crate::display::Display;
+use crate::display::{Display, Kind};
 use std::path::{Path, PathBuf};
 
 const DEFAULT_FRAME: u64 = 30;
@@ -20,7 +20,7 @@ impl Config {
         let views = views(settings, &display)?;
         Ok(Self {
             views,
-            output: output(settings, views)?,
+            output: output(settings, &display, views)?,
             camera: camera(settings)?,
             strategy: choice(
                 settings,
@@ -92,13 +92,22 @@ fn views(settings: &Settings, display: &Display) -> Result<u32, ConfigError> {
     Ok(views)
 }
 
-fn output(settings: &Settings, views: u32) -> Result<Output, ConfigError> {
+fn output(settings: &Settings, display: &Display, views: u32) -> Result<Output, ConfigError> {
     const CHOICES: &str = "panel, sbs, quilt and view:I";
     let Some((field, value)) = settings.field(OptionId::Output) else {
-        return Ok(Output::Panel);
+        return Ok(match display.kind {
+            Kind::Uncalibrated => Output::Quilt,
+            _ => Output::Panel,
+        });
     };
     match value {
-        "panel" => Ok(Output::Panel),
+        "panel" => match display.check_mask() {
+            Ok(()) => Ok(Output::Panel),
+            Err(error) => Err(ConfigError::Display {
+                field,
+                reason: error.to_string(),
+            }),
+        },
         "sbs" => Ok(Output::SideBySide),
         "quilt" => Ok(Output::Quilt),
         _ => one_view(&field, value, views, CHOICES).map(Output::View),

@@ -10,7 +10,7 @@ pub enum DisplayError {
     /// Neither a name nor a file.
     #[error(
         "no display is called `{name}` and there is no such file; \
-         use huebner8, slanted8 or lenticular-N, or give the path of a .toml description or of a .png mask"
+         use a name that `manyview displays` lists, or give the path of a .toml description, a Looking Glass .json or a .png mask"
     )]
     Unknown {
         /// As asked for.
@@ -65,6 +65,30 @@ pub enum DisplayError {
         field: &'static str,
         /// What to write.
         remedy: &'static str,
+    },
+    /// A field that no kind reads.
+    #[error(
+        "display `{file}`: unknown field `{field}`; the fields for kind = \"{kind}\" are {known}"
+    )]
+    UnknownField {
+        /// The description.
+        file: String,
+        /// As written.
+        field: String,
+        /// The kind that was given.
+        kind: String,
+        /// In words.
+        known: String,
+    },
+    /// Not JSON.
+    #[error("display `{file}`: line {line}: {message}; give the calibration as the device has it")]
+    Json {
+        /// The calibration.
+        file: String,
+        /// 1-based.
+        line: usize,
+        /// From the parser.
+        message: String,
     },
     /// A field that the kind does not read.
     #[error(
@@ -160,10 +184,33 @@ pub enum MaskError {
         /// N.
         views: u32,
     },
+    /// Lengths that no lens has.
+    #[error(
+        "the lenses of the display are too fine or too coarse to be computed with; check its pitch"
+    )]
+    Pitch,
+    /// A view that is asked for by a pattern or a table and is not there.
+    #[error("the display shows view {view}, but there are only {views} views (0 to {last}); ask for at least {least} views",
+        last = views - 1, least = view + 1)]
+    Table {
+        /// The largest index.
+        view: u32,
+        /// N.
+        views: u32,
+    },
+    /// A model whose devices differ.
+    #[error(
+        "display `{name}`: every device has a mask of its own; give its calibration as --display visual.json, \
+         or use --output quilt"
+    )]
+    Uncalibrated {
+        /// The display.
+        name: String,
+    },
     /// A mask of another picture.
     #[error(
         "mask `{file}` is {mask_width}x{mask_height} pixels, but the picture is {width}x{height} at column {x}, \
-         row {y} of a screen {screen_height} pixels high; give a mask of the whole screen or resize the window"
+         row {y} of a screen of {screen_width}x{screen_height}; give a mask of the whole screen or resize the window"
     )]
     WindowSize {
         /// The mask.
@@ -180,6 +227,8 @@ pub enum MaskError {
         x: i32,
         /// Of the picture on the screen.
         y: i32,
+        /// Pixels.
+        screen_width: u32,
         /// Pixels.
         screen_height: u32,
     },

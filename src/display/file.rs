@@ -1,69 +1,130 @@
-//! Panel descriptions on disk: TOML, or a PNG that is the mask itself.
+//! Panel descriptions on disk: TOML, the calibration JSON of a Looking Glass, or a PNG that is the mask itself.
 //!
-//! ```toml
-//! name = "My panel"       # default: the name of the file
-//! kind = "slanted"        # lenticular, huebner, slanted or mask
-//! views = 9
-//! pitch = "16/3"          # slanted: subpixels from lens to lens; a number or "a/b"
-//! slant = "2/3"           # slanted: subpixels per row downwards, default 0
-//! offset = 0.5            # slanted: subpixels, default 0
-//! order = "bgr"           # slanted, huebner: leftmost colour, default "rgb"
-//! mask = "panel.png"      # mask: beside the TOML file
-//! ```
+//! docs/displays.md has every field with an example; the version of the format is 1.
 #![forbid(unsafe_code)]
 
+use super::fields::Fields;
 use super::{
-    Display, DisplayError, Kind, MAX_VIEWS, Mask, Number, Slanted, SubpixelOrder, mask::GUARD,
+    Bias, Display, DisplayError, Facts, GUARD, Integer, Kind, Leia, MAX_VIEWS, Mask, Pattern,
+    Rotation, Slanted, calibration,
 };
-use serde::Deserialize;
 use std::path::Path;
 use std::sync::Arc;
 use toml::Value;
 
+const KIND: &str = "give the optics, for example kind = \"slanted\"";
+const KINDS: &str = "\"lenticular\", \"huebner\", \"slanted\", \"integer\", \"looking-glass\", \"leia\", \"pattern\" or \"mask\"";
+const NAME: &str = "give a name, for example name = \"My panel\"";
 const VIEWS: &str = "give the number of views, for example views = 8";
 const PITCH: &str = "give the lens pitch in subpixels, for example pitch = \"16/3\"";
 const SLANT: &str = "give the slant in subpixels per row, for example slant = \"2/3\"";
-const OFFSET: &str = "give the offset in subpixels, for example offset = 0.5";
-const KIND: &str = "give the optics, for example kind = \"slanted\"";
+const OFFSET: &str = "give the offset, for example offset = 0.5";
+const COLOURS: &str =
+    "give the offsets of R, G and B in subpixels, for example colour-offsets = [0, 0.1, 0.2]";
+const BIAS: &str = "give a grid from 2x2 to 64x64 with as many values in subpixels, for example \
+                    bias = { columns = 2, rows = 2, values = [0, 0.1, 0, 0.1] }";
+const STEP: &str = "give the step of the phase, for example horizontal = 3";
+const MODULUS: &str = "give the phase after which the views repeat, for example modulus = 8";
+const TABLE: &str =
+    "give a view for each part of the modulus, for example table = [0, 1, \"b\", 2]";
+const PATTERN: &str =
+    "give rows of one length from L, R, b (black) and 0 to 9, for example pattern = [\"LRLRbLRb\"]";
+const SUBPIXELS: &str = "give subpixels = true where each letter is a subpixel";
+const DU: &str = "give the views from a pixel to the next, for example p-over-du = 3";
+const DV: &str = "give the views from a row to the next, for example p-over-dv = 1";
+const COLOUR_SLANT: &str = "give the views a row adds, for example colour-slant = 0.2";
+const INVERSION: &str = "give colour-inversion = true where B comes before R";
+const CALIBRATION: &str = "give the device's file, for example calibration = \"visual.json\"";
 const MASK: &str = "give a 16-bit RGB PNG, for example mask = \"panel.png\"";
-const NAME: &str = "give a name, for example name = \"My panel\"";
-const ORDER: &str = "give the order of the subpixels, for example order = \"bgr\"";
+const VERSION: &str = "write version = 1, or use a newer manyview";
+const SCREEN: &str = "give the screen in pixels, for example screen = \"2560x1600\"";
+const DPI: &str = "give the pixels per inch, for example dpi = 338";
+const CONE: &str = "give the angle of the views in degrees, for example cone = 40";
+const ROTATION: &str = "give how far the glass is turned clockwise, for example rotation = 90";
+const QUILT: &str = "give columns and rows, for example quilt = \"8x6\"";
 
-/// Bounds for slant and offset; far outside of them a phase would lose its fraction.
-const LARGEST: f64 = 1e6;
+const COMMON: [&str; 9] = [
+    "version", "name", "kind", "views", "screen", "dpi", "cone", "rotation", "quilt",
+];
+const LENS: [&str; 6] = [
+    "pitch",
+    "slant",
+    "offset",
+    "colour-offsets",
+    "bias",
+    "order",
+];
+const STEPS: [&str; 7] = [
+    "horizontal",
+    "subpixel",
+    "vertical",
+    "offset",
+    "modulus",
+    "table",
+    "order",
+];
+const LEIA: [&str; 5] = [
+    "p-over-du",
+    "p-over-dv",
+    "colour-slant",
+    "colour-inversion",
+    "offset",
+];
 
-/// Values are kept as TOML, so that a wrong type is reported in our words.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Raw {
-    name: Option<Value>,
-    views: Option<Value>,
-    kind: Option<Value>,
-    pitch: Option<Value>,
-    slant: Option<Value>,
-    offset: Option<Value>,
-    order: Option<Value>,
-    mask: Option<Value>,
-}
+/// Every field that some kind reads.
+const ALL: [&str; 19] = [
+    "pitch",
+    "slant",
+    "offset",
+    "colour-offsets",
+    "bias",
+    "order",
+    "horizontal",
+    "subpixel",
+    "vertical",
+    "modulus",
+    "table",
+    "p-over-du",
+    "p-over-dv",
+    "colour-slant",
+    "colour-inversion",
+    "pattern",
+    "subpixels",
+    "calibration",
+    "mask",
+];
+
+/// Steps of an `integer` panel: with 32 bits a place on the screen times a step fits 64.
+const STEP_RANGE: std::ops::RangeInclusive<i64> = -2_147_483_648..=2_147_483_647;
 
 /// True for what a user meant as a file even where none is.
 pub(super) fn looks_like_path(path: &Path) -> bool {
-    path.components().count() > 1 || path.extension().is_some_and(|e| e == "toml" || e == "png")
+    let known = ["toml", "json", "png"];
+    path.components().count() > 1
+        || path
+            .extension()
+            .is_some_and(|e| known.iter().any(|k| e == *k))
 }
 
 pub(super) fn load(path: &Path) -> Result<Display, DisplayError> {
-    if path
-        .extension()
-        .is_some_and(|e| e.eq_ignore_ascii_case("png"))
-    {
+    let is = |extension: &str| {
+        path.extension()
+            .is_some_and(|e| e.eq_ignore_ascii_case(extension))
+    };
+    if is("png") {
         return from_mask(path, stem(path), None);
     }
+    let text = read(path)?;
+    if is("json") {
+        return calibration::read(&path.display().to_string(), stem(path), &text);
+    }
+    from_toml(path, &text)
+}
+
+/// `path` for messages, and for files beside it.
+pub(super) fn from_toml(path: &Path, text: &str) -> Result<Display, DisplayError> {
     let file = path.display().to_string();
-    let text = std::fs::read_to_string(path).map_err(|source| DisplayError::Read {
-        file: file.clone(),
-        source,
-    })?;
-    let raw: Raw = toml::from_str(&text).map_err(|e| {
+    let table = text.parse().map_err(|e: toml::de::Error| {
         let before = e
             .span()
             .and_then(|span| text.get(..span.start))
@@ -74,7 +135,15 @@ pub(super) fn load(path: &Path) -> Result<Display, DisplayError> {
             message: e.message().replace('\n', ", "),
         }
     })?;
-    Reader { path, file }.display(raw)
+    let fields = Fields::new(file, table);
+    Reader { path, fields }.display()
+}
+
+fn read(path: &Path) -> Result<String, DisplayError> {
+    std::fs::read_to_string(path).map_err(|source| DisplayError::Read {
+        file: path.display().to_string(),
+        source,
+    })
 }
 
 fn stem(path: &Path) -> String {
@@ -95,186 +164,206 @@ fn from_mask(path: &Path, name: String, views: Option<u32>) -> Result<Display, D
     let least = indices.max().map_or(1, |&view| u32::from(view) + 1);
     let views = views.unwrap_or(least);
     mask.check_indices(path, views)?;
-    Ok(Display {
-        name,
-        views,
-        kind: Kind::MaskFile {
-            path: path.into(),
-            mask: Arc::new(mask),
-        },
-    })
+    let screen = Some((mask.width(), mask.height()));
+    let kind = Kind::MaskFile {
+        path: path.into(),
+        mask: Arc::new(mask),
+    };
+    let mut display = Display::new(name, views, kind);
+    display.facts.screen = screen;
+    Ok(display)
 }
 
-/// Turns fields into values and mistakes into sentences.
+/// Turns fields into a panel.
 struct Reader<'a> {
     path: &'a Path,
-    file: String,
+    fields: Fields,
 }
 
 impl Reader<'_> {
-    fn display(&self, raw: Raw) -> Result<Display, DisplayError> {
-        let name = match &raw.name {
-            Some(value) => self.text("name", value, "a text", NAME)?.to_owned(),
+    fn display(&self) -> Result<Display, DisplayError> {
+        let f = &self.fields;
+        f.whole("version", 1..=1, VERSION)?;
+        let name = match f.get("name") {
+            Some(value) => f.text("name", value, "a text", NAME)?.to_owned(),
             None => stem(self.path),
         };
-        let views = raw
-            .views
-            .as_ref()
-            .map(|value| self.views(value))
-            .transpose()?;
-        let kinds = "\"lenticular\", \"huebner\", \"slanted\" or \"mask\"";
-        let Some(given) = &raw.kind else {
-            return Err(self.missing("kind", KIND));
+        let views = f.whole("views", 1..=i64::from(MAX_VIEWS), VIEWS)?;
+        let views = views.and_then(|views| u32::try_from(views).ok());
+        let given = f.need("kind", KIND)?;
+        let kind = f.text("kind", given, KINDS, KIND)?;
+        let only = |read: &[&'static str]| f.only(kind, &COMMON, read, &ALL);
+        let need_views = || match views {
+            Some(views) => Ok(views),
+            None => f.need("views", VIEWS).map(|_| 0),
         };
-        let kind = self.text("kind", given, kinds, KIND)?;
-        let read: &[&str] = match kind {
-            "lenticular" => &[],
-            "huebner" => &["order"],
-            "slanted" => &["pitch", "slant", "offset", "order"],
-            "mask" => &["mask"],
-            _ => return Err(self.field("kind", kinds, given, KIND)),
-        };
-        let optional = [
-            ("pitch", &raw.pitch),
-            ("slant", &raw.slant),
-            ("offset", &raw.offset),
-            ("order", &raw.order),
-            ("mask", &raw.mask),
-        ];
-        for (field, value) in optional {
-            if value.is_some() && !read.contains(&field) {
-                let (file, kind) = (self.file.clone(), kind.to_owned());
-                return Err(DisplayError::Unused { file, field, kind });
+        let mut display = match kind {
+            "lenticular" => {
+                only(&[])?;
+                Display::new(name, need_views()?, Kind::Lenticular)
             }
-        }
-        let order = self.order(raw.order.as_ref())?;
-        let kind = match kind {
-            "lenticular" => Kind::Lenticular,
             "huebner" => {
-                let kind = Kind::Huebner(order);
-                return Ok(Display {
-                    name,
-                    views: views.unwrap_or(8),
-                    kind,
-                });
+                only(&["order"])?;
+                Display::new(name, views.unwrap_or(8), Kind::Huebner(f.order()?))
+            }
+            "slanted" => {
+                only(&LENS)?;
+                let lens = self.lens()?;
+                Display::new(name, need_views()?, Kind::Slanted(lens))
+            }
+            "integer" => {
+                only(&STEPS)?;
+                let steps = self.steps()?;
+                Display::new(name, need_views()?, Kind::Integer(steps))
+            }
+            "leia" => {
+                only(&LEIA)?;
+                let panel = Leia {
+                    p_over_du: f.pitch("p-over-du", DU)?,
+                    p_over_dv: f.length("p-over-dv", DV)?,
+                    colour_slant: f.length("colour-slant", COLOUR_SLANT)?,
+                    colour_inversion: f.flag("colour-inversion", INVERSION)?,
+                    offset: f.length("offset", OFFSET)?,
+                };
+                Display::new(name, need_views()?, Kind::Leia(panel))
+            }
+            "pattern" => {
+                only(&["pattern", "subpixels"])?;
+                let pattern = self.pattern()?;
+                let views = views.unwrap_or(pattern.views());
+                Display::new(name, views, Kind::Pattern(pattern))
+            }
+            "looking-glass" => {
+                only(&["calibration"])?;
+                let path = self.beside("calibration", CALIBRATION)?;
+                let file = path.display().to_string();
+                let mut display = calibration::read(&file, name, &read(&path)?)?;
+                display.views = views.unwrap_or(display.views);
+                display
             }
             "mask" => {
-                let Some(mask) = &raw.mask else {
-                    return Err(self.missing("mask", MASK));
-                };
-                let mask = self.text("mask", mask, "the path of a PNG file", MASK)?;
-                let folder = self.path.parent().unwrap_or(Path::new(""));
-                return from_mask(&folder.join(mask), name, views);
+                only(&["mask"])?;
+                from_mask(&self.beside("mask", MASK)?, name, views)?
             }
-            _ => {
-                let Some(pitch) = &raw.pitch else {
-                    return Err(self.missing("pitch", PITCH));
-                };
-                Kind::Slanted(Slanted {
-                    pitch: self.pitch(pitch)?,
-                    slant: self.length("slant", raw.slant.as_ref(), SLANT)?,
-                    offset: self.length("offset", raw.offset.as_ref(), OFFSET)?,
-                    order,
-                })
-            }
+            _ => return Err(f.wrong("kind", KINDS, given, KIND)),
         };
-        let views = views.ok_or_else(|| self.missing("views", VIEWS))?;
-        Ok(Display { name, views, kind })
-    }
-
-    fn views(&self, value: &Value) -> Result<u32, DisplayError> {
-        let views = value
-            .as_integer()
-            .and_then(|views| u32::try_from(views).ok());
-        views
-            .filter(|views| (1..=MAX_VIEWS).contains(views))
-            .ok_or_else(|| {
-                let expected = format!("a whole number from 1 to {MAX_VIEWS}");
-                self.field("views", &expected, value, VIEWS)
-            })
-    }
-
-    fn pitch(&self, value: &Value) -> Result<Number, DisplayError> {
-        match number(value) {
-            Some(pitch) if pitch.to_f64() > 0.0 && pitch.to_f64() <= LARGEST => Ok(pitch),
-            Some(pitch) if pitch.to_f64() > LARGEST => {
-                Err(self.field("pitch", "at most 1000000", value, PITCH))
+        self.facts(&mut display.facts)?;
+        let degrees = f.whole("rotation", 0..=270, ROTATION)?.unwrap_or(0);
+        display.rotation = match (Rotation::from_degrees(degrees), f.get("rotation")) {
+            (Some(rotation), _) => rotation,
+            (None, Some(found)) => {
+                return Err(f.wrong("rotation", "0, 90, 180 or 270", found, ROTATION));
             }
-            _ => Err(self.field("pitch", "a number above 0", value, PITCH)),
-        }
+            (None, None) => Rotation::None,
+        };
+        Ok(display)
     }
 
-    fn length(
+    fn facts(&self, facts: &mut Facts) -> Result<(), DisplayError> {
+        let f = &self.fields;
+        facts.screen = f.pair("screen", 32_768, SCREEN)?.or(facts.screen);
+        facts.dpi = f.float("dpi", (1.0, 10_000.0), DPI)?.or(facts.dpi);
+        facts.cone = f.float("cone", (0.1, 170.0), CONE)?.or(facts.cone);
+        facts.quilt = f.pair("quilt", 256, QUILT)?.or(facts.quilt);
+        Ok(())
+    }
+
+    fn lens(&self) -> Result<Slanted, DisplayError> {
+        let f = &self.fields;
+        Ok(Slanted {
+            pitch: f.pitch("pitch", PITCH)?,
+            slant: f.length("slant", SLANT)?,
+            offset: f.length("offset", OFFSET)?,
+            colours: f.lengths("colour-offsets", COLOURS)?,
+            bias: match f.get("bias") {
+                Some(value) => Some(
+                    bias(value).ok_or_else(|| f.wrong("bias", "a grid of values", value, BIAS))?,
+                ),
+                None => None,
+            },
+            order: f.order()?,
+        })
+    }
+
+    fn steps(&self) -> Result<Integer, DisplayError> {
+        let f = &self.fields;
+        f.need("horizontal", STEP)?;
+        f.need("modulus", MODULUS)?;
+        let step =
+            |field, range, remedy| f.whole(field, range, remedy).map(|step| step.unwrap_or(0));
+        let table = match f.get("table") {
+            Some(value) => {
+                let expected = "a list of views, with \"b\" for black";
+                table(value).ok_or_else(|| f.wrong("table", expected, value, TABLE))?
+            }
+            None => Vec::new(),
+        };
+        Ok(Integer {
+            horizontal: step("horizontal", STEP_RANGE, STEP)?,
+            subpixel: step("subpixel", STEP_RANGE, STEP)?,
+            vertical: step("vertical", STEP_RANGE, STEP)?,
+            offset: step("offset", STEP_RANGE, OFFSET)?,
+            modulus: step("modulus", 1..=*STEP_RANGE.end(), MODULUS)?,
+            table,
+            order: f.order()?,
+        })
+    }
+
+    fn pattern(&self) -> Result<Pattern, DisplayError> {
+        let f = &self.fields;
+        let value = f.need("pattern", PATTERN)?;
+        let subpixels = f.flag("subpixels", SUBPIXELS)?;
+        let rows = value.as_array().and_then(|rows| {
+            let rows: Option<Vec<&str>> = rows.iter().map(Value::as_str).collect();
+            Pattern::new(&rows?, subpixels)
+        });
+        rows.ok_or_else(|| f.wrong("pattern", "rows of views", value, PATTERN))
+    }
+
+    /// A file that is named in this one, from its folder.
+    fn beside(
         &self,
         field: &'static str,
-        value: Option<&Value>,
         remedy: &'static str,
-    ) -> Result<Number, DisplayError> {
-        let Some(value) = value else {
-            return Ok(Number::Exact {
-                numerator: 0,
-                denominator: 1,
-            });
-        };
-        let number = number(value).filter(|number| number.to_f64().abs() <= LARGEST);
-        let expected = "a number from -1000000 to 1000000";
-        number.ok_or_else(|| self.field(field, expected, value, remedy))
-    }
-
-    fn order(&self, value: Option<&Value>) -> Result<SubpixelOrder, DisplayError> {
-        let Some(value) = value else {
-            return Ok(SubpixelOrder::Rgb);
-        };
-        match value.as_str() {
-            Some("rgb") => Ok(SubpixelOrder::Rgb),
-            Some("bgr") => Ok(SubpixelOrder::Bgr),
-            _ => Err(self.field("order", "\"rgb\" or \"bgr\"", value, ORDER)),
-        }
-    }
-
-    fn text<'v>(
-        &self,
-        field: &'static str,
-        value: &'v Value,
-        expected: &str,
-        remedy: &'static str,
-    ) -> Result<&'v str, DisplayError> {
-        let text = value.as_str().filter(|text| !text.is_empty());
-        text.ok_or_else(|| self.field(field, expected, value, remedy))
-    }
-
-    fn field(
-        &self,
-        field: &'static str,
-        expected: &str,
-        value: &Value,
-        remedy: &'static str,
-    ) -> DisplayError {
-        let (file, expected) = (self.file.clone(), expected.to_owned());
-        DisplayError::Field {
-            file,
-            field,
-            expected,
-            found: value.to_string(),
-            remedy,
-        }
-    }
-
-    fn missing(&self, field: &'static str, remedy: &'static str) -> DisplayError {
-        DisplayError::Missing {
-            file: self.file.clone(),
-            field,
-            remedy,
-        }
+    ) -> Result<std::path::PathBuf, DisplayError> {
+        let value = self.fields.need(field, remedy)?;
+        let name = self
+            .fields
+            .text(field, value, "the path of a file", remedy)?;
+        Ok(self.path.parent().unwrap_or(Path::new("")).join(name))
     }
 }
 
-/// A TOML number, or a text with one.
-fn number(value: &Value) -> Option<Number> {
-    match value {
-        Value::Integer(whole) => Number::ratio(*whole, 1),
-        Value::Float(float) => Number::from_f64(*float),
-        Value::String(text) => Number::parse(text),
-        _ => None,
+fn bias(value: &Value) -> Option<Bias> {
+    let table = value.as_table()?;
+    if table
+        .keys()
+        .any(|k| !["columns", "rows", "values"].contains(&k.as_str()))
+    {
+        return None;
     }
+    let side = |key| usize::try_from(table.get(key)?.as_integer()?).ok();
+    let float = |value: &Value| match value {
+        Value::Integer(whole) => Some(*whole as f64),
+        _ => value.as_float(),
+    };
+    let values = table.get("values")?.as_array()?.iter().map(float);
+    Bias::new(
+        side("columns")?,
+        side("rows")?,
+        values.collect::<Option<_>>()?,
+    )
+}
+
+fn table(value: &Value) -> Option<Vec<u16>> {
+    let view = |value: &Value| match value {
+        Value::String(black) if black == "b" => Some(GUARD),
+        _ => u16::try_from(value.as_integer()?)
+            .ok()
+            .filter(|&view| view != GUARD),
+    };
+    let views: Vec<u16> = value.as_array()?.iter().map(view).collect::<Option<_>>()?;
+    (1..usize::from(GUARD))
+        .contains(&views.len())
+        .then_some(views)
 }

@@ -185,24 +185,21 @@ impl Mask {
 
     /// The part of a mask of the whole screen that lies under a picture.
     ///
-    /// The width of the screen is not known, so a mask under a picture in the corner that is as high as the screen must
-    /// be as wide as the picture: a mask made for another panel should not pass.
     pub(super) fn crop(&self, path: &Path, placement: &Placement) -> Result<Self, MaskError> {
         let &Placement {
+            screen_width,
             screen_height,
             x,
             y,
             width,
             height,
         } = placement;
-        let corner = (x, y) == (0, 0) && height == screen_height;
         let inside = |start: i32, length: u32, all: u32| {
             start >= 0 && i64::from(start) + i64::from(length) <= i64::from(all)
         };
         let fits = inside(x, width, self.width)
             && inside(y, height, self.height)
-            && self.height == screen_height
-            && (!corner || self.width == width);
+            && (self.width, self.height) == (screen_width, screen_height);
         if !fits {
             return Err(MaskError::WindowSize {
                 file: path.display().to_string(),
@@ -212,6 +209,7 @@ impl Mask {
                 height,
                 x,
                 y,
+                screen_width,
                 screen_height,
             });
         }

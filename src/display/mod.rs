@@ -5,23 +5,42 @@
 //! is the leftmost camera.
 //!
 //! The kinds and an asked number of views N that is not the native one: a `lenticular` and a `huebner` mask are the
-//! same structure modulo N, that is a sheet made for N views, so every view is shown. A `slanted` lens keeps its pitch
-//! and spreads N views over it; to drive one fixed piece of optics with another N, describe it as `slanted`
-//! (`slanted8` is Hübner's filter as such a lens). A mask file is what it is and needs N above its largest index.
+//! same structure modulo N, that is a sheet made for N views, so every view is shown. Lenses (`slanted`, `integer`,
+//! `looking-glass`, `leia`) keep their pitch and spread N views over it; to drive one fixed piece of optics with another N,
+//! describe it as `slanted` (`slanted8` is Hübner's filter as such a lens). A pattern, a table and a mask file are what they are
+//! and need N above their largest index.
 #![forbid(unsafe_code)]
 
+mod bias;
+mod builtin;
+mod calibration;
+mod describe;
 mod error;
+mod fields;
 mod file;
 mod huebner;
+mod integer;
+mod lattice;
+mod leia;
+mod looking_glass;
 mod mask;
 mod number;
+mod pattern;
+mod rotation;
 mod slanted;
 #[cfg(test)]
 mod tests;
 
+pub use bias::Bias;
+pub use builtin::{Builtin, builtins};
 pub use error::{DisplayError, MaskError};
+pub use integer::Integer;
+pub use leia::Leia;
+pub use looking_glass::{CellPattern, LookingGlass};
 pub use mask::{GUARD, Mask};
 pub use number::Number;
+pub use pattern::Pattern;
+pub use rotation::Rotation;
 pub use slanted::Slanted;
 
 use std::path::{Path, PathBuf};
@@ -39,6 +58,23 @@ pub struct Display {
     pub views: u32,
     /// Which subpixel shows which view.
     pub kind: Kind,
+    /// How the glass is turned against the picture.
+    pub rotation: Rotation,
+    /// What is known of it beside the mask.
+    pub facts: Facts,
+}
+
+/// What is known of a panel beside its mask; nothing of it changes the mask.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Facts {
+    /// Width and height of the screen in pixels, as the picture stands on it.
+    pub screen: Option<(u32, u32)>,
+    /// Pixels per inch.
+    pub dpi: Option<f64>,
+    /// Angle over which the views are spread, degrees.
+    pub cone: Option<f64>,
+    /// Columns and rows of its quilt.
+    pub quilt: Option<(u32, u32)>,
 }
 
 /// How a panel's mask is made.
@@ -50,6 +86,14 @@ pub enum Kind {
     Huebner(SubpixelOrder),
     /// A lens sheet of any pitch and slant.
     Slanted(Slanted),
+    /// Phases in whole steps, with a table.
+    Integer(Integer),
+    /// A Looking Glass with its calibration.
+    LookingGlass(LookingGlass),
+    /// A Leia-type panel.
+    Leia(Leia),
+    /// A pattern written by hand.
+    Pattern(Pattern),
     /// A picture of the mask of the whole screen.
     MaskFile {
         /// Where it was read from, for messages.
@@ -57,6 +101,8 @@ pub enum Kind {
         /// Its values; shared, as a 4K mask is 50 MB.
         mask: Arc<Mask>,
     },
+    /// No mask: the model is known, the single device is not. Quilts can be made for it.
+    Uncalibrated,
 }
 
 /// Which colour the leftmost subpixel of a pixel has.
@@ -85,6 +131,8 @@ impl SubpixelOrder {
 /// Masks belong to the glass, not to the window, so their phase counts from the screen's corner.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Placement {
+    /// Width of the screen.
+    pub screen_width: u32,
     /// Height of the screen: the `screenHeight` of equation 8, and the height a mask file must have.
     pub screen_height: u32,
     /// Left edge of the picture, to the right from the left edge of the screen; negative when it hangs over.
@@ -101,6 +149,7 @@ impl Placement {
     /// A picture that is the whole screen.
     pub fn full_screen(width: u32, height: u32) -> Self {
         Self {
+            screen_width: width,
             screen_height: height,
             x: 0,
             y: 0,
@@ -113,43 +162,28 @@ impl Placement {
 impl Default for Display {
     /// Hübner's 8-view filter, `huebner8`.
     fn default() -> Self {
-        Self {
-            name: "huebner8".into(),
-            views: 8,
-            kind: Kind::Huebner(SubpixelOrder::Rgb),
-        }
+        Self::new("huebner8", 8, Kind::Huebner(SubpixelOrder::Rgb))
     }
 }
 
 impl Display {
-    /// The names [`Display::named`] knows, for listings; `lenticular-N` stands for any N.
-    pub const NAMES: [&'static str; 3] = ["huebner8", "slanted8", "lenticular-N"];
-
-    /// A built-in display.
-    pub fn named(name: &str) -> Result<Self, DisplayError> {
-        match name {
-            "huebner8" => Ok(Self::default()),
-            "slanted8" => Ok(Self {
-                name: name.into(),
-                views: 8,
-                kind: Kind::Slanted(Slanted::HUEBNER),
-            }),
-            _ => {
-                let Some(count) = name.strip_prefix("lenticular-") else {
-                    return Err(DisplayError::Unknown { name: name.into() });
-                };
-                let views = count.parse().ok().filter(|n| (1..=MAX_VIEWS).contains(n));
-                let views = views.ok_or_else(|| DisplayError::Count { name: name.into() })?;
-                Ok(Self {
-                    name: name.into(),
-                    views,
-                    kind: Kind::Lenticular,
-                })
-            }
+    /// An upright panel of which only the mask is known.
+    pub fn new(name: impl Into<String>, views: u32, kind: Kind) -> Self {
+        Self {
+            name: name.into(),
+            views,
+            kind,
+            rotation: Rotation::None,
+            facts: Facts::default(),
         }
     }
 
-    /// A built-in name, a TOML description or a PNG mask, tried in this order.
+    /// A built-in display.
+    pub fn named(name: &str) -> Result<Self, DisplayError> {
+        builtin::named(name)
+    }
+
+    /// A built-in name, a TOML description, the calibration JSON of a Looking Glass or a PNG mask, tried in this order.
     ///
     /// A file that is called like a built-in display is reached as `./NAME`.
     pub fn load(name_or_path: &str) -> Result<Self, DisplayError> {
@@ -167,6 +201,34 @@ impl Display {
         if !(1..=MAX_VIEWS).contains(&views) {
             return Err(MaskError::Views { views });
         }
+        self.check_views(views)?;
+        self.check_mask()?;
+        self.rotation
+            .mask(placement, |placement| self.upright(placement, views))
+    }
+
+    /// Refuses a number of views that a pattern, a table or a mask file cannot do with.
+    pub fn check_views(&self, views: u32) -> Result<(), MaskError> {
+        match &self.kind {
+            Kind::Pattern(pattern) => pattern.check_views(views),
+            Kind::Integer(steps) => steps.check_views(views),
+            Kind::MaskFile { path, mask } => mask.check_indices(path, views),
+            _ => Ok(()),
+        }
+    }
+
+    /// Refuses a panel without a mask.
+    pub fn check_mask(&self) -> Result<(), MaskError> {
+        match &self.kind {
+            Kind::Uncalibrated => Err(MaskError::Uncalibrated {
+                name: self.name.clone(),
+            }),
+            _ => Ok(()),
+        }
+    }
+
+    /// The mask as the glass is built.
+    fn upright(&self, placement: &Placement, views: u32) -> Result<Mask, MaskError> {
         match &self.kind {
             Kind::Lenticular => Mask::by_rows(placement, |first, _, row| {
                 for (x, out) in (first..).zip(row) {
@@ -175,10 +237,13 @@ impl Display {
             }),
             Kind::Huebner(order) => huebner::mask(placement, views, *order),
             Kind::Slanted(lens) => lens.mask(placement, views),
-            Kind::MaskFile { path, mask } => {
-                mask.check_indices(path, views)?;
-                mask.crop(path, placement)
-            }
+            Kind::Integer(steps) => steps.mask(placement, views),
+            Kind::LookingGlass(device) => device.mask(placement, views),
+            Kind::Leia(panel) => panel.mask(placement, self.views, views),
+            Kind::Pattern(pattern) => pattern.mask(placement),
+            Kind::MaskFile { path, mask } => mask.crop(path, placement),
+            // Refused before.
+            Kind::Uncalibrated => Mask::by_rows(placement, |_, _, _| {}),
         }
     }
 }

@@ -19,6 +19,14 @@ pub enum Number {
 }
 
 impl Number {
+    /// A whole number.
+    pub const fn whole(value: i64) -> Self {
+        Self::Exact {
+            numerator: value,
+            denominator: 1,
+        }
+    }
+
     /// `numerator / denominator` in lowest terms; None when the denominator is 0 or too large.
     pub fn ratio(numerator: i64, denominator: i64) -> Option<Self> {
         let divisor = gcd(numerator.checked_abs()?, denominator.checked_abs()?);
@@ -56,6 +64,22 @@ impl Number {
         Self::parse(&format!("{value}"))
     }
 
+    /// Numerator and denominator. A float is rounded to a multiple of 2^-60, far below what anyone can measure; its size must be
+    /// at most 2^40.
+    pub(super) fn fraction(self) -> (i128, i128) {
+        match self {
+            Self::Exact {
+                numerator,
+                denominator,
+            } => (numerator.into(), denominator.into()),
+            Self::Float(value) => {
+                let numerator = (value * (1u64 << 60) as f64).round() as i128;
+                let shift = numerator.trailing_zeros().min(60);
+                (numerator >> shift, 1 << (60 - shift))
+            }
+        }
+    }
+
     /// The nearest f64.
     pub fn to_f64(self) -> f64 {
         match self {
@@ -77,9 +101,19 @@ fn decimal(text: &str) -> Option<Number> {
     Number::ratio(format!("{whole}{fraction}").parse().ok()?, denominator)
 }
 
+/// The least unit that all denominators divide; None when it has more than 2^73 parts.
+pub(super) fn common_denominator(fractions: &[(i128, i128)]) -> Option<i128> {
+    let unit = fractions
+        .iter()
+        .try_fold(1i128, |unit, &(_, denominator)| {
+            unit.checked_mul(denominator / gcd(unit, denominator))
+        })?;
+    (unit <= 1 << 73).then_some(unit)
+}
+
 /// Greatest common divisor; of 0 and 0 it is 0.
-pub(super) fn gcd(mut a: i64, mut b: i64) -> i64 {
-    while b != 0 {
+fn gcd<T: Copy + PartialEq + Default + std::ops::Rem<Output = T>>(mut a: T, mut b: T) -> T {
+    while b != T::default() {
         (a, b) = (b, a % b);
     }
     a

@@ -110,7 +110,7 @@ impl Interleaver {
         output: Output,
         size: (u32, u32),
     ) -> Result<(), String> {
-        let layout = Layout::of(output, config.views);
+        let layout = Layout::of(output, config.views, config.display.facts.quilt);
         if layout.is_none() && self.mask.as_ref().is_none_or(|m| (m.0, m.1) != size) {
             let placement = Placement::full_screen(size.0, size.1);
             let mask = config

@@ -21,9 +21,13 @@ pub enum Layout {
 
 impl Layout {
     /// The quilt of N views that wastes no cell and is at most twice as wide as high, counted in cells, such as 4x2, 8x6
-    /// and 9x5 for 8, 48 and 45 views; else the smallest near-square one that holds them.
-    pub fn quilt(views: u32) -> Self {
+    /// and 9x5 for 8, 48 and 45 views; else the smallest near-square one that holds them. Where columns and rows are `known` and
+    /// hold the views, they are taken.
+    pub fn quilt(views: u32, known: Option<(u32, u32)>) -> Self {
         let views = views.max(1);
+        if let Some((columns, rows)) = known.filter(|&(c, r)| c.saturating_mul(r) >= views) {
+            return Self::Quilt { columns, rows };
+        }
         let root = views.isqrt();
         let full = (1..=root)
             .rev()

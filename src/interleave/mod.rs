@@ -19,12 +19,12 @@ pub use program::Program;
 use crate::config::Output;
 
 impl Layout {
-    /// The layout of an output of whole views; `None` for the panel.
-    pub fn of(output: Output, views: u32) -> Option<Self> {
+    /// The layout of an output of whole views; `None` for the panel. `quilt` is the display's own: columns and rows.
+    pub fn of(output: Output, views: u32, quilt: Option<(u32, u32)>) -> Option<Self> {
         match output {
             Output::Panel => None,
             Output::SideBySide => Some(Self::SideBySide),
-            Output::Quilt => Some(Self::quilt(views)),
+            Output::Quilt => Some(Self::quilt(views, quilt)),
             Output::View(view) => Some(Self::View(view)),
         }
     }

@@ -71,7 +71,7 @@ fn quilts_begin_bottom_left() {
     let views: Vec<_> = (0..5)
         .map(|i| RgbImage::from_pixel(3, 2, Rgb([10 + i; 3])))
         .collect();
-    let layout = Layout::quilt(5);
+    let layout = Layout::quilt(5, None);
     assert_eq!(
         layout,
         Layout::Quilt {
@@ -119,17 +119,17 @@ fn quilt_shapes() {
     ];
     for (views, columns, rows) in shapes.into_iter().chain(more) {
         assert_eq!(
-            Layout::quilt(views),
+            Layout::quilt(views, None),
             Layout::Quilt { columns, rows },
             "{views} views"
         );
     }
     for views in 1..500 {
-        let (columns, rows) = Layout::quilt(views).grid(views);
+        let (columns, rows) = Layout::quilt(views, None).grid(views);
         assert!(columns * rows >= views && columns * (rows - 1) < views && columns <= 2 * rows);
         let mut seen: Vec<_> = (0..rows)
             .flat_map(|row| (0..columns).map(move |column| (column, row)))
-            .filter_map(|(column, row)| Layout::quilt(views).view_at(column, row, views))
+            .filter_map(|(column, row)| Layout::quilt(views, None).view_at(column, row, views))
             .collect();
         seen.sort_unstable();
         assert_eq!(seen, (0..views).collect::<Vec<_>>());

@@ -2,7 +2,7 @@
 #![forbid(unsafe_code)]
 
 use crate::config::ConfigError;
-use crate::display::MaskError;
+use crate::display::{DisplayError, MaskError};
 use std::path::PathBuf;
 
 /// What went wrong; each kind has its exit status.
@@ -22,6 +22,9 @@ pub enum LaunchError {
     /// A mask that could not be made or written.
     #[error(transparent)]
     Mask(#[from] MaskError),
+    /// A panel.
+    #[error(transparent)]
+    Display(#[from] DisplayError),
     /// The program is neither a path nor in PATH.
     #[error("{0}: not found; give a path, or a name that is in PATH")]
     AppNotFound(String),
@@ -123,7 +126,8 @@ impl LaunchError {
             | Self::NotWritable { .. }
             | Self::NoPicture
             | Self::Size(_)
-            | Self::Mask(_) => 2,
+            | Self::Mask(_)
+            | Self::Display(_) => 2,
             Self::NoLibrary { .. }
             | Self::BadLibrary { .. }
             | Self::NoDisplay { .. }

@@ -150,7 +150,11 @@ impl Layer {
                 .and_then(|i| capture::write(&i, wanted, frame))
         };
         let written = match wanted.what {
-            CaptureWhat::Output => match Layout::of(self.config.output, self.config.views) {
+            CaptureWhat::Output => match Layout::of(
+                self.config.output,
+                self.config.views,
+                self.config.display.facts.quilt,
+            ) {
                 None => {
                     gl.bind_framebuffer(c::READ_FRAMEBUFFER, 0);
                     capture::write(&capture::read_rgb(gl, 0, 0, width, height), wanted, frame)
