@@ -397,6 +397,52 @@ fn displays_lists_the_default_panel() {
 }
 
 #[test]
+fn displays_show_what_follows_from_a_description() {
+    let show = |display: &str| run(manyview().args(["displays", "show", display]));
+    let (code, stdout, _) = show("slanted8");
+    assert!(
+        code == 0 && stdout.contains("8 subpixels") && stdout.contains("12.5288°"),
+        "{stdout}"
+    );
+    let (code, stdout, _) = show("looking-glass-portrait");
+    assert!(
+        code == 0 && stdout.contains("8x6") && stdout.contains("1536x2048"),
+        "{stdout}"
+    );
+    let (_, stdout, _) = run(manyview().args(["displays", "show", "rows", "--json"]));
+    let shown: serde_json::Value = serde_json::from_str(&stdout).expect("JSON");
+    assert_eq!(shown["views"], "2");
+    let (code, _, stderr) = show("no-such");
+    assert!(code == 2 && stderr.contains("no-such"), "{stderr}");
+}
+
+#[test]
+fn a_model_without_calibration_has_quilts_and_no_mask() {
+    let mask = [
+        "mask",
+        "--display",
+        "looking-glass-go",
+        "--size",
+        "64x64",
+        "--out",
+        "/dev/null",
+    ];
+    let (code, _, stderr) = run(manyview().args(mask));
+    assert!(code == 2 && stderr.contains("calibration"), "{stderr}");
+    let panel = [
+        "run",
+        "--display",
+        "looking-glass-go",
+        "--output",
+        "panel",
+        "--",
+        "/no/such",
+    ];
+    let (code, _, stderr) = run(manyview().args(panel));
+    assert!(code == 2 && stderr.contains("--output"), "{stderr}");
+}
+
+#[test]
 fn masks_need_a_size_and_a_place() {
     let mask = |size: &'static str, out: &'static str| ["mask", "--size", size, "--out", out];
     refused(&mask("64", "m.png"), 2, "1920x1080");

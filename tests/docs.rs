@@ -4,7 +4,7 @@
 mod support;
 
 use manyview::config::{Config, OPTIONS, Profile, Settings};
-use manyview::display::Display;
+use manyview::display::{Display, Placement};
 use std::path::{Path, PathBuf};
 use support::manyview;
 
@@ -41,6 +41,22 @@ fn toml_blocks(document: &str) -> Vec<&str> {
 fn file_name(block: &str) -> Option<&str> {
     let first = block.lines().next()?.strip_prefix("# ")?;
     first.ends_with(".toml").then_some(first)
+}
+
+#[test]
+fn the_descriptions_of_displays_are_accepted() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("panel.toml");
+    let blocks = toml_blocks(include_str!("../docs/displays.md"));
+    assert!(blocks.len() >= 6, "the page shows every kind");
+    for block in blocks {
+        std::fs::write(&path, block).expect("written");
+        let display = Display::load(path.to_str().expect("UTF-8"));
+        let display = display.unwrap_or_else(|error| panic!("{error}\n{block}"));
+        let views = display.views;
+        let whole = Placement::full_screen(32, 16);
+        display.mask(&whole, views).expect("a mask");
+    }
 }
 
 #[test]
