@@ -1,4 +1,5 @@
-// What all output passes share. A pass is cover.wgsl, this file, then atlas.wgsl, then interleave.wgsl or layout.wgsl.
+// What all output passes share. A pass is cover.wgsl, this file, then atlas.wgsl, then interleave.wgsl, layout.wgsl or
+// anaglyph.wgsl.
 //
 // Spaces. naga translates without ADJUST_COORDINATE_SPACE, so nothing is flipped: clip space is OpenGL's, and
 // @builtin(position) is gl_FragCoord, whose y counts UP from the bottom of the window. Pictures and masks count rows DOWN
@@ -24,6 +25,20 @@ struct Uniforms {
     first: u32,
     // 1: row 0 of the atlas texture is the top row of its picture (a flipped framebuffer); 0: the bottom row.
     rows_top_down: u32,
+    // 1: rows of cells count from the top (layout only).
+    cells_from_top: u32,
+    // 1: the mask is that of two eyes, and its view 1 is the last one (interleave only).
+    eyes: u32,
+    // 1: colours are fetched and written as linear light (anaglyph only).
+    linear: u32,
+    pad: vec2<u32>,
+    // What the left and the right view give to each colour (anaglyph only).
+    left_red: vec4<f32>,
+    left_green: vec4<f32>,
+    left_blue: vec4<f32>,
+    right_red: vec4<f32>,
+    right_green: vec4<f32>,
+    right_blue: vec4<f32>,
 }
 
 var<immediate> u: Uniforms;

@@ -14,7 +14,10 @@ fn channel(view: u32, at: vec2<u32>) -> vec3<f32> {
 @fragment
 fn interleave(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
     let at = top_down(position);
-    let views = textureLoad(mask_texture, vec2<i32>(at), 0).rgb;
+    var views = textureLoad(mask_texture, vec2<i32>(at), 0).rgb;
+    if u.eyes != 0u {
+        views = select(views, vec3<u32>(u.views - 1u), views == vec3<u32>(1u));
+    }
     let red = channel(views.r, at);
     // Masks of whole pixels name one view three times.
     if all(views.gb == views.rr) {

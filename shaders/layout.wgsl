@@ -1,7 +1,7 @@
 // Whole views beside each other: quilt, side by side, or a single view (a grid of one cell).
 //
 // Cells are numbered from the bottom left, to the right, then upwards, as in a Looking Glass quilt; in one row that is
-// from left to right. Cells past the last view are black. A pixel belongs to the cell that its centre lies in.
+// from left to right. In one column they are numbered from the top. Cells past the last view are black. A pixel belongs to the cell that its centre lies in.
 
 @fragment
 fn arrange(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
@@ -10,7 +10,8 @@ fn arrange(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
     let centre = (2u * at + 1u) * u.grid;
     let width = 2u * u.picture;
     let cell = centre / width;
-    let view = u.first + (u.grid.y - 1u - cell.y) * u.grid.x + cell.x;
+    let row = select(u.grid.y - 1u - cell.y, cell.y, u.cells_from_top != 0u);
+    let view = u.first + row * u.grid.x + cell.x;
     if view >= u.views {
         return vec4<f32>(0.0, 0.0, 0.0, 1.0);
     }

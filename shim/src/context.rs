@@ -9,7 +9,7 @@ use core::cell::Cell;
 use core::ffi::c_ulong;
 use core::panic::AssertUnwindSafe;
 use manyview_core::gl::{Gl, Ptr, Real};
-use manyview_core::layer::{Frames, Layer};
+use manyview_core::layer::{Frames, Layer, OnScreen};
 use std::sync::{Mutex, PoisonError};
 
 /// What a context draws to.
@@ -205,6 +205,16 @@ fn size(drawable: Drawable) -> Option<(u32, u32)> {
     }
 }
 
+/// Where a window lies on its screen.
+fn place(drawable: Drawable) -> Option<OnScreen> {
+    match drawable {
+        // SAFETY: the program shows this drawable on this thread.
+        Drawable::Glx(display, drawable) => unsafe { geometry::glx_place(display, drawable) },
+        // Their windows are not known here, and memory lies nowhere.
+        Drawable::Egl(..) | Drawable::Memory(..) => None,
+    }
+}
+
 /// After a successful MakeCurrent of the program: takes the context over, or takes up again what it had. A null handle or no
 /// drawable means that the thread has nothing to draw to.
 pub(crate) fn made_current(provider: Provider, handle: Ptr, drawable: Option<Drawable>) {
@@ -366,6 +376,9 @@ pub(crate) fn frame<R>(drawable: Option<Drawable>, swap: impl FnOnce() -> R) -> 
     if ours {
         with_context(|gl, c| {
             if let Some(l) = &mut c.layer {
+                if l.follows_window() {
+                    l.moved(place(c.drawable));
+                }
                 l.show(gl, drawable.is_some());
             }
             if let Some(f) = &mut c.frames {

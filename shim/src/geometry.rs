@@ -1,12 +1,13 @@
-//! Size of a GLX drawable.
+//! Size of a GLX drawable, and where it lies on the screen.
 
 use crate::provider::{Provider, symbol};
 use core::ffi::{CStr, c_ulong, c_void};
 use manyview_core::gl::Ptr;
+use manyview_core::layer::OnScreen;
 
 /// xcb_get_geometry_reply_t
 #[repr(C)]
-struct Reply {
+struct Geometry {
     head: [u8; 8],
     root: u32,
     x: i16,
@@ -15,6 +16,34 @@ struct Reply {
     height: u16,
     border: u16,
     pad: [u8; 2],
+}
+
+/// xcb_translate_coordinates_reply_t
+#[repr(C)]
+struct Translated {
+    head: [u8; 12],
+    x: i16,
+    y: i16,
+}
+
+/// xcb_randr_monitor_info_t
+#[repr(C)]
+#[derive(Clone, Copy)]
+struct Monitor {
+    head: [u8; 8],
+    x: i16,
+    y: i16,
+    width: u16,
+    height: u16,
+    millimetres: [u32; 2],
+}
+
+/// xcb_randr_monitor_info_iterator_t
+#[repr(C)]
+struct Monitors {
+    data: *const Monitor,
+    rest: i32,
+    index: i32,
 }
 
 /// A function of a library that the driver has loaded.
@@ -52,30 +81,131 @@ pub(crate) unsafe fn glx_size(display: Ptr, drawable: c_ulong) -> Option<(u32, u
     })
 }
 
-unsafe fn window_size(display: Ptr, drawable: c_ulong) -> Option<(u32, u32)> {
-    let connection = function(c"libX11-xcb.so.1", c"XGetXCBConnection")?;
+/// The xcb connection of a Display.
+///
+/// # Safety
+/// As [`glx_size`].
+unsafe fn connection(display: Ptr) -> Option<Ptr> {
+    let get = function(c"libX11-xcb.so.1", c"XGetXCBConnection")?;
+    // SAFETY: the signature of X11/Xlib-xcb.h.
+    let connection =
+        unsafe { core::mem::transmute::<Ptr, unsafe extern "C" fn(Ptr) -> Ptr>(get)(display) };
+    (!connection.is_null()).then_some(connection)
+}
+
+/// What a request is answered by; freed here.
+///
+/// # Safety
+/// `reply` is the `xcb_…_reply` that belongs to the cookie, and `R` the beginning of its struct.
+unsafe fn answer<R, T>(
+    connection: Ptr,
+    reply: Ptr,
+    cookie: u32,
+    read: impl FnOnce(&R) -> T,
+) -> Option<T> {
+    type Reply = unsafe extern "C" fn(Ptr, u32, *mut *mut c_void) -> *mut c_void;
+    let mut error: *mut c_void = core::ptr::null_mut();
+    // SAFETY: all these functions have this signature (xcb/xproto.h, xcb/randr.h); a cookie is one u32 in a struct. The reply and the
+    // error are allocated by malloc and freed by us.
+    unsafe {
+        let found = core::mem::transmute::<Ptr, Reply>(reply)(connection, cookie, &mut error);
+        let value = (!found.is_null()).then(|| read(&*found.cast::<R>()));
+        libc::free(found);
+        libc::free(error);
+        value
+    }
+}
+
+/// Width, height and root of a window (or the root itself).
+unsafe fn window(connection: Ptr, window: u32) -> Option<(u32, u32, u32)> {
     let ask = function(c"libxcb.so.1", c"xcb_get_geometry")?;
     let reply = function(c"libxcb.so.1", c"xcb_get_geometry_reply")?;
-    // SAFETY: the three functions have these signatures (xcb/xproto.h, X11/Xlib-xcb.h); a cookie is one u32 in a struct.
-    // SAFETY: the reply is allocated by malloc and freed by us; the error, if any, likewise.
+    // SAFETY: the signatures of xcb/xproto.h.
     unsafe {
-        let connection =
-            core::mem::transmute::<Ptr, unsafe extern "C" fn(Ptr) -> Ptr>(connection)(display);
-        if connection.is_null() {
-            return None;
-        }
         let cookie = core::mem::transmute::<Ptr, unsafe extern "C" fn(Ptr, u32) -> u32>(ask)(
+            connection, window,
+        );
+        answer(connection, reply, cookie, |r: &Geometry| {
+            (r.width.into(), r.height.into(), r.root)
+        })
+    }
+}
+
+unsafe fn window_size(display: Ptr, drawable: c_ulong) -> Option<(u32, u32)> {
+    // SAFETY: forwarded.
+    unsafe { window(connection(display)?, drawable as u32) }
+        .map(|(width, height, _)| (width, height))
+}
+
+/// Where a window lies on the monitor that has its centre. None for what is no window.
+///
+/// # Safety
+/// As [`glx_size`].
+pub(crate) unsafe fn glx_place(display: Ptr, drawable: c_ulong) -> Option<OnScreen> {
+    let translate = function(c"libxcb.so.1", c"xcb_translate_coordinates")?;
+    let reply = function(c"libxcb.so.1", c"xcb_translate_coordinates_reply")?;
+    // SAFETY: the signatures of xcb/xproto.h; forwarded.
+    unsafe {
+        let connection = connection(display)?;
+        let (width, height, root) = window(connection, drawable as u32)?;
+        type Translate = unsafe extern "C" fn(Ptr, u32, u32, i16, i16) -> u32;
+        let cookie = core::mem::transmute::<Ptr, Translate>(translate)(
             connection,
             drawable as u32,
+            root,
+            0,
+            0,
         );
-        let mut error: *mut c_void = core::ptr::null_mut();
-        let r = core::mem::transmute::<
-            Ptr,
-            unsafe extern "C" fn(Ptr, u32, *mut *mut c_void) -> *mut Reply,
-        >(reply)(connection, cookie, &mut error);
-        let size = (!r.is_null()).then(|| (u32::from((*r).width), u32::from((*r).height)));
-        libc::free(r.cast());
-        libc::free(error);
-        size
+        let at = answer(connection, reply, cookie, |r: &Translated| {
+            (i32::from(r.x), i32::from(r.y))
+        })?;
+        let centre = (at.0 + width as i32 / 2, at.1 + height as i32 / 2);
+        let holds = |m: &Monitor| {
+            let inside = |at: i32, start: i16, length: u16| {
+                (i32::from(start)..i32::from(start) + i32::from(length)).contains(&at)
+            };
+            inside(centre.0, m.x, m.width) && inside(centre.1, m.y, m.height)
+        };
+        if let Some(m) = monitors(connection, root).into_iter().flatten().find(holds) {
+            return Some(OnScreen {
+                screen: (m.width.into(), m.height.into()),
+                at: (at.0 - i32::from(m.x), at.1 - i32::from(m.y)),
+            });
+        }
+        let (width, height, _) = window(connection, root)?;
+        Some(OnScreen {
+            screen: (width, height),
+            at,
+        })
+    }
+}
+
+/// The monitors of a screen. None where the driver did not load RandR's library, or the server has none.
+///
+/// # Safety
+/// A connection of the program, and the root of one of its screens.
+unsafe fn monitors(connection: Ptr, root: u32) -> Option<Vec<Monitor>> {
+    const LIBRARY: &CStr = c"libxcb-randr.so.0";
+    let ask = function(LIBRARY, c"xcb_randr_get_monitors")?;
+    let reply = function(LIBRARY, c"xcb_randr_get_monitors_reply")?;
+    let first = function(LIBRARY, c"xcb_randr_get_monitors_monitors_iterator")?;
+    let next = function(LIBRARY, c"xcb_randr_monitor_info_next")?;
+    // SAFETY: the signatures of xcb/randr.h; the iterator stays inside the reply, which lives until `answer` ends.
+    unsafe {
+        let cookie = core::mem::transmute::<Ptr, unsafe extern "C" fn(Ptr, u32, u8) -> u32>(ask)(
+            connection, root, 1,
+        );
+        answer(connection, reply, cookie, |r: &c_void| {
+            let first =
+                core::mem::transmute::<Ptr, unsafe extern "C" fn(*const c_void) -> Monitors>(first);
+            let next = core::mem::transmute::<Ptr, unsafe extern "C" fn(*mut Monitors)>(next);
+            let mut at = first(r);
+            let mut all = Vec::new();
+            while at.rest > 0 && !at.data.is_null() {
+                all.push(at.data.read_unaligned());
+                next(&mut at);
+            }
+            all
+        })
     }
 }

@@ -35,6 +35,12 @@ pub enum ConfigError {
         /// N
         views: u32,
     },
+    /// An output for two eyes of one view.
+    #[error("{field} shows two eyes, and there is one view; ask for at least 2 views")]
+    OneEye {
+        /// The option.
+        field: Field,
+    },
     /// Not a finite number.
     #[error("{field} is '{value}'; give a finite number such as {example}")]
     Number {

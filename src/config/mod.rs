@@ -95,17 +95,95 @@ pub fn disabled(lookup: impl Fn(&str) -> Option<String>) -> bool {
     lookup(DISABLE).is_some_and(|value| !value.is_empty() && value != "0")
 }
 
-/// The picture that is shown.
+/// The picture that is shown. Those for two eyes show the first view to the left and the last one to the right eye.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Output {
     /// Interleaved through the mask of the display.
     Panel,
-    /// All views in one row, view 0 on the left.
-    SideBySide,
+    /// All views in one row, view 0 on the left; `half`: in the width of one.
+    SideBySide {
+        /// Pictures squeezed to the size of one.
+        half: bool,
+    },
+    /// All views in one column, view 0 on top; `half`: in the height of one.
+    TopBottom {
+        /// Pictures squeezed to the size of one.
+        half: bool,
+    },
     /// The Looking Glass order: view 0 bottom left, rows upwards.
     Quilt,
+    /// Two eyes, interlaced by pixels of the screen.
+    Interlaced(Interlace),
+    /// Two eyes, through coloured glasses.
+    Anaglyph(Anaglyph),
     /// One view.
     View(u32),
+}
+
+impl Output {
+    /// It shows two eyes, whatever the display.
+    #[must_use]
+    pub fn is_stereo(self) -> bool {
+        match self {
+            Self::Interlaced(_) | Self::Anaglyph(_) | Self::TopBottom { .. } => true,
+            Self::SideBySide { half } => half,
+            Self::Panel | Self::Quilt | Self::View(_) => false,
+        }
+    }
+}
+
+/// Which pixels of the screen the left eye has; counted from the left top corner, the first one is its.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Interlace {
+    /// Every other row.
+    Rows,
+    /// Every other column.
+    Columns,
+    /// The dark fields.
+    Checkerboard,
+}
+
+impl Interlace {
+    /// The display that has this pattern.
+    #[must_use]
+    pub fn display(self) -> &'static str {
+        match self {
+            Self::Rows => "rows",
+            Self::Columns => "columns",
+            Self::Checkerboard => "checkerboard",
+        }
+    }
+}
+
+/// Coloured glasses, and how colours are given to them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Anaglyph {
+    /// The glasses.
+    pub glasses: Glasses,
+    /// The mixture.
+    pub mixture: Mixture,
+}
+
+/// Colours of the left and the right glass.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Glasses {
+    /// Red, cyan.
+    RedCyan,
+    /// Green, magenta.
+    GreenMagenta,
+    /// Amber (red and green), blue.
+    AmberBlue,
+}
+
+/// How colours become those of an anaglyph.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Mixture {
+    /// Least squares (Dubois).
+    Dubois,
+    /// The glass of one colour gets the luminance of its view, the other one the colours of its view.
+    HalfColour,
+    /// Both get the luminance of their views.
+    Grey,
 }
 
 /// Where the cameras stand. Lengths are in the program's eye-space units.

@@ -109,7 +109,7 @@ pub const OPTIONS: &[OptionSpec] = &[
         "panel: a built-in name or a panel file; huebner8 unless given"),
     option!(Views, Some("views"), Some("views"), "MANYVIEW_VIEWS", "N", No,
         "number of views, 1 to 256; the panel's own unless given"),
-    option!(Output, Some("output"), Some("output"), "MANYVIEW_OUTPUT", "panel|sbs|quilt|view:I", No,
+    option!(Output, Some("output"), Some("output"), "MANYVIEW_OUTPUT", "panel|quilt|sbs|half-sbs|tb|half-tb|rows|columns|checker|anaglyph[:KIND]|view:I", No,
         "what the window shows; panel unless given"),
     option!(EyeSpacing, Some("eye-spacing"), Some("eye-spacing"), "MANYVIEW_EYE_SPACING", "K", No,
         "spacing of neighbouring viewpoints in eye-space units; with --focal-depth"),

@@ -5,10 +5,10 @@ use super::error::ConfigError;
 use super::options::{Field, OptionId, Origin};
 use super::settings::Settings;
 use super::{
-    AtlasLayout, Camera, Capture, CaptureWhat, Config, Explain, MAX_VIEWS, Output, Profile,
-    Strategy, panel, profile,
+    Anaglyph, AtlasLayout, Camera, Capture, CaptureWhat, Config, Explain, Glasses, Interlace,
+    MAX_VIEWS, Mixture, Output, Profile, Strategy, panel, profile,
 };
-use crate::display::{Display, Kind};
+use crate::display::{Display, Kind, MaskError};
 use std::path::{Path, PathBuf};
 
 const DEFAULT_FRAME: u64 = 30;
@@ -17,10 +17,12 @@ impl Config {
     /// Understands every option; the first one that is wrong is the error.
     pub fn from_settings(settings: &Settings) -> Result<Self, ConfigError> {
         let display = display(settings)?;
-        let views = views(settings, &display)?;
+        let output = output(settings, &display)?;
+        let views = views(settings, &display, output)?;
+        check_output(settings, output, views)?;
         Ok(Self {
             views,
-            output: output(settings, &display, views)?,
+            output,
             camera: camera(settings)?,
             strategy: choice(
                 settings,
@@ -75,42 +77,99 @@ fn display_field(settings: &Settings) -> (Field, &str) {
         .unwrap_or((default, panel::DEFAULT))
 }
 
-fn views(settings: &Settings, display: &Display) -> Result<u32, ConfigError> {
+fn views(settings: &Settings, display: &Display, output: Output) -> Result<u32, ConfigError> {
     let given = settings.field(OptionId::Views);
     let (field, text) = match given {
         Some((field, value)) => (field, value.to_owned()),
-        None => (
-            display_field(settings).0.sibling(OptionId::Views),
-            display.views.to_string(),
-        ),
+        None => {
+            let views = if output.is_stereo() { 2 } else { display.views };
+            let field = display_field(settings).0.sibling(OptionId::Views);
+            (field, views.to_string())
+        }
     };
     let views = match text.parse() {
         Ok(views) if (1..=MAX_VIEWS).contains(&views) => views,
         _ => return Err(ConfigError::Views { field, value: text }),
     };
-    panel::check_views(display, views).map_err(|reason| ConfigError::Display { field, reason })?;
+    // Other outputs do not show the display's mask.
+    if output == Output::Panel {
+        panel::check_views(display, views)
+            .map_err(|reason| ConfigError::Display { field, reason })?;
+    }
     Ok(views)
 }
 
-fn output(settings: &Settings, display: &Display, views: u32) -> Result<Output, ConfigError> {
-    const CHOICES: &str = "panel, sbs, quilt and view:I";
+const OUTPUT_CHOICES: &str = "panel, quilt, sbs, half-sbs, tb, half-tb, rows, columns, checker, anaglyph:KIND and view:I, with KIND red-cyan, green-magenta or \
+                              amber-blue, and -half or -grey after it";
+
+const OUTPUTS: &[(&str, Output)] = &[
+    ("panel", Output::Panel),
+    ("quilt", Output::Quilt),
+    ("sbs", Output::SideBySide { half: false }),
+    ("half-sbs", Output::SideBySide { half: true }),
+    ("tb", Output::TopBottom { half: false }),
+    ("half-tb", Output::TopBottom { half: true }),
+    ("rows", Output::Interlaced(Interlace::Rows)),
+    ("columns", Output::Interlaced(Interlace::Columns)),
+    ("checker", Output::Interlaced(Interlace::Checkerboard)),
+];
+
+const GLASSES: [(&str, Glasses); 3] = [
+    ("red-cyan", Glasses::RedCyan),
+    ("green-magenta", Glasses::GreenMagenta),
+    ("amber-blue", Glasses::AmberBlue),
+];
+
+/// The output as it is written; whether a single view is there is looked at when the number of views is known.
+fn output(settings: &Settings, display: &Display) -> Result<Output, ConfigError> {
     let Some((field, value)) = settings.field(OptionId::Output) else {
         return Ok(match display.kind {
             Kind::Uncalibrated => Output::Quilt,
             _ => Output::Panel,
         });
     };
-    match value {
-        "panel" => match display.check_mask() {
-            Ok(()) => Ok(Output::Panel),
-            Err(error) => Err(ConfigError::Display {
-                field,
-                reason: error.to_string(),
-            }),
-        },
-        "sbs" => Ok(Output::SideBySide),
-        "quilt" => Ok(Output::Quilt),
-        _ => one_view(&field, value, views, CHOICES).map(Output::View),
+    if value == "panel" {
+        let reason = |error: MaskError| ConfigError::Display {
+            field,
+            reason: error.to_string(),
+        };
+        return display.check_mask().map(|()| Output::Panel).map_err(reason);
+    }
+    if let Some((_, output)) = OUTPUTS.iter().find(|(name, _)| *name == value) {
+        return Ok(*output);
+    }
+    if let Some(anaglyph) = anaglyph(value) {
+        return Ok(Output::Anaglyph(anaglyph));
+    }
+    one_view(&field, value, MAX_VIEWS, OUTPUT_CHOICES).map(Output::View)
+}
+
+/// `anaglyph`, `anaglyph:GLASSES` or `anaglyph:GLASSES-MIXTURE`.
+fn anaglyph(value: &str) -> Option<Anaglyph> {
+    let kind = match value.strip_prefix("anaglyph")? {
+        "" => GLASSES[0].0,
+        kind => kind.strip_prefix(':')?,
+    };
+    GLASSES.into_iter().find_map(|(name, glasses)| {
+        let mixture = match kind.strip_prefix(name)? {
+            "" => Mixture::Dubois,
+            "-half" => Mixture::HalfColour,
+            "-grey" => Mixture::Grey,
+            _ => return None,
+        };
+        Some(Anaglyph { glasses, mixture })
+    })
+}
+
+/// Refuses a single view that is not there, and two eyes where there is one view.
+fn check_output(settings: &Settings, output: Output, views: u32) -> Result<(), ConfigError> {
+    let Some((field, value)) = settings.field(OptionId::Output) else {
+        return Ok(());
+    };
+    match output {
+        Output::View(_) => one_view(&field, value, views, OUTPUT_CHOICES).map(drop),
+        _ if output.is_stereo() && views < 2 => Err(ConfigError::OneEye { field }),
+        _ => Ok(()),
     }
 }
 

@@ -45,7 +45,7 @@ fn every_message_is_one_clear_sentence() {
         &[("MANYVIEW_VIEWS", "257")],
         &[("MANYVIEW_VIEWS", "-3")],
         &[("MANYVIEW_VIEWS", "eight")],
-        &[("MANYVIEW_OUTPUT", "anaglyph")],
+        &[("MANYVIEW_OUTPUT", "anaglyph:blue")],
         &[("MANYVIEW_OUTPUT", "view:8")],
         &[("MANYVIEW_OUTPUT", "view:x")],
         &[("MANYVIEW_EYE_SPACING", "0.1")],

@@ -1,7 +1,7 @@
 //! The output passes in the program's context: on the GPU, or by the CPU reference where the context's GLSL is too old.
 
 use super::shader::{MASK_UNIT, Pass, Uniforms, VIEWS_UNIT};
-use super::{Layout, Program, reference};
+use super::{Form, Layout, Program, reference};
 use crate::atlas::{Names, Tiles};
 use crate::config::{Config, Output};
 use crate::display::{Mask, Placement};
@@ -27,9 +27,11 @@ pub struct Interleaver {
     vertex_array: u32,
     panel: Option<Program>,
     layout: Option<Program>,
-    mask: Option<(u32, u32, Mask)>,
+    anaglyph: Option<Program>,
+    /// Of a picture that lay there.
+    mask: Option<(Placement, Mask)>,
     mask_texture: u32,
-    mask_uploaded: (u32, u32),
+    mask_uploaded: Option<Placement>,
     cpu: Option<String>,
 }
 
@@ -56,19 +58,22 @@ impl Interleaver {
             vertex_array: 0,
             panel: None,
             layout: None,
+            anaglyph: None,
             mask: None,
             mask_texture: 0,
-            mask_uploaded: (0, 0),
+            mask_uploaded: None,
             cpu: None,
         };
         let program = |pass| Program::new(gl, glsl, pass);
-        match (program(Pass::Interleave), program(Pass::Layout)) {
-            (Ok(panel), Ok(layout)) => {
-                (i.panel, i.layout) = (Some(panel), Some(layout));
+        match [Pass::Interleave, Pass::Layout, Pass::Anaglyph].map(program) {
+            [Ok(panel), Ok(layout), Ok(anaglyph)] => {
+                i.panel = Some(panel);
+                i.layout = Some(layout);
+                i.anaglyph = Some(anaglyph);
                 i.vertex_array = gl.gen_vertex_array();
                 i.mask_texture = reserve(gl, names);
             }
-            (Err(e), _) | (_, Err(e)) => i.cpu = Some(e),
+            programs => i.cpu = programs.into_iter().find_map(Result::err),
         }
         i
     }
@@ -87,7 +92,8 @@ impl Interleaver {
 
     /// The names of its programs.
     pub fn programs(&self) -> impl Iterator<Item = u32> {
-        self.panel.iter().chain(&self.layout).map(Program::name)
+        let programs = [&self.panel, &self.layout, &self.anaglyph];
+        programs.into_iter().flatten().map(Program::name)
     }
 
     /// The mask's texture gets another name: its contents are made anew.
@@ -95,12 +101,12 @@ impl Interleaver {
         if self.mask_texture != 0 {
             gl.delete_texture(self.mask_texture);
             self.mask_texture = reserve(gl, names);
-            self.mask_uploaded = (0, 0);
+            self.mask_uploaded = None;
         }
     }
 
-    /// Draws the picture of an output over the whole framebuffer that is bound, `size` pixels; `tile` reads one view for the CPU
-    /// (and may change the read framebuffer). State must be as `present::Saved::take` leaves it.
+    /// Draws the picture of an output over the whole framebuffer that is bound, which lies at `placement`; `tile` reads one view
+    /// for the CPU (and may change the read framebuffer). State must be as `present::Saved::take` leaves it.
     pub fn draw(
         &mut self,
         gl: &Gl,
@@ -108,33 +114,33 @@ impl Interleaver {
         source: &Source,
         tile: &mut dyn FnMut(u32) -> RgbImage,
         output: Output,
-        size: (u32, u32),
+        placement: &Placement,
     ) -> Result<(), String> {
-        let layout = Layout::of(output, config.views, config.display.facts.quilt);
-        if layout.is_none() && self.mask.as_ref().is_none_or(|m| (m.0, m.1) != size) {
-            let placement = Placement::full_screen(size.0, size.1);
-            let mask = config
-                .display
-                .mask(&placement, config.views)
-                .map_err(|e| e.to_string())?;
-            self.mask = Some((size.0, size.1, mask));
+        let form = Form::of(config, output);
+        if self.mask.as_ref().is_none_or(|(at, _)| at != placement)
+            && let Some(mask) = form.mask(placement, config.views)
+        {
+            self.mask = Some((*placement, mask.map_err(|e| e.to_string())?));
         }
-        let program = if layout.is_none() {
-            &self.panel
-        } else {
-            &self.layout
+        let program = match form {
+            Form::Panel(_) | Form::Eyes(_) => &self.panel,
+            Form::Layout(_) => &self.layout,
+            Form::Anaglyph(_) => &self.anaglyph,
         };
         let Some(program) = program else {
-            return self.draw_by_cpu(gl, config, tile, layout, size);
+            return self.draw_by_cpu(gl, config, tile, &form, placement);
         };
-        gl.viewport(0, 0, size.0 as i32, size.1 as i32);
+        let size = [placement.width, placement.height];
+        gl.viewport(0, 0, size[0] as i32, size[1] as i32);
         gl.active_texture(c::TEXTURE0 + MASK_UNIT);
-        if layout.is_none() {
+        if let Form::Panel(_) | Form::Eyes(_) = form {
             gl.bind_texture(c::TEXTURE_2D, self.mask_texture);
-            if let (Some((w, h, mask)), true) = (&self.mask, self.mask_uploaded != size) {
+            if let Some((at, mask)) = &self.mask
+                && self.mask_uploaded != Some(*at)
+            {
                 let texels: Vec<[u16; 4]> =
                     mask.data().iter().map(|&[r, g, b]| [r, g, b, 0]).collect();
-                gl.tex_image_rgba16ui(*w as i32, *h as i32, &texels);
+                gl.tex_image_rgba16ui(mask.width() as i32, mask.height() as i32, &texels);
                 for (p, v) in [
                     (c::TEXTURE_MIN_FILTER, c::NEAREST),
                     (c::TEXTURE_MAG_FILTER, c::NEAREST),
@@ -142,7 +148,7 @@ impl Interleaver {
                 ] {
                     gl.tex_parameteri(c::TEXTURE_2D, p, v as i32);
                 }
-                self.mask_uploaded = size;
+                self.mask_uploaded = Some(*at);
             }
         }
         gl.active_texture(c::TEXTURE0 + VIEWS_UNIT);
@@ -151,11 +157,20 @@ impl Interleaver {
         let uniforms = Uniforms {
             tile: [t.width, t.height],
             stride: t.stride,
-            picture: [size.0, size.1],
+            picture: size,
             columns: t.columns,
             views: t.views,
-            layout: layout.unwrap_or(Layout::SideBySide),
+            layout: match form {
+                Form::Layout(layout) => layout,
+                _ => Layout::View(0),
+            },
             rows_top_down: source.top_down,
+            eyes: matches!(form, Form::Eyes(_)),
+            linear: source.srgb,
+            matrices: match form {
+                Form::Anaglyph(anaglyph) => anaglyph.matrices(),
+                _ => Default::default(),
+            },
         };
         program.bind(gl, &uniforms.words());
         gl.bind_vertex_array(self.vertex_array);
@@ -175,14 +190,19 @@ impl Interleaver {
         gl: &Gl,
         config: &Config,
         tile: &mut dyn FnMut(u32) -> RgbImage,
-        layout: Option<Layout>,
-        size: (u32, u32),
+        form: &Form,
+        placement: &Placement,
     ) -> Result<(), String> {
         let tiles: Vec<RgbImage> = (0..config.views).map(tile).collect();
-        let picture = match (layout, &self.mask) {
-            (Some(layout), _) => reference::arrange(&tiles, layout, size),
-            (None, Some((_, _, mask))) => reference::interleave(&tiles, mask),
-            (None, None) => return Ok(()),
+        let size = (placement.width, placement.height);
+        let picture = match (form, &self.mask) {
+            (Form::Layout(layout), _) => reference::arrange(&tiles, *layout, size),
+            (Form::Anaglyph(anaglyph), _) => reference::anaglyph(&tiles, *anaglyph, size),
+            (Form::Panel(_), Some((_, mask))) => reference::interleave(&tiles, mask),
+            (Form::Eyes(_), Some((_, mask))) => {
+                reference::interleave(&reference::eyes(tiles), mask)
+            }
+            (Form::Panel(_) | Form::Eyes(_), None) => return Ok(()),
         };
         let mut picture = picture.map_err(|e| e.to_string())?;
         image::imageops::flip_vertical_in_place(&mut picture);

@@ -3,11 +3,20 @@
 
 /// A picture of whole views beside each other.
 ///
-/// Cells are numbered from the bottom left, to the right, then upwards; cells past the last view are black.
+/// Cells are numbered from the bottom left, to the right, then upwards (a column of views: from the top); cells past the last view
+/// are black.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Layout {
     /// One row, view 0 on the left.
-    SideBySide,
+    SideBySide {
+        /// In the size of one view.
+        half: bool,
+    },
+    /// One column, view 0 on top.
+    TopBottom {
+        /// In the size of one view.
+        half: bool,
+    },
     /// The Looking Glass order: view 0 bottom left, rows upwards.
     Quilt {
         /// At least 1.
@@ -46,7 +55,8 @@ impl Layout {
     /// Columns and rows of cells, each at least 1.
     pub fn grid(self, views: u32) -> (u32, u32) {
         match self {
-            Self::SideBySide => (views.max(1), 1),
+            Self::SideBySide { .. } => (views.max(1), 1),
+            Self::TopBottom { .. } => (1, views.max(1)),
             Self::Quilt { columns, rows } => (columns.max(1), rows.max(1)),
             Self::View(_) => (1, 1),
         }
@@ -56,12 +66,20 @@ impl Layout {
     pub fn first(self) -> u32 {
         match self {
             Self::View(view) => view,
-            Self::SideBySide | Self::Quilt { .. } => 0,
+            Self::SideBySide { .. } | Self::TopBottom { .. } | Self::Quilt { .. } => 0,
         }
     }
 
-    /// Size in pixels where each tile keeps its own size.
+    /// Whether the rows of cells are numbered from the top.
+    pub fn from_top(self) -> bool {
+        matches!(self, Self::TopBottom { .. })
+    }
+
+    /// Size in pixels where each tile keeps its own size, or all share the size of one.
     pub fn native_size(self, views: u32, tile: (u32, u32)) -> (u32, u32) {
+        if let Self::SideBySide { half: true } | Self::TopBottom { half: true } = self {
+            return tile;
+        }
         let (columns, rows) = self.grid(views);
         (tile.0.saturating_mul(columns), tile.1.saturating_mul(rows))
     }
@@ -70,7 +88,8 @@ impl Layout {
     pub fn view_at(self, column: u32, row: u32, views: u32) -> Option<u32> {
         let (columns, rows) = self.grid(views);
         let upwards = rows.checked_sub(row)?.checked_sub(1)?;
-        let view = upwards
+        let row = if self.from_top() { row } else { upwards };
+        let view = row
             .checked_mul(columns)?
             .checked_add(column)?
             .checked_add(self.first())?;

@@ -1,9 +1,10 @@
 //! From N views to the picture that is shown.
 //!
 //! `reference` does it exactly on the CPU and is what the GPU is compared with; `shader` translates the passes of
-//! `shaders/*.wgsl` for the program's context, `program` compiles them; `layout` holds what both agree on; `gpu` draws.
+//! `shaders/*.wgsl` for the program's context, `program` compiles them; `layout` and `anaglyph` hold what both agree on; `gpu` draws.
 #![forbid(unsafe_code)]
 
+mod anaglyph;
 mod gpu;
 mod layout;
 mod program;
@@ -12,20 +13,51 @@ pub mod shader;
 #[cfg(test)]
 mod tests;
 
+pub use anaglyph::Matrix;
 pub use gpu::{Interleaver, Source, glsl_version};
 pub use layout::Layout;
 pub use program::Program;
 
-use crate::config::Output;
+use crate::config::{Anaglyph, Config, Interlace, Output};
+use crate::display::{Display, DisplayError, Mask, Placement};
 
-impl Layout {
-    /// The layout of an output of whole views; `None` for the panel. `quilt` is the display's own: columns and rows.
-    pub fn of(output: Output, views: u32, quilt: Option<(u32, u32)>) -> Option<Self> {
+/// How a picture is made of the views.
+#[derive(Clone, Copy, Debug)]
+pub enum Form<'a> {
+    /// Each subpixel by the mask of a display.
+    Panel(&'a Display),
+    /// The first and the last view by pixels of the screen.
+    Eyes(Interlace),
+    /// Whole views beside each other.
+    Layout(Layout),
+    /// The first and the last view through coloured glasses.
+    Anaglyph(Anaglyph),
+}
+
+impl<'a> Form<'a> {
+    /// What an output is made by.
+    pub fn of(config: &'a Config, output: Output) -> Self {
         match output {
-            Output::Panel => None,
-            Output::SideBySide => Some(Self::SideBySide),
-            Output::Quilt => Some(Self::quilt(views, quilt)),
-            Output::View(view) => Some(Self::View(view)),
+            Output::Panel => Self::Panel(&config.display),
+            Output::Interlaced(interlace) => Self::Eyes(interlace),
+            Output::SideBySide { half } => Self::Layout(Layout::SideBySide { half }),
+            Output::TopBottom { half } => Self::Layout(Layout::TopBottom { half }),
+            Output::Quilt => Self::Layout(Layout::quilt(config.views, config.display.facts.quilt)),
+            Output::View(view) => Self::Layout(Layout::View(view)),
+            Output::Anaglyph(anaglyph) => Self::Anaglyph(anaglyph),
         }
+    }
+
+    /// The mask of a picture at a place; none where none is needed.
+    fn mask(&self, placement: &Placement, views: u32) -> Option<Result<Mask, DisplayError>> {
+        let made = match self {
+            Self::Panel(display) => display.mask(placement, views),
+            Self::Eyes(interlace) => match Display::named(interlace.display()) {
+                Ok(display) => display.mask(placement, 2),
+                Err(error) => return Some(Err(error)),
+            },
+            Self::Layout(_) | Self::Anaglyph(_) => return None,
+        };
+        Some(made.map_err(DisplayError::from))
     }
 }

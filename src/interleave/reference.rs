@@ -6,6 +6,7 @@
 #![forbid(unsafe_code)]
 
 use super::Layout;
+use crate::config::Anaglyph;
 use crate::display::{GUARD, Mask};
 use image::{ImageBuffer, Pixel, Rgb, RgbImage};
 
@@ -131,6 +132,68 @@ pub fn arrange<P: Pixel<Subpixel = u8>>(
         }
     }
     Ok(out)
+}
+
+/// The views of the two eyes: the first and the last one.
+pub fn eyes<T>(mut views: Vec<T>) -> Vec<T> {
+    if views.len() > 2 {
+        let last = views.len() - 1;
+        views.swap(1, last);
+        views.truncate(2);
+    }
+    views
+}
+
+/// The first and the last view through coloured glasses. Colours are sRGB, mixed as linear light.
+pub fn anaglyph<P: Pixel<Subpixel = u8>>(
+    tiles: &[Tile<P>],
+    kind: Anaglyph,
+    size: (u32, u32),
+) -> Result<RgbImage, ReferenceError> {
+    let tile = tile_size(tiles)?;
+    let mut out = picture(size)?;
+    let taps = Taps::new(size, (1, 1), tile);
+    let (left, right) = kind.matrices();
+    let (Some(left_tile), Some(right_tile)) = (tiles.first(), tiles.last()) else {
+        return Err(ReferenceError::NoTiles);
+    };
+    for (x, row, pixel) in out.enumerate_pixels_mut() {
+        let light = |tile: &Tile<P>| {
+            let colour = taps.colour(tile, x, row)?.0;
+            Some(colour.map(|value| linear(f32::from(value) / 255.0)))
+        };
+        let (Some(l), Some(r)) = (light(left_tile), light(right_tile)) else {
+            continue;
+        };
+        for ((out, left), right) in pixel.0.iter_mut().zip(left).zip(right) {
+            let sum = |row: [f32; 3], light: [f32; 3]| -> f32 {
+                row.iter()
+                    .zip(light)
+                    .map(|(weight, light)| weight * light)
+                    .sum()
+            };
+            let value = encoded((sum(left, l) + sum(right, r)).clamp(0.0, 1.0));
+            *out = (value * 255.0 + 0.5) as u8;
+        }
+    }
+    Ok(out)
+}
+
+/// From sRGB to linear light (IEC 61966-2-1).
+fn linear(value: f32) -> f32 {
+    if value <= 0.04045 {
+        value / 12.92
+    } else {
+        ((value + 0.055) / 1.055).powf(2.4)
+    }
+}
+
+fn encoded(light: f32) -> f32 {
+    if light <= 0.003_130_8 {
+        light * 12.92
+    } else {
+        1.055 * light.powf(1.0 / 2.4) - 0.055
+    }
 }
 
 fn tile_size<P: Pixel<Subpixel = u8>>(tiles: &[Tile<P>]) -> Result<(u32, u32), ReferenceError> {

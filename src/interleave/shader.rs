@@ -6,6 +6,7 @@
 #![forbid(unsafe_code)]
 
 use super::Layout;
+use super::anaglyph::Matrix;
 use naga::back::glsl;
 use naga::valid::{Capabilities, ValidationFlags, Validator};
 
@@ -14,6 +15,7 @@ const COMMON: &str = include_str!("../../shaders/common.wgsl");
 const ATLAS: &str = include_str!("../../shaders/atlas.wgsl");
 const INTERLEAVE: &str = include_str!("../../shaders/interleave.wgsl");
 const LAYOUT: &str = include_str!("../../shaders/layout.wgsl");
+const ANAGLYPH: &str = include_str!("../../shaders/anaglyph.wgsl");
 const ACCUMULATE: &str = include_str!("../../shaders/accumulate.wgsl");
 
 /// Texture unit of the views: a 2D array texture.
@@ -28,6 +30,8 @@ pub enum Pass {
     Interleave,
     /// Quilt, side by side or a single view.
     Layout,
+    /// Two views for coloured glasses.
+    Anaglyph,
     /// A step of the accumulation buffer.
     Accumulate(Step),
 }
@@ -163,7 +167,7 @@ impl UniformSlot {
 }
 
 /// What the passes need to know; `struct Uniforms` of common.wgsl. Sizes in pixels, width and height.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Uniforms {
     /// One view.
     pub tile: [u32; 2],
@@ -175,21 +179,27 @@ pub struct Uniforms {
     pub columns: u32,
     /// N, at least 1.
     pub views: u32,
-    /// Whole views beside each other; the interleave pass does not read it.
+    /// Whole views beside each other; only the layout pass reads it.
     pub layout: Layout,
     /// True when row 0 of the views' texture is the top row of the picture.
     pub rows_top_down: bool,
+    /// The mask is that of two eyes; only the interleave pass reads it.
+    pub eyes: bool,
+    /// Colours are linear light when they are fetched, and are written as such; only the anaglyph pass reads it.
+    pub linear: bool,
+    /// Of the left and the right view; only the anaglyph pass reads them.
+    pub matrices: (Matrix, Matrix),
 }
 
 impl Uniforms {
     /// In the order and alignment of the WGSL struct.
-    pub fn words(&self) -> [u32; 12] {
+    pub fn words(&self) -> [u32; 40] {
         let [tile_x, tile_y] = self.tile;
         let [out_x, out_y] = self.picture;
         let (grid_x, grid_y) = self.layout.grid(self.views);
         let (columns, views) = (self.columns.max(1), self.views.max(1));
-        let (first, top_down) = (self.layout.first(), u32::from(self.rows_top_down));
-        [
+        let mut words = [0; 40];
+        let whole = [
             tile_x,
             tile_y,
             out_x,
@@ -199,10 +209,23 @@ impl Uniforms {
             self.stride,
             columns,
             views,
-            first,
-            top_down,
-            0,
-        ]
+            self.layout.first(),
+            u32::from(self.rows_top_down),
+            u32::from(self.layout.from_top()),
+            u32::from(self.eyes),
+            u32::from(self.linear),
+        ];
+        for (word, value) in words.iter_mut().zip(whole) {
+            *word = value;
+        }
+        let (left, right) = self.matrices;
+        // Each row is a vec4.
+        for (i, row) in left.iter().chain(&right).enumerate() {
+            for (word, value) in words.iter_mut().skip(16 + 4 * i).zip(row) {
+                *word = value.to_bits();
+            }
+        }
+        words
     }
 }
 
@@ -315,6 +338,7 @@ fn entry(pass: Pass) -> &'static str {
     match pass {
         Pass::Interleave => "interleave",
         Pass::Layout => "arrange",
+        Pass::Anaglyph => "anaglyph",
         Pass::Accumulate(Step::Fill) => "fill",
         Pass::Accumulate(Step::Copy) => "copy",
         Pass::Accumulate(Step::Load) => "load",
@@ -330,6 +354,7 @@ fn source(pass: Pass) -> String {
     match pass {
         Pass::Interleave => [COVER, COMMON, ATLAS, INTERLEAVE].join("\n"),
         Pass::Layout => [COVER, COMMON, ATLAS, LAYOUT].join("\n"),
+        Pass::Anaglyph => [COVER, COMMON, ATLAS, ANAGLYPH].join("\n"),
         Pass::Accumulate(_) => [COVER, ACCUMULATE].join("\n"),
     }
 }

@@ -1,9 +1,10 @@
 //! The CPU reference against pictures that are easy to reason about; the shaders' translation.
 #![forbid(unsafe_code)]
 
-use super::reference::{ReferenceError, arrange, interleave};
+use super::reference::{ReferenceError, anaglyph, arrange, interleave};
 use super::shader::*;
 use super::*;
+use crate::config::{Glasses, Mixture};
 use crate::display::{Display, GUARD, Mask, Placement};
 use image::{GrayImage, Rgb, RgbImage, Rgba, RgbaImage};
 use proptest::prelude::*;
@@ -90,7 +91,7 @@ fn quilts_begin_bottom_left() {
         "the last cell stays black"
     );
 
-    let row = arrange(&views, Layout::SideBySide, (15, 2)).unwrap();
+    let row = arrange(&views, Layout::SideBySide { half: false }, (15, 2)).unwrap();
     for x in 0..15 {
         assert_eq!(u32::from(row.get_pixel(x, 1).0[0]), 10 + x / 3);
     }
@@ -134,7 +135,7 @@ fn quilt_shapes() {
         seen.sort_unstable();
         assert_eq!(seen, (0..views).collect::<Vec<_>>());
     }
-    assert_eq!(Layout::SideBySide.view_at(0, 1, 4), None);
+    assert_eq!(Layout::SideBySide { half: false }.view_at(0, 1, 4), None);
     assert_eq!(Layout::View(3).view_at(0, 0, 4), Some(3));
 }
 
@@ -149,7 +150,7 @@ fn messages() {
         interleave(&[GrayImage::new(2, 2)], &small).unwrap_err(),
         interleave(&tiles(3, 2, 2), &small).unwrap_err(),
         arrange(&tiles(3, 2, 2), Layout::View(3), (2, 2)).unwrap_err(),
-        arrange(&tiles(3, 2, 2), Layout::SideBySide, (0, 2)).unwrap_err(),
+        arrange(&tiles(3, 2, 2), Layout::SideBySide { half: false }, (0, 2)).unwrap_err(),
     ];
     let mut said: Vec<String> = errors.iter().map(ToString::to_string).collect();
     for version in [GlslVersion::Desktop(120), GlslVersion::Embedded(100)] {
@@ -199,7 +200,7 @@ proptest! {
     }
 }
 
-const PASSES: [Pass; 2] = [Pass::Interleave, Pass::Layout];
+const PASSES: [Pass; 3] = [Pass::Interleave, Pass::Layout, Pass::Anaglyph];
 
 #[test]
 fn every_pass_translates_for_every_version() {
@@ -221,7 +222,7 @@ fn every_pass_translates_for_every_version() {
             for texture in &fragment.textures {
                 assert!(fragment.source.contains(&format!(" {};", texture.name)));
             }
-            assert_eq!(fragment.uniforms.len(), 8);
+            assert_eq!(fragment.uniforms.len(), 18);
             assert!(!fragment.source.contains("std140"), "no uniform block");
 
             let vertex = translate(pass, Stage::Vertex, version).unwrap();
@@ -248,6 +249,9 @@ fn uniforms_are_found_by_name() {
             rows: 8,
         },
         rows_top_down: true,
+        eyes: true,
+        linear: false,
+        matrices: ([[1.0; 3]; 3], [[2.0; 3]; 3]),
     };
     let version = GlslVersion::Desktop(330);
     let got = translate(Pass::Layout, Stage::Fragment, version).unwrap();
@@ -262,7 +266,9 @@ fn uniforms_are_found_by_name() {
             )
         })
         .collect();
-    let expected: [(&str, &[u32]); 8] = [
+    let (one, two) = (1.0f32.to_bits(), 2.0f32.to_bits());
+    let (left, right) = ([one, one, one, 0], [two, two, two, 0]);
+    let expected: [(&str, &[u32]); 16] = [
         ("tile", &[1, 2]),
         ("picture", &[5, 6]),
         ("grid", &[7, 8]),
@@ -271,8 +277,117 @@ fn uniforms_are_found_by_name() {
         ("views", &[10]),
         ("first", &[0]),
         ("rows_top_down", &[1]),
+        ("cells_from_top", &[0]),
+        ("eyes", &[1]),
+        ("linear", &[0]),
+        ("pad", &[0, 0]),
+        ("left_red", &left),
+        ("left_green", &left),
+        ("left_blue", &left),
+        ("right_red", &right),
     ];
-    assert_eq!(of, expected);
+    assert_eq!(of[..16], expected);
+}
+
+#[test]
+fn columns_of_views_begin_on_top() {
+    let views: Vec<_> = (0..3)
+        .map(|i| RgbImage::from_pixel(4, 2, Rgb([10 + i; 3])))
+        .collect();
+    let layout = Layout::TopBottom { half: false };
+    assert_eq!(layout.native_size(3, (4, 2)), (4, 6));
+    let got = arrange(&views, layout, (4, 6)).unwrap();
+    let column: Vec<u8> = (0..6).map(|y| got.get_pixel(2, y).0[0]).collect();
+    assert_eq!(column, [10, 10, 11, 11, 12, 12]);
+    for layout in [
+        Layout::TopBottom { half: true },
+        Layout::SideBySide { half: true },
+    ] {
+        assert_eq!(layout.native_size(2, (4, 2)), (4, 2));
+    }
+}
+
+/// Sums of rows: what both glasses let through of white is white.
+#[test]
+fn anaglyphs_keep_white_and_separate_the_eyes() {
+    let white = RgbImage::from_pixel(1, 1, Rgb([255; 3]));
+    let black = RgbImage::from_pixel(1, 1, Rgb([0; 3]));
+    let both = |kind, left: &RgbImage, right: &RgbImage| {
+        let views = [left.clone(), white.clone(), right.clone()];
+        anaglyph(&views, kind, (1, 1)).unwrap().get_pixel(0, 0).0
+    };
+    for glasses in [Glasses::RedCyan, Glasses::GreenMagenta, Glasses::AmberBlue] {
+        let left_glass = match glasses {
+            Glasses::RedCyan => [255, 0, 0],
+            Glasses::GreenMagenta => [0, 255, 0],
+            Glasses::AmberBlue => [255, 255, 0],
+        };
+        for mixture in [Mixture::Grey, Mixture::HalfColour] {
+            let kind = Anaglyph { glasses, mixture };
+            assert_eq!(both(kind, &white, &white), [255; 3]);
+            assert_eq!(both(kind, &white, &black), left_glass);
+            assert_eq!(both(kind, &black, &white), left_glass.map(|v| 255 - v));
+        }
+        let kind = Anaglyph {
+            glasses,
+            mixture: Mixture::Dubois,
+        };
+        let shown = both(kind, &white, &white);
+        assert!(
+            shown.iter().all(|&value| value >= 254),
+            "{kind:?} {shown:?}"
+        );
+        let (left, right) = kind.matrices();
+        for (left, right) in left.iter().zip(right) {
+            let sum: f32 = left.iter().chain(&right).sum();
+            assert!((sum - 1.0).abs() < 0.0025, "{kind:?}: {sum}");
+        }
+    }
+    // Colours of one view, by hand: luminance of red in linear light is 0.2126.
+    let red = RgbImage::from_pixel(1, 1, Rgb([255, 0, 0]));
+    let half = |glasses| Anaglyph {
+        glasses,
+        mixture: Mixture::HalfColour,
+    };
+    assert_eq!(both(half(Glasses::RedCyan), &red, &black), [127, 0, 0]);
+    assert_eq!(both(half(Glasses::RedCyan), &black, &red), [0, 0, 0]);
+    assert_eq!(both(half(Glasses::AmberBlue), &red, &black), [255, 0, 0]);
+    assert_eq!(both(half(Glasses::GreenMagenta), &black, &red), [255, 0, 0]);
+}
+
+#[test]
+fn dubois_is_as_published() {
+    // Products with single colours are the columns of the tables.
+    let of = |glasses| {
+        let kind = Anaglyph {
+            glasses,
+            mixture: Mixture::Dubois,
+        };
+        let (left, right) = kind.matrices();
+        let thousandths = |m: Matrix| m.map(|row| row.map(|v| (v * 1000.0).round() as i32));
+        (thousandths(left), thousandths(right))
+    };
+    assert_eq!(
+        of(Glasses::RedCyan),
+        (
+            [[437, 449, 164], [-62, -62, -24], [-48, -50, -17]],
+            [[-11, -32, -7], [377, 761, 9], [-26, -93, 1234]]
+        )
+    );
+    assert_eq!(
+        of(Glasses::GreenMagenta),
+        (
+            [[-62, -158, -39], [284, 668, 143], [-15, -27, 21]],
+            [[529, 705, 24], [-16, -15, -65], [9, 75, 937]]
+        )
+    );
+    assert_eq!(
+        of(Glasses::AmberBlue),
+        (
+            [[1062, -205, 299], [-26, 908, 68], [-38, -173, 22]],
+            [[-16, -123, -17], [6, 62, -17], [94, 185, 911]]
+        )
+    );
 }
 
 #[test]

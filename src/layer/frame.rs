@@ -1,9 +1,10 @@
 //! The end of a frame: interleave, capture, report.
 
-use super::Layer;
+use super::{Layer, OnScreen};
 use crate::config::CaptureWhat;
+use crate::display::Placement;
 use crate::gl::{Gl, consts as c};
-use crate::interleave::{Layout, Source, reference};
+use crate::interleave::{Form, Layout, Source, reference};
 use crate::present::{Saved, capture};
 use crate::state::{BACK, FRONT};
 use image::RgbImage;
@@ -69,7 +70,7 @@ impl Layer {
             &source,
             &mut |view| tile(gl, &self.atlas, view),
             self.config.output,
-            self.size(),
+            &self.placement(),
         ) {
             self.report.note(e);
         }
@@ -103,6 +104,23 @@ impl Layer {
         self.queries.put_condition(gl);
         self.queries.resume(gl);
         picture
+    }
+
+    /// Where the window's picture lies on the screen; a window system that does not tell leaves it in the corner.
+    fn placement(&self) -> Placement {
+        let (width, height) = self.size();
+        let on_screen = self.on_screen.unwrap_or(OnScreen {
+            screen: (width, height),
+            at: (0, 0),
+        });
+        Placement {
+            screen_width: on_screen.screen.0,
+            screen_height: on_screen.screen.1,
+            x: on_screen.at.0,
+            y: on_screen.at.1,
+            width,
+            height,
+        }
     }
 
     /// Counts the frame and writes the report where one is asked for.
@@ -150,18 +168,14 @@ impl Layer {
                 .and_then(|i| capture::write(&i, wanted, frame))
         };
         let written = match wanted.what {
-            CaptureWhat::Output => match Layout::of(
-                self.config.output,
-                self.config.views,
-                self.config.display.facts.quilt,
-            ) {
-                None => {
+            CaptureWhat::Output => match Form::of(self.config, self.config.output) {
+                Form::Layout(layout) => whole(layout),
+                _ => {
                     gl.bind_framebuffer(c::READ_FRAMEBUFFER, 0);
                     capture::write(&capture::read_rgb(gl, 0, 0, width, height), wanted, frame)
                 }
-                Some(layout) => whole(layout),
             },
-            CaptureWhat::Atlas => whole(Layout::SideBySide),
+            CaptureWhat::Atlas => whole(Layout::SideBySide { half: false }),
             CaptureWhat::View(v) => capture::write(&tile(gl, &self.atlas, v), wanted, frame),
             CaptureWhat::Depth => {
                 self.atlas.resolve(gl, true, c::DEPTH_BUFFER_BIT);

@@ -81,9 +81,19 @@ pub struct Layer {
     frame: classing::Frame,
     explained: Option<explain::Explained>,
     made: Count,
+    on_screen: Option<OnScreen>,
     /// Counts for `--report`.
     pub report: Report,
     drawn: bool,
+}
+
+/// Where a window lies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct OnScreen {
+    /// Width and height of the screen, in pixels.
+    pub screen: (u32, u32),
+    /// Left and top edge of the window's picture on it.
+    pub at: (i32, i32),
 }
 
 impl Layer {
@@ -135,6 +145,7 @@ impl Layer {
             queries: queries::Queries::default(),
             copies: copies::Copies::new(gl, support.compatibility),
             executed: None,
+            on_screen: None,
             accumulated: accumulate::Accumulated::default(),
             recording: Recording::default(),
             ends: Ends::default(),
@@ -173,6 +184,19 @@ impl Layer {
         self.apply_buffers(gl);
         self.bind_draw(gl, true, true);
         Ok(())
+    }
+
+    /// Whether the picture depends on where the window lies; then [`Layer::moved`] wants to know before each frame is shown.
+    pub fn follows_window(&self) -> bool {
+        matches!(
+            self.config.output,
+            crate::config::Output::Panel | crate::config::Output::Interlaced(_)
+        )
+    }
+
+    /// The window lies here; none where the window system does not tell.
+    pub fn moved(&mut self, on_screen: Option<OnScreen>) {
+        self.on_screen = on_screen;
     }
 
     /// Whether a texture is one of ours.

@@ -1,0 +1,34 @@
+// The first and the last view for coloured glasses: two matrices on linear light.
+
+// sRGB to linear light; what is fetched from an sRGB texture is linear already.
+fn linear(colour: vec3<f32>) -> vec3<f32> {
+    if u.linear != 0u {
+        return colour;
+    }
+    let low = colour / 12.92;
+    let high = pow((colour + 0.055) / 1.055, vec3<f32>(2.4));
+    return select(high, low, colour <= vec3<f32>(0.04045));
+}
+
+// And back; an sRGB framebuffer does it itself.
+fn encoded(light: vec3<f32>) -> vec3<f32> {
+    if u.linear != 0u {
+        return light;
+    }
+    let low = light * 12.92;
+    let high = 1.055 * pow(light, vec3<f32>(1.0 / 2.4)) - 0.055;
+    return select(high, low, light <= vec3<f32>(0.0031308));
+}
+
+@fragment
+fn anaglyph(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
+    let at = 2u * top_down(position) + 1u;
+    let left = linear(colour(0u, at, 2u * u.picture));
+    let right = linear(colour(u.views - 1u, at, 2u * u.picture));
+    let light = vec3<f32>(
+        dot(u.left_red.rgb, left) + dot(u.right_red.rgb, right),
+        dot(u.left_green.rgb, left) + dot(u.right_green.rgb, right),
+        dot(u.left_blue.rgb, left) + dot(u.right_blue.rgb, right),
+    );
+    return vec4<f32>(encoded(clamp(light, vec3<f32>(0.0), vec3<f32>(1.0))), 1.0);
+}
