@@ -172,6 +172,15 @@ fn a_program_without_gl() {
     assert_eq!((code, &*stderr), (0, ""));
 }
 
+/// As libmujoco's loader: the first name that is there decides which window system it takes itself to be in.
+#[test]
+fn a_program_that_asks_for_every_window_system() {
+    let program = compiled("half", Compiled::Program, &["-ldl"]);
+    assert_eq!(run(&mut bare(&program)).0, 0, "without the layer");
+    let (code, stderr) = run(&mut layered(&program, &[("VIEWS", "5")]));
+    assert_eq!((code, &*stderr), (0, ""));
+}
+
 /// It links libGL and never makes a context.
 #[test]
 fn a_program_that_never_draws() {

@@ -3,7 +3,7 @@
 
 use crate::deep;
 use crate::entry::EXPORTS;
-use crate::provider::{self, Provider};
+use crate::provider;
 use crate::switch;
 use core::ffi::{CStr, c_char, c_void};
 use manyview_core::gl::Ptr;
@@ -40,17 +40,20 @@ unsafe extern "C" fn choose(handle: *mut c_void, name: *const c_char) -> *const 
 unsafe extern "C" fn answer(handle: *mut c_void, name: *const c_char) -> *mut c_void {
     // SAFETY: `choose` has looked at the name.
     let name = unsafe { CStr::from_ptr(name) };
-    let real = provider::symbol(handle, name);
+    let mut real = provider::symbol(handle, name);
     let Some((slot, ours)) = export(name.to_bytes()) else {
         return real;
     };
+    if provider::own(real) {
+        // Found because we are preloaded: the program must not think that it has GL, or EGL beside GLX, when it has none. What comes after
+        // us is what it would get; but a plugin asks in the scope of its own libraries as well, which only the linker knows.
+        real = provider::symbol(libc::RTLD_NEXT, name);
+        if real.is_null() && provider::has(name.to_bytes()) {
+            return ours;
+        }
+    }
     if real.is_null() {
         return real;
-    }
-    if provider::own(real) {
-        // Found because we are preloaded: the program must not think that it has GL when it has none.
-        let any = Provider::Gl.loaded() || Provider::OsMesa.loaded();
-        return if any { ours } else { core::ptr::null_mut() };
     }
     if provider::provider_of(real).is_some() && switch::hooked(slot) {
         ours

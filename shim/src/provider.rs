@@ -45,6 +45,18 @@ impl Provider {
     }
 }
 
+/// Whether a library that has functions of this name's kind is in the process.
+pub(crate) fn has(name: &[u8]) -> bool {
+    match name {
+        [b'e', b'g', b'l', ..] => !handle(c"libEGL.so.1").is_null(),
+        [b'g', b'l', b'X', ..] => [c"libGL.so.1", c"libGLX.so.0"]
+            .iter()
+            .any(|l| !handle(l).is_null()),
+        [b'O', ..] => Provider::OsMesa.loaded(),
+        _ => Provider::Gl.loaded() || Provider::OsMesa.loaded(),
+    }
+}
+
 unsafe extern "C" {
     fn dlvsym(handle: *mut c_void, name: *const c_char, version: *const c_char) -> *mut c_void;
 }
