@@ -3,6 +3,7 @@
 
 use crate::config::ConfigError;
 use crate::display::MaskError;
+use crate::simulate::SimulateError;
 use std::path::PathBuf;
 
 /// What went wrong; each kind has its exit status.
@@ -22,6 +23,9 @@ pub enum LaunchError {
     /// A mask that could not be made or written.
     #[error(transparent)]
     Mask(#[from] MaskError),
+    /// What an eye would see, but for this.
+    #[error(transparent)]
+    Simulate(#[from] SimulateError),
     /// The program is neither a path nor in PATH.
     #[error("{0}: not found; give a path, or a name that is in PATH")]
     AppNotFound(String),
@@ -123,7 +127,8 @@ impl LaunchError {
             | Self::NotWritable { .. }
             | Self::NoPicture
             | Self::Size(_)
-            | Self::Mask(_) => 2,
+            | Self::Mask(_)
+            | Self::Simulate(_) => 2,
             Self::NoLibrary { .. }
             | Self::BadLibrary { .. }
             | Self::NoDisplay { .. }
