@@ -85,6 +85,10 @@ pub fn see(
     eye: Eye,
     row_done: &(dyn Fn() + Sync),
 ) -> Result<RgbImage, SimulateError> {
+    let (width, height) = panel.dimensions();
+    if width == 0 || height == 0 {
+        return Err(SimulateError::Empty);
+    }
     let scene = Scene {
         panel,
         optics,
@@ -93,24 +97,21 @@ pub fn see(
         lines: Lines::seen(panel.dimensions(), optics, setup, eye)?,
         around: optics.around(),
     };
-    let (width, height) = panel.dimensions();
     let stride = width as usize * 3;
     let mut seen = vec![0; stride * height as usize];
     let threads = std::thread::available_parallelism().map_or(1, NonZero::get);
-    let rows = (height as usize).div_ceil(threads).max(1);
-    if stride > 0 {
-        std::thread::scope(|scope| {
-            for (first, part) in (0i64..).step_by(rows).zip(seen.chunks_mut(rows * stride)) {
-                let scene = &scene;
-                scope.spawn(move || {
-                    for (row, out) in (first..).zip(part.chunks_exact_mut(stride)) {
-                        scene.row(row, out);
-                        row_done();
-                    }
-                });
-            }
-        });
-    }
+    let rows = (height as usize).div_ceil(threads);
+    std::thread::scope(|scope| {
+        for (first, part) in (0i64..).step_by(rows).zip(seen.chunks_mut(rows * stride)) {
+            let scene = &scene;
+            scope.spawn(move || {
+                for (row, out) in (first..).zip(part.chunks_exact_mut(stride)) {
+                    scene.row(row, out);
+                    row_done();
+                }
+            });
+        }
+    });
     RgbImage::from_raw(width, height, seen).ok_or(SimulateError::Empty)
 }
 
