@@ -203,6 +203,17 @@ fn the_share_of_other_views_is_the_crosstalk() {
 }
 
 #[test]
+fn half_of_the_light_is_188_of_255() {
+    // The inverse of the sRGB function, by hand: 1.055 · 0.5^(1 / 2.4) − 0.055 = 0.7354.
+    let light = Light::new();
+    assert_eq!(light.encoded(0.5), 188);
+    assert_eq!((light.encoded(0.0), light.encoded(1.0)), (0, 255));
+    for stored in 0..=255 {
+        assert_eq!(light.encoded(light.decoded(stored)), stored);
+    }
+}
+
+#[test]
 fn light_goes_to_the_neighbours_only() {
     let display = Display::named("slanted8").unwrap();
     let setup = Setup {
