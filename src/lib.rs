@@ -18,6 +18,9 @@ pub mod metric;
 
 pub mod report;
 
+#[cfg(feature = "cli")]
+pub mod simulate;
+
 pub mod state;
 
 pub mod plan;

@@ -6,34 +6,9 @@ mod support;
 use std::fs;
 use std::os::unix::fs::PermissionsExt;
 use std::path::Path;
-use std::process::{Command, Output, Stdio};
-use support::manyview;
+use std::process::{Command, Stdio};
+use support::{manyview, refused, run};
 use tempfile::tempdir;
-
-/// Runs the command and returns exit status, stdout and stderr.
-fn run(command: &mut Command) -> (i32, String, String) {
-    let Output {
-        status,
-        stdout,
-        stderr,
-    } = command.output().expect("the command starts");
-    let text = |bytes| String::from_utf8(bytes).expect("UTF-8");
-    (
-        status.code().expect("an exit status"),
-        text(stdout),
-        text(stderr),
-    )
-}
-
-/// Checks that the arguments are refused with one line that holds `part`.
-#[track_caller]
-fn refused(arguments: &[&str], status: i32, part: &str) {
-    let (code, stdout, stderr) = run(manyview().args(arguments));
-    assert_eq!(code, status, "{arguments:?}: {stderr}");
-    assert!(stderr.contains(part), "{arguments:?}: {stderr}");
-    assert_eq!(stderr.lines().count(), 1, "one line: {stderr}");
-    assert_eq!(stdout, "", "nothing on stdout");
-}
 
 #[test]
 fn bad_options_are_one_line_and_status_2() {

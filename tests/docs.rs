@@ -104,6 +104,9 @@ fn the_commands_of_the_documents_are_accepted() {
             std::fs::write(folder.path().join(name), block).expect("written");
         }
     }
+    // The picture that an earlier line takes of a program.
+    let panel = image::RgbImage::new(96, 54);
+    panel.save(folder.path().join("panel.png")).expect("saved");
     support::library();
     let documents = [
         README,

@@ -9,6 +9,7 @@ mod doctor;
 mod layer;
 mod mask;
 mod run;
+mod simulate;
 
 use clap::{Parser, Subcommand};
 use manyview::launch::LaunchError;
@@ -43,6 +44,8 @@ enum Action {
     Capture(capture::Arguments),
     /// Write the mask of a panel: 16-bit RGB PNG, each value the view that the subpixel shows, 65535 for black.
     Mask(mask::Arguments),
+    /// Show what an eye in front of a panel sees of a picture, or a strip of eyes from left to right.
+    Simulate(simulate::Arguments),
     /// Say which OpenGL a program would get here and what the layer can do with it.
     Doctor(doctor::Arguments),
     /// List the built-in panels.
@@ -57,6 +60,7 @@ pub(crate) fn main() -> ExitCode {
         Action::Run(arguments) => run::run(&arguments),
         Action::Capture(arguments) => capture::run(&arguments),
         Action::Mask(arguments) => mask::run(&arguments),
+        Action::Simulate(arguments) => simulate::run(&arguments),
         Action::Doctor(arguments) => doctor::run(&arguments),
         Action::Displays(arguments) => displays::run(&arguments),
     };

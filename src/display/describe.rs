@@ -96,6 +96,9 @@ impl Display {
         lines.push(("lens angle", format!("{angle:.4}° from upright")));
         lines.push(("offset", format!("{} subpixels", lens.offset)));
         lines.push(("order", lens.order.name().into()));
+        let (up, down) = ("ascend with the phase", "descend with the phase");
+        let way = if lens.inverted { down } else { up };
+        lines.push(("view order", way.into()));
         if let Some(dpi) = self.facts.dpi {
             lines.push(("lenses per inch", format!("{:.4}", 3.0 * dpi / pitch)));
         }

@@ -29,6 +29,7 @@ const TABLE: &str =
     "give a view for each part of the modulus, for example table = [0, 1, \"b\", 2]";
 const PATTERN: &str =
     "give rows of one length from L, R, b (black) and 0 to 9, for example pattern = [\"LRLRbLRb\"]";
+const INVERTED: &str = "give inverted = true where depth appears turned inside out";
 const SUBPIXELS: &str = "give subpixels = true where each letter is a subpixel";
 const DU: &str = "give the views from a pixel to the next, for example p-over-du = 3";
 const DV: &str = "give the views from a row to the next, for example p-over-dv = 1";
@@ -46,13 +47,14 @@ const QUILT: &str = "give columns and rows, for example quilt = \"8x6\"";
 const COMMON: [&str; 9] = [
     "version", "name", "kind", "views", "screen", "dpi", "cone", "rotation", "quilt",
 ];
-const LENS: [&str; 6] = [
+const LENS: [&str; 7] = [
     "pitch",
     "slant",
     "offset",
     "colour-offsets",
     "bias",
     "order",
+    "inverted",
 ];
 const STEPS: [&str; 7] = [
     "horizontal",
@@ -72,7 +74,7 @@ const LEIA: [&str; 5] = [
 ];
 
 /// Every field that some kind reads.
-const ALL: [&str; 19] = [
+const ALL: [&str; 20] = [
     "pitch",
     "slant",
     "offset",
@@ -90,6 +92,7 @@ const ALL: [&str; 19] = [
     "colour-inversion",
     "pattern",
     "subpixels",
+    "inverted",
     "calibration",
     "mask",
 ];
@@ -282,6 +285,7 @@ impl Reader<'_> {
                 None => None,
             },
             order: f.order()?,
+            inverted: f.flag("inverted", INVERTED)?,
         })
     }
 

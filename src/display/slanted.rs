@@ -1,7 +1,7 @@
 //! A slanted lens sheet or barrier.
 //!
 //! `view = ⌊N · fract((3x + p + slant·row + offset + colour) / pitch)⌋`, with `row` from the top of the screen and `p` = 0, 1, 2
-//! the place of the subpixel in its pixel.
+//! the place of the subpixel in its pixel. An inverted one has −φ for the phase φ.
 #![forbid(unsafe_code)]
 
 use super::lattice::{Lattice, Row, Way, by_colour};
@@ -23,6 +23,8 @@ pub struct Slanted {
     pub bias: Option<Bias>,
     /// Which colour is leftmost in a pixel.
     pub order: SubpixelOrder,
+    /// Views descend with the phase, as behind a sheet of lenses, which swaps left and right: `view = ⌊N · fract(−φ)⌋`.
+    pub inverted: bool,
 }
 
 impl Slanted {
@@ -37,6 +39,7 @@ impl Slanted {
         colours: [Number::whole(0); 3],
         bias: None,
         order: SubpixelOrder::Rgb,
+        inverted: false,
     };
 
     /// True when no number has to be rounded for the mask.
@@ -62,19 +65,22 @@ impl Slanted {
             ),
         };
         let [pitch, slant, offset, r, g, b] = fractions.map(|(n, d)| n * (unit / d));
-        let Some(lattice) = Lattice::new(pitch, 3 * unit, Way::Up) else {
+        // Descending views are ascending ones of the phase that falls.
+        let sign = if self.inverted { -1 } else { 1 };
+        let Some(lattice) = Lattice::new(pitch, sign * 3 * unit, Way::Up) else {
             return Err(MaskError::Pitch);
         };
         let places = by_colour(self.order, [0, unit, 2 * unit]);
-        let colours = [[places[0] + r, places[1] + g, places[2] + b]; 2];
+        let colours = [places[0] + r, places[1] + g, places[2] + b];
+        let colours = [colours.map(|colour| sign * colour); 2];
         Mask::by_rows(placement, |first, row, out| {
-            let start = offset + i128::from(row) * slant;
+            let start = sign * (offset + i128::from(row) * slant);
             let line = Row { start, colours };
             match &self.bias {
                 None => lattice.fill(first, &line, views, out),
                 Some(bias) => {
                     let (at, pitch) = (bias.row(placement, row), self.pitch.to_f64());
-                    let bias = |i: usize| at.at(first + i as i64) / pitch;
+                    let bias = |i: usize| sign as f64 * at.at(first + i as i64) / pitch;
                     lattice.fill_biased(first, &line, views, bias, out);
                 }
             }

@@ -3,6 +3,7 @@
 
 use crate::config::ConfigError;
 use crate::display::{DisplayError, MaskError};
+use crate::simulate::SimulateError;
 use std::path::PathBuf;
 
 /// What went wrong; each kind has its exit status.
@@ -25,6 +26,9 @@ pub enum LaunchError {
     /// A panel.
     #[error(transparent)]
     Display(#[from] DisplayError),
+    /// What an eye would see, but for this.
+    #[error(transparent)]
+    Simulate(#[from] SimulateError),
     /// The program is neither a path nor in PATH.
     #[error("{0}: not found; give a path, or a name that is in PATH")]
     AppNotFound(String),
@@ -127,7 +131,8 @@ impl LaunchError {
             | Self::NoPicture
             | Self::Size(_)
             | Self::Mask(_)
-            | Self::Display(_) => 2,
+            | Self::Display(_)
+            | Self::Simulate(_) => 2,
             Self::NoLibrary { .. }
             | Self::BadLibrary { .. }
             | Self::NoDisplay { .. }

@@ -47,6 +47,31 @@ pub(crate) fn manyview() -> Command {
     without_layer(Command::new(env!("CARGO_BIN_EXE_manyview")))
 }
 
+/// Runs the command and returns exit status, stdout and stderr.
+pub(crate) fn run(command: &mut Command) -> (i32, String, String) {
+    let Output {
+        status,
+        stdout,
+        stderr,
+    } = command.output().expect("the command starts");
+    let text = |bytes| String::from_utf8(bytes).expect("UTF-8");
+    (
+        status.code().expect("an exit status"),
+        text(stdout),
+        text(stderr),
+    )
+}
+
+/// Checks that the arguments are refused with one line that holds `part`.
+#[track_caller]
+pub(crate) fn refused(arguments: &[&str], status: i32, part: &str) {
+    let (code, stdout, stderr) = run(manyview().args(arguments));
+    assert_eq!(code, status, "{arguments:?}: {stderr}");
+    assert!(stderr.contains(part), "{arguments:?}: {stderr}");
+    assert_eq!(stderr.lines().count(), 1, "one line: {stderr}");
+    assert_eq!(stdout, "", "nothing on stdout");
+}
+
 /// Any program, with nothing of the caller's own settings.
 pub(crate) fn bare(program: impl AsRef<std::ffi::OsStr>) -> Command {
     without_layer(Command::new(program))

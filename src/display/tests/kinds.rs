@@ -282,6 +282,20 @@ fn colours_and_bias_move_the_phase() {
 }
 
 #[test]
+fn inverted_sheets_have_the_views_in_the_other_order() {
+    let text = "kind = \"slanted\"\nviews = 8\npitch = \"16/3\"\nslant = \"2/3\"\noffset = 1\ninverted = true";
+    let mask = mask(&load(text), 64, 24, 8);
+    for (row, pixels) in (0i128..).zip(mask.rows()) {
+        for (x, pixel) in (0i128..).zip(pixels) {
+            for (c, &got) in (0i128..).zip(pixel) {
+                let phase = -(3 * (3 * x + c) + 2 * row + 3);
+                assert_eq!(got, view(phase, 16, 8, false), "{x} {row} {c}");
+            }
+        }
+    }
+}
+
+#[test]
 fn turned_panels_are_turned_masks() {
     let upright = mask(
         &load("kind = \"slanted\"\nviews = 9\npitch = 9\nslant = \"2/3\""),
