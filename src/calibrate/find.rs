@@ -181,7 +181,7 @@ impl Small {
             };
             let mut level = 0.0;
             for side in 0..4 {
-                let mut at = |depth| mean(&mut PROBES.iter().map(|&t| layout.along(side, t, depth)));
+                let at = |depth| mean(&mut PROBES.iter().map(|&t| layout.along(side, t, depth)));
                 let (frame, ring) = (at(0.5)?, at(2.0)?);
                 if ring > 0.6 * frame {
                     return None;
