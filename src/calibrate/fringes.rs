@@ -41,8 +41,6 @@ pub(super) struct Fringes {
     pub blocks: Vec<Block>,
     /// Contrast as a part of what is shown, 0 to 1.
     pub contrast: f64,
-    /// By how much the frequency stands out, in amplitude.
-    pub ratio: f64,
 }
 
 /// The field, sampled evenly: R, G, B and their mean, each with black at 0 and white at 1.
@@ -146,7 +144,6 @@ pub(super) fn measure(photo: &Photo, layout: &Layout, view: View) -> Result<Frin
     Ok(Fringes {
         blocks,
         contrast,
-        ratio,
     })
 }
 

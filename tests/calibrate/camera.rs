@@ -186,17 +186,22 @@ pub(crate) fn expose(sheet: &Sheet, picture: &RgbImage, shot: &Shot, random: &mu
                 let shift = spread + leak / f64::from(sheet.views);
                 let bias = sheet.bias_at(qx, qy) - sheet.bias_at(straight[0], straight[1]);
                 let here = sheet.phase(straight[0], straight[1]) + bias / sheet.pitch;
-                for (c, value) in rgb.iter_mut().enumerate() {
-                    let turns = wanted + shift - here - sheet.colours[c] / sheet.pitch;
+                let mut look = |channels: std::ops::Range<usize>, colour: f64| {
+                    let turns = wanted + shift - here - colour / sheet.pitch;
                     let (x, y) = (straight[0] + across[0] * turns, straight[1] + across[1] * turns);
                     if x < 0.0 || y < 0.0 || x >= panel.0 || y >= panel.1 {
-                        continue;
+                        return;
                     }
-                    let subpixel = (3.0 * x) as usize % 3;
-                    if subpixel == c {
+                    let c = (3.0 * x) as usize % 3;
+                    if channels.contains(&c) {
                         let level = picture.get_pixel(x as u32, y as u32).0[c];
-                        *value += (3.0 * gamma[usize::from(level)] + 0.006) / TAPS as f64;
+                        rgb[c] += (3.0 * gamma[usize::from(level)] + 0.006) / TAPS as f64;
                     }
+                };
+                if sheet.colours == [0.0; 3] {
+                    look(0..3, 0.0);
+                } else {
+                    (0..3).for_each(|c| look(c..c + 1, sheet.colours[c]));
                 }
             }
             if let Some([x, y, r, strength]) = shot.lamp {
