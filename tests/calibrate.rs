@@ -94,7 +94,7 @@ fn a_few_displays_come_back() {
 }
 
 /// Displays of the long test.
-const DISPLAYS: u64 = 16;
+const DISPLAYS: u64 = 200;
 const NOISE: [f64; 4] = [6.0, 10.0, 20.0, 30.0];
 const PHOTOS: [&str; 4] = ["1", "1, cone known", "2", "3"];
 

@@ -12,8 +12,10 @@ use nalgebra::{SMatrix, SVector};
 pub(super) struct Optics {
     /// Focal length, picture pixels.
     pub focal: f64,
-    /// Radial distortion: `straight = bent·(1 + k1·bent²)`, radii in halves of the picture's diagonal.
+    /// Radial distortion: `straight = bent·(1 + k1·bent² + k2·bent⁴)`, radii in halves of the picture's diagonal.
     pub k1: f64,
+    /// See `k1`.
+    pub k2: f64,
     /// Where the optical axis meets the picture, pixels.
     pub centre: DVec2,
     /// Half of the diagonal of the picture, pixels.
@@ -42,11 +44,13 @@ impl View {
         let Optics {
             focal,
             k1,
+            k2,
             centre,
             half,
         } = self.optics;
         let bent = (pixel - centre) / half;
-        let straight = bent * (1.0 + k1 * bent.length_squared()) * half / focal;
+        let square = bent.length_squared();
+        let straight = bent * (1.0 + square * (k1 + k2 * square)) * half / focal;
         let ray = self.pose.rotation.inverse() * straight.extend(1.0);
         let steps = -self.pose.eye.z / ray.z;
         (steps.is_finite() && steps > 0.0).then(|| (self.pose.eye + ray * steps).truncate())
@@ -57,6 +61,7 @@ impl View {
         let Optics {
             focal,
             k1,
+            k2,
             centre,
             half,
         } = self.optics;
@@ -67,7 +72,8 @@ impl View {
         let straight = seen.truncate() / seen.z * focal / half;
         // Contracts by a factor of about 2·k1·r² each time.
         let bent = (0..8).fold(straight, |bent, _| {
-            straight / (1.0 + k1 * bent.length_squared())
+            let square = bent.length_squared();
+            straight / (1.0 + square * (k1 + k2 * square))
         });
         Some(centre + bent * half)
     }
@@ -124,6 +130,7 @@ mod tests {
             optics: Optics {
                 focal: 1300.0,
                 k1: 0.02,
+                k2: -0.003,
                 centre: DVec2::new(760.0, 495.0),
                 half: 900.0,
             },
@@ -148,7 +155,7 @@ mod tests {
     #[test]
     fn a_pose_from_four_corners() {
         let mut view = view();
-        view.optics.k1 = 0.0;
+        (view.optics.k1, view.optics.k2) = (0.0, 0.0);
         let corners = [(0.0, 0.0), (960.0, 0.0), (960.0, 540.0), (0.0, 540.0)].map(DVec2::from);
         let seen = corners.map(|corner| view.to_picture(corner).unwrap());
         let found = pose(homography(corners, seen).unwrap(), view.optics).unwrap();

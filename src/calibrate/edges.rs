@@ -2,15 +2,15 @@
 #![forbid(unsafe_code)]
 
 use super::Photo;
-use super::pattern::Layout;
+use super::pattern::{FRAME, Layout};
 use glam::DVec2;
 
 /// Places along each line.
 const ALONG: usize = 40;
 /// Samples over an edge.
 const ACROSS: usize = 23;
-/// Half of the length over which an edge is looked for, in bands: the marks begin half a band from an edge.
-const REACH: f64 = 0.48;
+/// Half of the length over which an edge is looked for, in bands; the frame is one band thick.
+const REACH: f64 = 0.42;
 /// Samples over which a place is averaged along its line.
 const MEAN: usize = 16;
 
@@ -36,7 +36,7 @@ impl EdgePoint {
             2 => layout.size.y - p.y,
             _ => p.x,
         };
-        depth - self.line as f64 * layout.band
+        depth - (FRAME + self.line as f64) * layout.band
     }
 }
 
@@ -77,7 +77,7 @@ fn edge(
     let start = 0.07 + width * place as f64;
     let mut profile = [0.0; ACROSS];
     for (i, value) in profile.iter_mut().enumerate() {
-        let depth = line as f64 + REACH * (2.0 * i as f64 / (ACROSS - 1) as f64 - 1.0);
+        let depth = FRAME + line as f64 + REACH * (2.0 * i as f64 / (ACROSS - 1) as f64 - 1.0);
         for j in 0..MEAN {
             let part = start + width * (j as f64 + 0.5) / MEAN as f64;
             *value += photo.grey(project(layout.along(side, part, depth))?)? / MEAN as f64;
@@ -95,6 +95,6 @@ fn edge(
     let depth = -REACH + step * (area - 0.5 * (profile[0] - inner) / (outer - inner)
         - 0.5 * (profile[ACROSS - 1] - inner) / (outer - inner));
     (depth.abs() < 0.8 * REACH)
-        .then(|| project(layout.along(side, start + width / 2.0, line as f64 + depth)))
+        .then(|| project(layout.along(side, start + width / 2.0, FRAME + line as f64 + depth)))
         .flatten()
 }

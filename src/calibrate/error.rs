@@ -16,6 +16,24 @@ pub enum CalibrateError {
         /// The bounds.
         expected: &'static str,
     },
+    /// Not a panel that can be measured.
+    #[error("{reason}")]
+    Display {
+        /// One sentence with the remedy.
+        reason: String,
+    },
+    /// Millimetres without a scale.
+    #[error("{option} is in mm, so the size of the screen is needed; give --screen-mm or --dpi")]
+    NoScreenSize {
+        /// The option that was given.
+        option: &'static str,
+    },
+    /// Millimetres that do not fit the pixels.
+    #[error("--screen-mm is '{text}'; give width and height in mm of the shape that --size has, such as 344x194")]
+    ScreenSize {
+        /// As given.
+        text: String,
+    },
     /// No photo at all.
     #[error("no photo is given; give one or more photos of the pattern")]
     NoPhoto,

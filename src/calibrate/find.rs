@@ -2,7 +2,7 @@
 #![forbid(unsafe_code)]
 
 use super::camera::{homography, mapped};
-use super::pattern::{Layout, PLACES};
+use super::pattern::{FRAME, IN_FRAME, IN_RING, Layout, PLACES};
 use super::{CalibrateError, Photo};
 use glam::{DMat3, DVec2};
 
@@ -161,16 +161,12 @@ impl Small {
 
     /// Which corner is the top left one; None when this is not the pattern.
     fn turned(&self, quad: [DVec2; 4], layout: &Layout) -> Option<Turned> {
-        let s = layout.size;
-        let panel = [
-            DVec2::ZERO,
-            DVec2::new(s.x, 0.0),
-            s,
-            DVec2::new(0.0, s.y),
-        ];
+        let a = DVec2::splat(FRAME * layout.band);
+        let b = layout.size - a;
+        let frame = [a, DVec2::new(b.x, a.y), b, DVec2::new(a.x, b.y)];
         (0..4).find_map(|turn| {
             let corners = [0, 1, 2, 3].map(|i| quad[(i + turn) % 4]);
-            let map = homography(panel, corners)?;
+            let map = homography(frame, corners)?;
             let mean = |points: &mut dyn Iterator<Item = DVec2>| {
                 let (mut sum, mut count) = (0.0, 0.0);
                 for point in points {
@@ -182,7 +178,7 @@ impl Small {
             let mut level = 0.0;
             for side in 0..4 {
                 let at = |depth| mean(&mut PROBES.iter().map(|&t| layout.along(side, t, depth)));
-                let (frame, ring) = (at(0.5)?, at(2.0)?);
+                let (frame, ring) = (at(IN_FRAME)?, at(IN_RING)?);
                 if ring > 0.6 * frame {
                     return None;
                 }

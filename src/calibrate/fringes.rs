@@ -2,7 +2,7 @@
 #![forbid(unsafe_code)]
 
 use super::camera::View;
-use super::pattern::{Layout, SWING};
+use super::pattern::{IN_FRAME, IN_RING, Layout, SWING};
 use super::{CalibrateError, Photo};
 use glam::DVec2;
 use std::f64::consts::TAU;
@@ -172,11 +172,11 @@ fn sample(photo: &Photo, layout: &Layout, view: View, across: f64) -> Result<Fie
     let frame: Vec<f64> = parts(0.08, 0.92).collect();
     let ring: Vec<f64> = parts(0.21, 0.235).chain(parts(0.765, 0.79)).collect();
     let mut white = [0.0f32; 3];
-    for depth in [0.3, 0.4, 0.5, 0.6, 0.7] {
-        let one = mean(depth, &frame)?;
+    for depth in [-0.2, -0.1, 0.0, 0.1, 0.2] {
+        let one = mean(IN_FRAME + depth, &frame)?;
         white.iter_mut().zip(one).for_each(|(w, v)| *w += v / 5.0);
     }
-    let black = mean(2.0, &ring)?;
+    let black = mean(IN_RING, &ring)?;
     if white.iter().zip(black).any(|(w, b)| *w < 1.15 * b + 0.003) {
         return Err(unclear());
     }

@@ -26,6 +26,16 @@ const PITCH_ERROR: f64 = 0.015;
 const SLANT_ERROR: f64 = 0.02;
 /// Fringes that perspective and a bent field add.
 const MARGIN: f64 = 2.0;
+/// Where the white frame, the black ring and the field begin, in bands from the edge of the panel. The frame keeps away
+/// from the edge, where the bezel would cover some of it from the side.
+pub(super) const FRAME: f64 = 0.5;
+const RING: f64 = 1.5;
+const FIELD: f64 = 3.5;
+/// The middle of the frame and of the ring, in bands.
+pub(super) const IN_FRAME: f64 = 1.0;
+pub(super) const IN_RING: f64 = 2.5;
+/// Where mark and code lie in the ring, in bands: away from the edge of the frame, which blur must leave alone.
+const MARKS: Range<f64> = 2.3..3.0;
 /// Where the mark lies along its side, from the corner, as a part of the side.
 const MARK: Range<f64> = 0.12..0.20;
 /// Where the code lies along the lower side.
@@ -37,7 +47,7 @@ const CODE_BITS: u16 = 12;
 pub(super) struct Layout {
     /// Width and height of the panel, pixels.
     pub size: DVec2,
-    /// Thickness of the white frame, pixels; the black ring inside is twice as thick.
+    /// Thickness of the white frame, pixels; the black ring inside is twice as thick, and the black margin outside half.
     pub band: f64,
     /// Fringes of the carrier over the height of the panel.
     pub carrier: f64,
@@ -92,7 +102,7 @@ impl Layout {
 
     /// Corners of the measuring field: top left and bottom right.
     pub(super) fn field(&self) -> (DVec2, DVec2) {
-        let inset = DVec2::splat(3.0 * self.band);
+        let inset = DVec2::splat(FIELD * self.band);
         (inset, self.size - inset)
     }
 
@@ -127,14 +137,14 @@ impl Layout {
     /// Light of a subpixel, 0 to 1.
     fn light(&self, p: DVec2) -> f64 {
         let depth = p.min(self.size - p).min_element() / self.band;
-        if depth < 1.0 {
-            return 1.0;
+        if depth < RING {
+            return f64::from(u8::from(depth >= FRAME));
         }
-        if depth >= 3.0 {
+        if depth >= FIELD {
             return 0.5 + SWING * (std::f64::consts::TAU * self.phase(p)).cos();
         }
         let part = p / self.size;
-        let inside = |y: f64| (1.5..2.5).contains(&(y / self.band));
+        let inside = |y: f64| MARKS.contains(&(y / self.band));
         let mark = inside(p.y) && MARK.contains(&part.x);
         let bit = (part.x - CODE.start) / (CODE.end - CODE.start) * f64::from(CODE_BITS);
         let coded = inside(self.size.y - p.y)
@@ -146,9 +156,10 @@ impl Layout {
 
 /// Points in the inner part of a cell, as part of the side and depth in bands.
 fn cell(range: Range<f64>) -> impl Iterator<Item = (f64, f64)> {
+    let depth = (MARKS.start + MARKS.end) / 2.0;
     (0..12).flat_map(move |i| {
         let part = range.start + (range.end - range.start) * (0.2 + 0.6 * f64::from(i) / 11.0);
-        (0..5).map(move |j| (part, 1.8 + 0.4 * f64::from(j) / 4.0))
+        (0..5).map(move |j| (part, depth + 0.25 * (f64::from(j) / 4.0 - 0.5)))
     })
 }
 

@@ -5,7 +5,7 @@ use super::camera::{Optics, Pose, View, mapped, pose};
 use super::edges::{EdgePoint, POINTS, edges};
 use super::fringes::{Fringes, measure};
 use super::least_squares::{minimise, soft};
-use super::pattern::Layout;
+use super::pattern::{IN_FRAME, IN_RING, Layout};
 use super::setup::Guess;
 use super::{CalibrateError, Photo, Setup, find};
 use glam::{DQuat, DVec2, DVec3};
@@ -17,13 +17,13 @@ const FOCAL: Guess = Guess {
 };
 /// How well EXIF's focal length is believed; it is rounded to 1 mm, and focusing changes it.
 const FOCAL_SPREAD: f64 = 0.03;
-/// Standard deviations of what is not known of a camera: k1, and the optical axis in halves of the diagonal.
-const DISTORTION_SPREAD: f64 = 0.05;
+/// Standard deviations of what is not known of a camera: k1, k2, and the optical axis in halves of the diagonal.
+const DISTORTION_SPREAD: [f64; 2] = [0.05, 0.01];
 const CENTRE_SPREAD: f64 = 0.01;
 /// Of an edge point, before its scatter is known, panel pixels.
 const EDGE: f64 = 0.4;
 /// Parameters of [`Bench::optics`] and of [`Bench::pose`].
-pub(super) const OPTICS: usize = 4;
+pub(super) const OPTICS: usize = 5;
 pub(super) const POSE: usize = 6;
 
 /// What one photo shows, ready for [`super::fit`].
@@ -55,6 +55,7 @@ impl Bench {
             optics: Optics {
                 focal,
                 k1: 0.0,
+                k2: 0.0,
                 centre: photo.centre(),
                 half: photo.half(),
             },
@@ -62,12 +63,13 @@ impl Bench {
         }
     }
 
-    /// The optics that four parameters mean: logarithm of the focal length, k1, optical axis.
+    /// The optics that parameters mean: logarithm of the focal length, k1, k2, optical axis.
     pub(super) fn optics(&self, p: [f64; OPTICS]) -> Optics {
         Optics {
             focal: self.optics.focal * p[0].exp(),
             k1: p[1],
-            centre: self.optics.centre + DVec2::new(p[2], p[3]) * self.optics.half,
+            k2: p[2],
+            centre: self.optics.centre + DVec2::new(p[3], p[4]) * self.optics.half,
             half: self.optics.half,
         }
     }
@@ -76,13 +78,14 @@ impl Bench {
     pub(super) fn parameters(&self, optics: Optics) -> [f64; OPTICS] {
         let shift = (optics.centre - self.optics.centre) / self.optics.half;
         let zoom = (optics.focal / self.optics.focal).ln();
-        [zoom, optics.k1, shift.x, shift.y]
+        [zoom, optics.k1, optics.k2, shift.x, shift.y]
     }
 
     /// How unlikely parameters are, in standard deviations.
     pub(super) fn prior(&self, p: [f64; OPTICS]) -> [f64; OPTICS] {
-        let spreads = [self.focal_spread, DISTORTION_SPREAD, CENTRE_SPREAD, CENTRE_SPREAD];
-        [0, 1, 2, 3].map(|i| p[i] / spreads[i])
+        let [k1, k2] = DISTORTION_SPREAD;
+        let spreads = [self.focal_spread, k1, k2, CENTRE_SPREAD, CENTRE_SPREAD];
+        [0, 1, 2, 3, 4].map(|i| p[i] / spreads[i])
     }
 
     /// The pose that six parameters mean near another: a turn in radians, then a way in distances.
@@ -96,7 +99,7 @@ impl Bench {
 }
 
 /// Steps in which the parameters of optics and pose are of the order of one.
-pub(super) const OPTICS_STEPS: [f64; OPTICS] = [0.05, 0.02, 0.01, 0.01];
+pub(super) const OPTICS_STEPS: [f64; OPTICS] = [0.05, 0.02, 0.01, 0.01, 0.01];
 pub(super) const POSE_STEPS: [f64; POSE] = [0.02; POSE];
 
 impl Sighting {
@@ -166,8 +169,7 @@ fn camera(layout: &Layout, bench: &Bench, start: View, points: &[EdgePoint]) -> 
             pose: Bench::pose(start.pose, *pose.first_chunk()?),
         })
     };
-    let [a, b, c, d] = bench.parameters(start.optics);
-    let from = [a, b, c, d, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
+    let from = [&bench.parameters(start.optics)[..], &[0.0; POSE]].concat();
     let steps = [&OPTICS_STEPS[..], &POSE_STEPS[..]].concat();
     let fit = minimise(&from, &steps, |p| {
         let camera = view(p)?;
@@ -197,9 +199,9 @@ fn code(photo: &Photo, layout: &Layout, view: View) -> Option<u16> {
         // The frame beside the cell tells white there, the dark corners of the ring tell black.
         let part = cell.iter().map(|p| p.x).sum::<f64>() / cell.len() as f64 / layout.size.x;
         let beside = (-6..=6).map(|i| 1.0 - part + 0.003 * f64::from(i));
-        let white = mean(&mut beside.map(|part| layout.along(2, part, 0.5)))?;
+        let white = mean(&mut beside.map(|part| layout.along(2, part, IN_FRAME)))?;
         let dark = [0.215, 0.225, 0.775, 0.785];
-        let black = mean(&mut dark.iter().map(|&part| layout.along(2, part, 2.0)))?;
+        let black = mean(&mut dark.iter().map(|&part| layout.along(2, part, IN_RING)))?;
         let bright = mean(&mut cell.into_iter())? > 0.5 * (white + black);
         code |= u16::from(bright) << bit;
     }

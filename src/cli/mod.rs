@@ -3,6 +3,7 @@
 //! Results go to stdout, everything else to stderr.
 #![forbid(unsafe_code)]
 
+mod calibrate;
 mod capture;
 mod displays;
 mod doctor;
@@ -43,6 +44,8 @@ enum Action {
     Capture(capture::Arguments),
     /// Write the mask of a panel: 16-bit RGB PNG, each value the view that the subpixel shows, 65535 for black.
     Mask(mask::Arguments),
+    /// Measure a panel's lens sheet from photos of a pattern that it shows.
+    Calibrate(calibrate::Arguments),
     /// Say which OpenGL a program would get here and what the layer can do with it.
     Doctor(doctor::Arguments),
     /// List the built-in panels.
@@ -57,6 +60,7 @@ pub(crate) fn main() -> ExitCode {
         Action::Run(arguments) => run::run(&arguments),
         Action::Capture(arguments) => capture::run(&arguments),
         Action::Mask(arguments) => mask::run(&arguments),
+        Action::Calibrate(arguments) => calibrate::run(&arguments),
         Action::Doctor(arguments) => doctor::run(&arguments),
         Action::Displays(arguments) => displays::run(&arguments),
     };

@@ -1,6 +1,7 @@
 //! Why a program was not started, or its pictures not taken.
 #![forbid(unsafe_code)]
 
+use crate::calibrate::CalibrateError;
 use crate::config::ConfigError;
 use crate::display::MaskError;
 use std::path::PathBuf;
@@ -22,6 +23,9 @@ pub enum LaunchError {
     /// A mask that could not be made or written.
     #[error(transparent)]
     Mask(#[from] MaskError),
+    /// A panel that could not be measured.
+    #[error(transparent)]
+    Calibrate(#[from] CalibrateError),
     /// The program is neither a path nor in PATH.
     #[error("{0}: not found; give a path, or a name that is in PATH")]
     AppNotFound(String),
@@ -123,7 +127,8 @@ impl LaunchError {
             | Self::NotWritable { .. }
             | Self::NoPicture
             | Self::Size(_)
-            | Self::Mask(_) => 2,
+            | Self::Mask(_)
+            | Self::Calibrate(_) => 2,
             Self::NoLibrary { .. }
             | Self::BadLibrary { .. }
             | Self::NoDisplay { .. }

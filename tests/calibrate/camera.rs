@@ -259,12 +259,12 @@ impl Exposure {
                 (sigma * radius * (TAU * random.unit()).cos()) as f32
             })
             .collect();
+        let encoded: Vec<u8> = (0..=8192).map(|v| encoded(f64::from(v) / 8192.0)).collect();
         let picture = RgbImage::from_fn(self.size.0, self.size.1, |x, y| {
             let light = self.light[(y * self.size.0 + x) as usize];
             Rgb(light.map(|v| {
                 let v = (v + table[random.below(table.len())]).clamp(0.0, 1.0);
-                let encoded = if v <= 0.003_130_8 { 12.92 * v } else { 1.055 * v.powf(1.0 / 2.4) - 0.055 };
-                (255.0 * encoded).round() as u8
+                encoded[(8192.0 * v) as usize]
             }))
         });
         let mut bytes = Vec::new();
@@ -273,4 +273,10 @@ impl Exposure {
             .expect("memory");
         bytes
     }
+}
+
+/// sRGB.
+fn encoded(v: f64) -> u8 {
+    let v = if v <= 0.003_130_8 { 12.92 * v } else { 1.055 * v.powf(1.0 / 2.4) - 0.055 };
+    (255.0 * v).round() as u8
 }

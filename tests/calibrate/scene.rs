@@ -6,7 +6,7 @@ use manyview::calibrate::Setup;
 
 /// Panel of the tests, pixels.
 pub(crate) const PANEL: (u32, u32) = (960, 540);
-const PHOTO: (u32, u32) = (1500, 1000);
+const PHOTO: (u32, u32) = (1200, 800);
 
 /// A display, what its owner knows of it, and three photos.
 pub(crate) struct Scene {
@@ -40,12 +40,12 @@ impl Scene {
         let side = if random.unit() < 0.5 { -1.0 } else { 1.0 };
         let focal = f64::from(PHOTO.0) * random.between(0.72, 1.15);
         let k1 = random.between(-0.02, 0.02);
-        let axis = [random.between(-5.0, 5.0), random.between(-5.0, 5.0)];
+        let axis = [random.between(-4.0, 4.0), random.between(-4.0, 4.0)];
         let white = random.between(0.55, 0.9);
         let crosstalk = random.between(0.0, 0.25);
         let shots = [0.0, side, -side].map(|side| {
             let degrees = if side == 0.0 { random.between(-3.0, 3.0) } else { side * random.between(8.0, 16.0) };
-            let part = random.between(0.6, 0.8);
+            let part = random.between(0.65, 0.85);
             let distance = focal * f64::from(PANEL.0) * PIXEL / (part * f64::from(PHOTO.0));
             let up = random.between(-8.0, 8.0f64).to_radians();
             let aside = degrees.to_radians();
