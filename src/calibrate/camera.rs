@@ -148,7 +148,10 @@ mod tests {
             let back = view()
                 .to_picture(point)
                 .and_then(|pixel| view().to_panel(pixel));
-            assert!(back.is_some_and(|back| back.distance(point) < 1e-6), "{back:?}");
+            assert!(
+                back.is_some_and(|back| back.distance(point) < 1e-6),
+                "{back:?}"
+            );
         }
     }
 

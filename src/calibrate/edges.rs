@@ -85,15 +85,22 @@ fn edge(
     }
     let end = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
     let (outer, inner) = (end(&profile[..5]), end(&profile[ACROSS - 5..]));
-    let (dark, bright) = if line == 0 { (outer, inner) } else { (inner, outer) };
+    let (dark, bright) = if line == 0 {
+        (outer, inner)
+    } else {
+        (inner, outer)
+    };
     if dark > 0.75 * bright || bright < 0.01 {
         return None;
     }
     let step = 2.0 * REACH / (ACROSS - 1) as f64;
     let area: f64 = profile.iter().map(|v| (v - inner) / (outer - inner)).sum();
     // Ends count half: the trapezoid rule.
-    let depth = -REACH + step * (area - 0.5 * (profile[0] - inner) / (outer - inner)
-        - 0.5 * (profile[ACROSS - 1] - inner) / (outer - inner));
+    let depth = -REACH
+        + step
+            * (area
+                - 0.5 * (profile[0] - inner) / (outer - inner)
+                - 0.5 * (profile[ACROSS - 1] - inner) / (outer - inner));
     (depth.abs() < 0.8 * REACH)
         .then(|| project(layout.along(side, start + width / 2.0, FRAME + line as f64 + depth)))
         .flatten()

@@ -29,7 +29,9 @@ pub enum CalibrateError {
         option: &'static str,
     },
     /// Millimetres that do not fit the pixels.
-    #[error("--screen-mm is '{text}'; give width and height in mm of the shape that --size has, such as 344x194")]
+    #[error(
+        "--screen-mm is '{text}'; give width and height in mm of the shape that --size has, such as 344x194"
+    )]
     ScreenSize {
         /// As given.
         text: String,
@@ -123,7 +125,9 @@ pub enum CalibrateError {
         percent: f64,
     },
     /// The frame is there but not sharp.
-    #[error("photo `{photo}`: the edges of the frame are not clear; hold the camera still and focus on the panel")]
+    #[error(
+        "photo `{photo}`: the edges of the frame are not clear; hold the camera still and focus on the panel"
+    )]
     Edges {
         /// The file.
         photo: String,
@@ -160,7 +164,9 @@ pub enum CalibrateError {
         photo: String,
     },
     /// The fit did not come to rest.
-    #[error("the photos contradict each other; leave out those that are blurred or of another pattern")]
+    #[error(
+        "the photos contradict each other; leave out those that are blurred or of another pattern"
+    )]
     NoFit,
     /// The answer exists and is not good enough.
     #[error("the fit is doubtful: {reasons}")]

@@ -81,9 +81,12 @@ impl Small {
     }
 
     fn at(&self, p: DVec2) -> Option<f64> {
-        let inside = p.x >= 0.0 && p.y >= 0.0 && p.x < self.width as f64 && p.y < self.height as f64;
+        let inside =
+            p.x >= 0.0 && p.y >= 0.0 && p.x < self.width as f64 && p.y < self.height as f64;
         let at = p.y as usize * self.width + p.x as usize;
-        inside.then(|| self.grey.get(at).copied().map(f64::from)).flatten()
+        inside
+            .then(|| self.grey.get(at).copied().map(f64::from))
+            .flatten()
     }
 
     /// Four corners, in the order of the clock, of every large bright region that does not touch the border.
@@ -142,7 +145,11 @@ impl Small {
                 (point(last, y), DVec2::new(0.5, 0.0)),
             ]);
         }
-        for (x, &(first, last)) in columns.iter().enumerate().filter(|(_, ends)| ends.0 <= ends.1) {
+        for (x, &(first, last)) in columns
+            .iter()
+            .enumerate()
+            .filter(|(_, ends)| ends.0 <= ends.1)
+        {
             outline.extend([
                 (point(x, first), DVec2::new(0.0, -0.5)),
                 (point(x, last), DVec2::new(0.0, 0.5)),
@@ -155,7 +162,10 @@ impl Small {
             return None;
         };
         let corners = [meet(d, a)?, meet(a, b)?, meet(b, c)?, meet(c, d)?];
-        let sizes = (corners[0].distance(corners[2]), corners[1].distance(corners[3]));
+        let sizes = (
+            corners[0].distance(corners[2]),
+            corners[1].distance(corners[3]),
+        );
         (sizes.0.min(sizes.1) > least).then_some(corners)
     }
 
@@ -193,7 +203,10 @@ impl Small {
             if first < level || second > 0.5 * (first + level) {
                 return None;
             }
-            match PLACES.iter().position(|&place| mean(&mut layout.place(place)) == Some(first)) {
+            match PLACES
+                .iter()
+                .position(|&place| mean(&mut layout.place(place)) == Some(first))
+            {
                 Some(0) => Some(Turned::Upright(map)),
                 // A mirrored panel has its mark at the end of a side, whichever is on top.
                 Some(1) => Some(Turned::Mirrored),
@@ -237,7 +250,8 @@ fn four(mut hull: Vec<DVec2>) -> Option<[DVec2; 4]> {
         let least = (0..n).min_by(|&i, &j| area(i).total_cmp(&area(j)))?;
         hull.remove(least);
     }
-    let first = (0..hull.len()).min_by(|&i, &j| hull[i].element_sum().total_cmp(&hull[j].element_sum()))?;
+    let first =
+        (0..hull.len()).min_by(|&i, &j| hull[i].element_sum().total_cmp(&hull[j].element_sum()))?;
     hull.rotate_left(first);
     hull.try_into().ok()
 }

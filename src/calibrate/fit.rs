@@ -119,7 +119,8 @@ impl Answer<'_> {
         let sheet = self.problem.sheet(&self.solution.minimum.at)?;
         let size = self.layout.size;
         // Turns per pixel to the right and down, of the sheet; then of the mask.
-        let growth = DVec2::new(3.0, self.setup.slant) / self.setup.pitch + sheet.slope * 2.0 / size;
+        let growth =
+            DVec2::new(3.0, self.setup.slant) / self.setup.pitch + sheet.slope * 2.0 / size;
         let growth = growth * (1.0 - self.lean(&sheet));
         let pitch = 3.0 / growth.x;
         let slant = growth.y * pitch;
@@ -132,7 +133,11 @@ impl Answer<'_> {
             let mut found = self.problem.misses(self.solution, photo)?;
             found.iter_mut().for_each(|(_, miss)| *miss *= views);
             misses.push(found);
-            let eye = self.problem.view(&self.solution.minimum.at, photo)?.pose.eye;
+            let eye = self
+                .problem
+                .view(&self.solution.minimum.at, photo)?
+                .pose
+                .eye;
             cameras.push(Camera {
                 name: sighting.name.clone(),
                 eye: [eye.x - middle.x, eye.y - middle.y, -eye.z],
@@ -221,7 +226,10 @@ impl Answer<'_> {
             (-mean * pitch, pitch * square.sum::<f64>().sqrt() / count)
         });
         let shift = found.iter().map(|(value, _)| value).sum::<f64>() / 3.0;
-        (found.map(|(value, _)| value - shift), found.map(|(_, deviation)| deviation))
+        (
+            found.map(|(value, _)| value - shift),
+            found.map(|(_, deviation)| deviation),
+        )
     }
 
     fn doubts(&self, fit: &Fit) -> Vec<String> {
@@ -239,7 +247,8 @@ impl Answer<'_> {
         }
         if self.solution.ambiguous {
             doubts.push(
-                "two gaps fit as well; give --cone, or take another photo nearer to the front".into(),
+                "two gaps fit as well; give --cone, or take another photo nearer to the front"
+                    .into(),
             );
         }
         if fit.residuals.rms > LARGEST_RESIDUAL * f64::from(self.setup.views) {

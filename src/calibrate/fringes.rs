@@ -73,7 +73,11 @@ pub(super) fn wrap(turns: f64) -> f64 {
 }
 
 /// Measures a photo whose camera is known to a pixel or so.
-pub(super) fn measure(photo: &Photo, layout: &Layout, view: View) -> Result<Fringes, CalibrateError> {
+pub(super) fn measure(
+    photo: &Photo,
+    layout: &Layout,
+    view: View,
+) -> Result<Fringes, CalibrateError> {
     let name = || photo.name.clone();
     let s = layout.size;
     let side = |a: DVec2, b: DVec2| Some(view.to_picture(a)?.distance(view.to_picture(b)?));
@@ -108,7 +112,10 @@ pub(super) fn measure(photo: &Photo, layout: &Layout, view: View) -> Result<Frin
         let waves = field.demodulated(frequency / s, centre);
         found.push((centre, waves, (column, row)));
     }
-    let mut sizes: Vec<f64> = found.iter().map(|(_, waves, _)| waves[3].length()).collect();
+    let mut sizes: Vec<f64> = found
+        .iter()
+        .map(|(_, waves, _)| waves[3].length())
+        .collect();
     sizes.sort_by(f64::total_cmp);
     let median = sizes.get(sizes.len() / 2).copied().unwrap_or(0.0);
     let contrast = 2.0 * median / SWING;
@@ -141,10 +148,7 @@ pub(super) fn measure(photo: &Photo, layout: &Layout, view: View) -> Result<Frin
             })
         })
         .collect();
-    Ok(Fringes {
-        blocks,
-        contrast,
-    })
+    Ok(Fringes { blocks, contrast })
 }
 
 fn block_centre(field: &Field, column: usize, row: usize) -> DVec2 {
@@ -153,7 +157,12 @@ fn block_centre(field: &Field, column: usize, row: usize) -> DVec2 {
 }
 
 /// The field as the camera sees it; the frame and the ring give white and black of each colour, so white balance is out.
-fn sample(photo: &Photo, layout: &Layout, view: View, across: f64) -> Result<Field, CalibrateError> {
+fn sample(
+    photo: &Photo,
+    layout: &Layout,
+    view: View,
+    across: f64,
+) -> Result<Field, CalibrateError> {
     let unclear = || CalibrateError::Edges {
         photo: photo.name.clone(),
     };
@@ -269,7 +278,13 @@ fn peak(field: &Field, layout: &Layout) -> (DVec2, f64) {
     let (mut sum, mut weights) = (0.0, 0.0);
     for (x, y) in (0..height).flat_map(|y| (0..width).map(move |x| (x, y))) {
         let rows = (y * pool..).take(pool);
-        let cells = rows.flat_map(|row| field.values.iter().skip(row * field.width + x * pool).take(pool));
+        let cells = rows.flat_map(|row| {
+            field
+                .values
+                .iter()
+                .skip(row * field.width + x * pool)
+                .take(pool)
+        });
         let value: f32 = cells.map(|values| values[3]).sum();
         small[y * width + x] = f64::from(value) / (pool * pool) as f64;
         let weight = hann(x, width) * hann(y, height);

@@ -81,7 +81,9 @@ impl Layout {
             + DVec2::splat(MARGIN);
         Self {
             size,
-            band: (0.03 * size.min_element()).max(2.0 * setup.pitch / 3.0).round(),
+            band: (0.03 * size.min_element())
+                .max(2.0 * setup.pitch / 3.0)
+                .round(),
             carrier: (2.0 * reach.y).ceil().max(24.0),
             reach,
             code: code(setup),

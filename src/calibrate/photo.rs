@@ -59,14 +59,22 @@ impl Photo {
         let picture = DynamicImage::from_decoder(decoder).map_err(|e| failed(e.to_string()))?;
         let mut picture = picture;
         picture.apply_orientation(orientation);
-        Ok(Self::from_picture(name, &picture.into_rgb8(), equivalent(bytes)))
+        Ok(Self::from_picture(
+            name,
+            &picture.into_rgb8(),
+            equivalent(bytes),
+        ))
     }
 
     /// A picture in sRGB; `equivalent` is the focal length in mm for film of 36x24 mm, as phones and EXIF give it.
     #[must_use]
     pub fn from_picture(name: &str, picture: &RgbImage, equivalent: Option<f64>) -> Self {
         let linear: Vec<f32> = (0..=255u16).map(|v| linear(f32::from(v) / 255.0)).collect();
-        let pool = picture.width().max(picture.height()).div_ceil(LARGEST_SIDE).max(1);
+        let pool = picture
+            .width()
+            .max(picture.height())
+            .div_ceil(LARGEST_SIDE)
+            .max(1);
         let (width, height) = (picture.width() / pool, picture.height() / pool);
         let (mut light, mut clipped) = (Vec::new(), Vec::new());
         let share = 1.0 / (pool * pool) as f32;
@@ -124,7 +132,12 @@ impl Photo {
         if x + 1 >= width {
             return None;
         }
-        let pair = |y: usize| Some((self.light.get(y * width + x)?, self.light.get(y * width + x + 1)?));
+        let pair = |y: usize| {
+            Some((
+                self.light.get(y * width + x)?,
+                self.light.get(y * width + x + 1)?,
+            ))
+        };
         let ((a, b), (c, d)) = (pair(y)?, pair(y + 1)?);
         let mut mixed = [0.0; 3];
         for ((((mixed, a), b), c), d) in mixed.iter_mut().zip(a).zip(b).zip(c).zip(d) {
@@ -136,7 +149,8 @@ impl Photo {
 
     /// The mean of R, G and B between the four nearest pixels; None outside.
     pub(super) fn grey(&self, p: DVec2) -> Option<f64> {
-        self.at(p).map(|rgb| f64::from(rgb.iter().sum::<f32>() / 3.0))
+        self.at(p)
+            .map(|rgb| f64::from(rgb.iter().sum::<f32>() / 3.0))
     }
 
     /// How much of the nearest pixel is clipped in all channels; 0 outside.
@@ -178,7 +192,13 @@ fn linear(value: f32) -> f32 {
 
 /// The focal length for film of 36x24 mm, mm, where EXIF has it.
 fn equivalent(bytes: &[u8]) -> Option<f64> {
-    let exif = Reader::new().read_from_container(&mut Cursor::new(bytes)).ok()?;
+    let exif = Reader::new()
+        .read_from_container(&mut Cursor::new(bytes))
+        .ok()?;
     let field = exif.get_field(Tag::FocalLengthIn35mmFilm, In::PRIMARY)?;
-    field.value.get_uint(0).map(f64::from).filter(|&mm| mm > 0.0)
+    field
+        .value
+        .get_uint(0)
+        .map(f64::from)
+        .filter(|&mm| mm > 0.0)
 }

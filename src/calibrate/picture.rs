@@ -22,7 +22,9 @@ impl Fit {
         let height = (f64::from(WIDTH) * size.y / size.x).ceil() as u32;
         let rows = self.misses.len() as u32;
         let mut picture = RgbImage::new(2 * WIDTH + GAP, rows * (height + GAP));
-        for (i, ((misses, photo), sighting)) in (0..).zip(self.misses.iter().zip(photos).zip(sightings)) {
+        for (i, ((misses, photo), sighting)) in
+            (0..).zip(self.misses.iter().zip(photos).zip(sightings))
+        {
             let mut grid = [[None; BLOCKS]; BLOCKS];
             for ((column, row), miss) in misses {
                 if let Some(cell) = grid.get_mut(*row).and_then(|cells| cells.get_mut(*column)) {
@@ -34,13 +36,21 @@ impl Fit {
                     (f64::from(x) + 0.5) / f64::from(WIDTH),
                     (f64::from(y) + 0.5) / f64::from(height),
                 );
-                let seen = sighting.start.to_picture(part * size).and_then(|p| photo.at(p));
+                let seen = sighting
+                    .start
+                    .to_picture(part * size)
+                    .and_then(|p| photo.at(p));
                 let seen = seen.unwrap_or_default();
                 let top = i * (height + GAP) + y;
                 picture.put_pixel(x, top, Rgb(seen.map(|v| (255.0 * v.sqrt()) as u8)));
-                let cell = (part * BLOCKS as f64).as_uvec2().min(glam::UVec2::splat(BLOCKS as u32 - 1));
+                let cell = (part * BLOCKS as f64)
+                    .as_uvec2()
+                    .min(glam::UVec2::splat(BLOCKS as u32 - 1));
                 let cells = grid.get(cell.y as usize);
-                let miss = cells.and_then(|cells| cells.get(cell.x as usize)).copied().flatten();
+                let miss = cells
+                    .and_then(|cells| cells.get(cell.x as usize))
+                    .copied()
+                    .flatten();
                 picture.put_pixel(WIDTH + GAP + x, top, miss.map_or(UNMEASURED, colour));
             }
         }
@@ -51,5 +61,9 @@ impl Fit {
 fn colour(miss: f64) -> Rgb<u8> {
     let part = (miss / FULL).clamp(-1.0, 1.0);
     let pale = (255.0 * (1.0 - part.abs())) as u8;
-    Rgb(if part > 0.0 { [255, pale, pale] } else { [pale, pale, 255] })
+    Rgb(if part > 0.0 {
+        [255, pale, pale]
+    } else {
+        [pale, pale, 255]
+    })
 }

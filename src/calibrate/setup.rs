@@ -87,7 +87,12 @@ impl Setup {
                 2.0..=f64::from(self.width) / 20.0,
                 "at least 2 subpixels, and 60 lenses or more over the panel",
             ),
-            ("the slant", self.slant, -3.0..=3.0, "-3 to 3 subpixels per row"),
+            (
+                "the slant",
+                self.slant,
+                -3.0..=3.0,
+                "-3 to 3 subpixels per row",
+            ),
             (
                 "the number of views",
                 f64::from(self.views),

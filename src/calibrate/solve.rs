@@ -127,7 +127,11 @@ impl<'a> Problem<'a> {
     }
 
     /// Measured less expected phase of each block of a photo, turns.
-    pub(super) fn misses(&self, solution: &Solution, photo: usize) -> Option<Vec<((usize, usize), f64)>> {
+    pub(super) fn misses(
+        &self,
+        solution: &Solution,
+        photo: usize,
+    ) -> Option<Vec<((usize, usize), f64)>> {
         self.phases(&solution.minimum.at, &solution.turns, photo)
     }
 
@@ -137,7 +141,10 @@ impl<'a> Problem<'a> {
         let turns = turns.get(photo)?;
         let miss = |block: &super::fringes::Block| {
             let at = view.to_panel(block.pixel)?;
-            Some((block.place, block.phase + turns - self.fringe(&sheet, view.pose.eye, at)))
+            Some((
+                block.place,
+                block.phase + turns - self.fringe(&sheet, view.pose.eye, at),
+            ))
         };
         blocks.iter().map(miss).collect()
     }
@@ -162,7 +169,11 @@ impl<'a> Problem<'a> {
             all.push((seen / distance.value).ln() / distance.spread);
         }
         for photo in 0..self.sightings.len() {
-            all.extend(self.edges(p, photo)?.iter().map(|miss| soft(miss / scatter.edge)));
+            all.extend(
+                self.edges(p, photo)?
+                    .iter()
+                    .map(|miss| soft(miss / scatter.edge)),
+            );
             let phases = self.phases(p, turns, photo)?;
             all.extend(phases.iter().map(|(_, miss)| soft(miss / scatter.phase)));
         }
@@ -193,7 +204,9 @@ impl<'a> Problem<'a> {
         let (mut minimum, turns) = solved.next().ok_or(CalibrateError::NoFit)?;
         let mut scatter = rough;
         for _ in 0..3 {
-            scatter = self.scatter(&minimum.at, turns).ok_or(CalibrateError::NoFit)?;
+            scatter = self
+                .scatter(&minimum.at, turns)
+                .ok_or(CalibrateError::NoFit)?;
             let next = self.minimum(&minimum.at, turns, scatter);
             minimum = next.ok_or(CalibrateError::NoFit)?;
         }
@@ -226,7 +239,10 @@ impl<'a> Problem<'a> {
                 cost += (wrap(apart) / PHASE).powi(2);
             }
             let mut p = vec![0.0; AFTER_SHEET + self.nodes() + POSE * count];
-            let optics = self.sightings.iter().map(|s| s.bench.parameters(s.start.optics));
+            let optics = self
+                .sightings
+                .iter()
+                .map(|s| s.bench.parameters(s.start.optics));
             for (i, value) in optics.flat_map(|optics| optics.into_iter().enumerate()) {
                 *p.get_mut(i)? += value / count as f64;
             }
@@ -316,7 +332,8 @@ fn through(gap: f64, eye: DVec3, p: DVec2) -> DVec2 {
 /// Weights of the nodes of the bias map at a place from (0, 0) to (1, 1).
 pub(super) fn weights(place: DVec2) -> [f64; NODES * NODES] {
     let last = (NODES - 1) as f64;
-    let hat = |at: f64, node: usize| (1.0 - (at.clamp(0.0, 1.0) * last - node as f64).abs()).max(0.0);
+    let hat =
+        |at: f64, node: usize| (1.0 - (at.clamp(0.0, 1.0) * last - node as f64).abs()).max(0.0);
     std::array::from_fn(|i| hat(place.x, i % NODES) * hat(place.y, i / NODES))
 }
 

@@ -29,7 +29,11 @@ impl Fit {
             let _ = writeln!(text, "colour-offsets = [{}]", list(colours));
         }
         if let Some(bias) = &self.bias {
-            let _ = write!(text, "\n[bias]\ncolumns = 3\nrows = 3\nvalues = [{}]\n", list(bias));
+            let _ = write!(
+                text,
+                "\n[bias]\ncolumns = 3\nrows = 3\nvalues = [{}]\n",
+                list(bias)
+            );
         }
         text
     }

@@ -200,7 +200,13 @@ impl PanelArguments {
             );
             return Err(CalibrateError::Display { reason }.into());
         };
-        let mut setup = Setup::new(size.0, size.1, views, lens.pitch.to_f64(), lens.slant.to_f64());
+        let mut setup = Setup::new(
+            size.0,
+            size.1,
+            views,
+            lens.pitch.to_f64(),
+            lens.slant.to_f64(),
+        );
         setup.order = lens.order;
         Ok(setup)
     }
@@ -210,14 +216,25 @@ impl FitArguments {
     /// Side of a pixel in mm, where it is known.
     fn pixel_mm(&self, setup: &Setup) -> Result<Option<f64>, LaunchError> {
         let Some(text) = &self.screen_mm else {
-            return Ok(self.dpi.filter(|dpi| *dpi > 0.0).map(|dpi| MM_PER_INCH / dpi));
+            return Ok(self
+                .dpi
+                .filter(|dpi| *dpi > 0.0)
+                .map(|dpi| MM_PER_INCH / dpi));
         };
         let sides = text.split_once('x').and_then(|(width, height)| {
-            let side = |text: &str| text.parse().ok().filter(|mm: &f64| (10.0..20000.0).contains(mm));
+            let side = |text: &str| {
+                text.parse()
+                    .ok()
+                    .filter(|mm: &f64| (10.0..20000.0).contains(mm))
+            };
             Some((side(width)?, side(height)?))
         });
-        let (width, height) = sides.ok_or_else(|| CalibrateError::ScreenSize { text: text.clone() })?;
-        let (across, down) = (width / f64::from(setup.width), height / f64::from(setup.height));
+        let (width, height) =
+            sides.ok_or_else(|| CalibrateError::ScreenSize { text: text.clone() })?;
+        let (across, down) = (
+            width / f64::from(setup.width),
+            height / f64::from(setup.height),
+        );
         if (across / down).ln().abs() > 0.02 {
             return Err(CalibrateError::ScreenSize { text: text.clone() }.into());
         }
@@ -238,7 +255,9 @@ fn report(fit: &Fit, setup: &Setup, pixel: Option<f64>) -> String {
     );
     // Writing to a String cannot fail.
     if let Some((colours, deviations)) = &fit.colours {
-        for ((name, value), deviation) in ["red", "green", "blue"].iter().zip(colours).zip(deviations) {
+        for ((name, value), deviation) in
+            ["red", "green", "blue"].iter().zip(colours).zip(deviations)
+        {
             let _ = writeln!(text, "{name:<10} {value:+.3} ± {deviation:.3} subpixels");
         }
     }
@@ -274,7 +293,11 @@ fn report(fit: &Fit, setup: &Setup, pixel: Option<f64>) -> String {
     text
 }
 
-fn write_png(what: &'static str, picture: &image::RgbImage, path: &Path) -> Result<(), CalibrateError> {
+fn write_png(
+    what: &'static str,
+    picture: &image::RgbImage,
+    path: &Path,
+) -> Result<(), CalibrateError> {
     let written = picture.save_with_format(path, image::ImageFormat::Png);
     written.map_err(|error| CalibrateError::Write {
         what,

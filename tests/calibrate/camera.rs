@@ -113,7 +113,11 @@ fn axes(shot: &Shot) -> [V; 3] {
     let right = unit(cross(forward, [0.0, 1.0, 0.0]));
     let down = cross(right, forward);
     let mut axes = [right, down, forward];
-    for (i, j, angle) in [(0, 2, shot.aim[0]), (1, 2, shot.aim[1]), (0, 1, shot.aim[2])] {
+    for (i, j, angle) in [
+        (0, 2, shot.aim[0]),
+        (1, 2, shot.aim[1]),
+        (0, 1, shot.aim[2]),
+    ] {
         let (sin, cos) = angle.sin_cos();
         let (a, b) = (axes[i], axes[j]);
         axes[i] = [0, 1, 2].map(|k: usize| a[k] * cos - b[k] * sin);
@@ -123,7 +127,12 @@ fn axes(shot: &Shot) -> [V; 3] {
 }
 
 /// Takes a photo of the panel showing a picture.
-pub(crate) fn expose(sheet: &Sheet, picture: &RgbImage, shot: &Shot, random: &mut Random) -> Exposure {
+pub(crate) fn expose(
+    sheet: &Sheet,
+    picture: &RgbImage,
+    shot: &Shot,
+    random: &mut Random,
+) -> Exposure {
     let (width, height) = shot.size;
     let panel = (f64::from(sheet.size.0), f64::from(sheet.size.1));
     let gamma: Vec<f64> = (0..256).map(|v| (f64::from(v) / 255.0).powf(2.2)).collect();
@@ -151,8 +160,15 @@ pub(crate) fn expose(sheet: &Sheet, picture: &RgbImage, shot: &Shot, random: &mu
                 let f = radius * (1.0 + shot.k1 * radius * radius) - bent_radius;
                 radius -= f / (1.0 + 3.0 * shot.k1 * radius * radius);
             }
-            let scale = if bent_radius > 0.0 { radius / bent_radius } else { 1.0 };
-            let (cx, cy) = (bent[0] * scale * half / shot.focal, bent[1] * scale * half / shot.focal);
+            let scale = if bent_radius > 0.0 {
+                radius / bent_radius
+            } else {
+                1.0
+            };
+            let (cx, cy) = (
+                bent[0] * scale * half / shot.focal,
+                bent[1] * scale * half / shot.focal,
+            );
             let d = [0, 1, 2].map(|k: usize| axes[0][k] * cx + axes[1][k] * cy + axes[2][k]);
             // On the sheet, in pixels of the panel.
             let steps = (gap - shot.eye[2]) / d[2];
@@ -160,7 +176,11 @@ pub(crate) fn expose(sheet: &Sheet, picture: &RgbImage, shot: &Shot, random: &mu
             let qy = (shot.eye[1] + d[1] * steps) / PIXEL + panel.1 / 2.0;
             let outside = (-qx).max(qx - panel.0).max(-qy).max(qy - panel.1) * PIXEL;
             if outside > 0.0 {
-                let dark = if outside < BEZEL { 0.01 } else { shot.wall * (0.7 + 0.3 * (qx / 300.0).sin()) };
+                let dark = if outside < BEZEL {
+                    0.01
+                } else {
+                    shot.wall * (0.7 + 0.3 * (qx / 300.0).sin())
+                };
                 rgb.iter_mut().for_each(|v| *v += dark);
                 continue;
             }
@@ -188,7 +208,10 @@ pub(crate) fn expose(sheet: &Sheet, picture: &RgbImage, shot: &Shot, random: &mu
                 let here = sheet.phase(straight[0], straight[1]) + bias / sheet.pitch;
                 let mut look = |channels: std::ops::Range<usize>, colour: f64| {
                     let turns = wanted + shift - here - colour / sheet.pitch;
-                    let (x, y) = (straight[0] + across[0] * turns, straight[1] + across[1] * turns);
+                    let (x, y) = (
+                        straight[0] + across[0] * turns,
+                        straight[1] + across[1] * turns,
+                    );
                     if x < 0.0 || y < 0.0 || x >= panel.0 || y >= panel.1 {
                         return;
                     }
@@ -206,7 +229,8 @@ pub(crate) fn expose(sheet: &Sheet, picture: &RgbImage, shot: &Shot, random: &mu
             }
             if let Some([x, y, r, strength]) = shot.lamp {
                 let far = (qx - x).hypot(qy - y) / r;
-                rgb.iter_mut().for_each(|v| *v += strength * (-far * far).exp());
+                rgb.iter_mut()
+                    .for_each(|v| *v += strength * (-far * far).exp());
             }
         }
         let radius = (px - f64::from(width) / 2.0).hypot(py - f64::from(height) / 2.0) / half;
@@ -222,7 +246,9 @@ pub(crate) fn expose(sheet: &Sheet, picture: &RgbImage, shot: &Shot, random: &mu
     Exposure {
         light: blurred(&light, shot.size, shot.blur),
         size: shot.size,
-        signal: (square / f64::max(count, 1.0) - mean * mean).max(0.0).sqrt(),
+        signal: (square / f64::max(count, 1.0) - mean * mean)
+            .max(0.0)
+            .sqrt(),
     }
 }
 
@@ -238,7 +264,10 @@ fn blurred(light: &[[f32; 3]], (width, height): (u32, u32), sigma: f64) -> Vec<[
         for (y, x) in (0..height).flat_map(|y| (0..width).map(move |x| (y, x))) {
             let mut sum = [0.0f32; 3];
             for (i, weight) in (-reach..=reach).zip(&kernel) {
-                let (x, y) = ((x + i * dx).clamp(0, width - 1), (y + i * dy).clamp(0, height - 1));
+                let (x, y) = (
+                    (x + i * dx).clamp(0, width - 1),
+                    (y + i * dy).clamp(0, height - 1),
+                );
                 let value = from[(y * width + x) as usize];
                 (0..3).for_each(|c| sum[c] += weight * value[c]);
             }
@@ -277,6 +306,10 @@ impl Exposure {
 
 /// sRGB.
 fn encoded(v: f64) -> u8 {
-    let v = if v <= 0.003_130_8 { 12.92 * v } else { 1.055 * v.powf(1.0 / 2.4) - 0.055 };
+    let v = if v <= 0.003_130_8 {
+        12.92 * v
+    } else {
+        1.055 * v.powf(1.0 / 2.4) - 0.055
+    };
     (255.0 * v).round() as u8
 }

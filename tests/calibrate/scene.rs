@@ -23,7 +23,11 @@ impl Scene {
         let upright = random.unit() < 0.1;
         let pitch = random.between(4.5, 14.0);
         let slant = random.between(0.1, 0.8) * if random.unit() < 0.5 { -1.0 } else { 1.0 };
-        let views = if random.unit() < 0.7 { 5 + random.below(8) } else { 13 + random.below(16) };
+        let views = if random.unit() < 0.7 {
+            5 + random.below(8)
+        } else {
+            13 + random.below(16)
+        };
         let sheet = Sheet {
             size: PANEL,
             views: views as u32,
@@ -44,7 +48,11 @@ impl Scene {
         let white = random.between(0.55, 0.9);
         let crosstalk = random.between(0.0, 0.25);
         let shots = [0.0, side, -side].map(|side| {
-            let degrees = if side == 0.0 { random.between(-3.0, 3.0) } else { side * random.between(8.0, 16.0) };
+            let degrees = if side == 0.0 {
+                random.between(-3.0, 3.0)
+            } else {
+                side * random.between(8.0, 16.0)
+            };
             let part = random.between(0.65, 0.85);
             let distance = focal * f64::from(PANEL.0) * PIXEL / (part * f64::from(PHOTO.0));
             let up = random.between(-8.0, 8.0f64).to_radians();
