@@ -158,7 +158,7 @@ fn photos_that_cannot_answer_are_refused_with_the_reason() {
         ),
         (
             "glare",
-            |scene| scene.shots[0].lamp = Some([480.0, 220.0, 140.0, 3.0]),
+            |scene| scene.shots[0].lamp = Some([480.0, 200.0, 170.0, 3.0]),
             |e| matches!(e, CalibrateError::Glare { .. }),
         ),
         (

@@ -21,6 +21,8 @@ const PHASE: f64 = 0.02;
 /// Of nothing the scatter is believed to be smaller.
 const LEAST_EDGE: f64 = 0.03;
 const LEAST_PHASE: f64 = 0.001;
+/// What all points of an edge have in common that no scatter shows, panel pixels.
+const COMMON: f64 = 0.03;
 /// Turns by which a photo may lie beside the first one, tried by steps of the gap within this many spreads.
 const GAPS: i32 = 40;
 const GAP_REACH: f64 = 3.0;
@@ -49,6 +51,32 @@ pub(super) struct Problem<'a> {
 /// Where the parameters of the sheet begin, and those of the poses without a bias map.
 const SHEET: usize = OPTICS;
 const AFTER_SHEET: usize = SHEET + 4;
+
+/// An edge of the frame in a photo.
+struct Line {
+    /// Side and line, as [`super::edges::EdgePoint`] has them.
+    name: (usize, usize),
+    /// Place along the line, and how far the panel's edge is missed there, panel pixels.
+    misses: Vec<(usize, f64)>,
+}
+
+impl Line {
+    fn mean(&self) -> f64 {
+        let sum: f64 = self.misses.iter().map(|(_, miss)| miss).sum();
+        sum / self.misses.len().max(1) as f64
+    }
+
+    /// Independent residuals of standard deviation 1, where each point scatters by `scatter` and all are shifted
+    /// together by `shift`: the inverse root of their covariance applied.
+    fn whitened(&self, scatter: f64, shift: f64) -> impl Iterator<Item = f64> {
+        let count = self.misses.len() as f64;
+        let taken =
+            self.mean() * (1.0 - scatter / (scatter * scatter + count * shift * shift).sqrt());
+        self.misses
+            .iter()
+            .map(move |(_, miss)| (miss - taken) / scatter)
+    }
+}
 
 /// How far residuals scatter; with what they have in common with their neighbours.
 #[derive(Clone, Copy, Debug)]
@@ -149,13 +177,36 @@ impl<'a> Problem<'a> {
         blocks.iter().map(miss).collect()
     }
 
-    fn edges(&self, p: &[f64], photo: usize) -> Option<Vec<f64>> {
+    /// How far the edge points of each line of a photo are off, panel pixels.
+    fn edges(&self, p: &[f64], photo: usize) -> Option<Vec<Line>> {
         let view = self.view(p, photo)?;
-        let points = &self.sightings.get(photo)?.edges;
-        let miss = |point: &super::edges::EdgePoint| {
-            Some(point.miss(self.layout, view.to_panel(point.pixel)?))
-        };
-        points.iter().map(miss).collect()
+        let mut lines: Vec<Line> = Vec::with_capacity(8);
+        for point in &self.sightings.get(photo)?.edges {
+            let miss = point.miss(self.layout, view.to_panel(point.pixel)?);
+            let name = (point.side, point.line);
+            match lines.last_mut() {
+                Some(line) if line.name == name => line.misses.push((point.place, miss)),
+                _ => lines.push(Line {
+                    name,
+                    misses: vec![(point.place, miss)],
+                }),
+            }
+        }
+        Some(lines)
+    }
+
+    /// Standard deviation of what the points of a line have in common, panel pixels.
+    ///
+    /// An upright edge is seen where a lens ends, so it is off by up to half a lens; a slanted lens sheet averages that
+    /// out along the edge.
+    fn shift(&self, line: &Line) -> f64 {
+        if line.name.0.is_multiple_of(2) {
+            return COMMON;
+        }
+        let pitch = self.setup.pitch;
+        let lenses = self.setup.slant.abs() * self.layout.size.y / pitch;
+        let lens = pitch / 3.0 / 12f64.sqrt();
+        COMMON.hypot(lens / (std::f64::consts::PI * lenses).max(1.0))
     }
 
     fn residuals(&self, p: &[f64], turns: &[f64], scatter: Scatter) -> Option<Vec<f64>> {
@@ -169,11 +220,9 @@ impl<'a> Problem<'a> {
             all.push((seen / distance.value).ln() / distance.spread);
         }
         for photo in 0..self.sightings.len() {
-            all.extend(
-                self.edges(p, photo)?
-                    .iter()
-                    .map(|miss| soft(miss / scatter.edge)),
-            );
+            for line in self.edges(p, photo)? {
+                all.extend(line.whitened(scatter.edge, self.shift(&line)).map(soft));
+            }
             let phases = self.phases(p, turns, photo)?;
             all.extend(phases.iter().map(|(_, miss)| soft(miss / scatter.phase)));
         }
@@ -293,16 +342,16 @@ impl<'a> Problem<'a> {
     fn scatter(&self, p: &[f64], turns: &[f64]) -> Option<Scatter> {
         let (mut edges, mut edge_pairs) = (Vec::new(), Vec::new());
         let (mut phases, mut across, mut down) = (Vec::new(), Vec::new(), Vec::new());
-        for (photo, sighting) in self.sightings.iter().enumerate() {
-            let misses = self.edges(p, photo)?;
-            let named: Vec<_> = sighting.edges.iter().zip(misses.iter().copied()).collect();
-            for pair in named.windows(2) {
-                let [(a, x), (b, y)] = pair else { continue };
-                if (a.side, a.line, a.place + 1) == (b.side, b.line, b.place) {
-                    edge_pairs.push((*x, *y));
-                }
+        for photo in 0..self.sightings.len() {
+            for line in self.edges(p, photo)? {
+                let mean = line.mean();
+                edges.extend(line.misses.iter().map(|(_, miss)| miss - mean));
+                let pairs = line.misses.windows(2).filter_map(|pair| match pair {
+                    [(a, x), (b, y)] if a + 1 == *b => Some((x - mean, y - mean)),
+                    _ => None,
+                });
+                edge_pairs.extend(pairs);
             }
-            edges.extend(misses);
             let found = self.phases(p, turns, photo)?;
             let mut grid = [[None; BLOCKS]; BLOCKS];
             for ((column, row), miss) in &found {
