@@ -131,6 +131,47 @@ fn colours_and_a_bent_sheet_come_back() {
     );
 }
 
+#[test]
+fn a_mask_for_viewers_shows_them_the_middle_view_everywhere() {
+    let mut random = Random(1);
+    let scene = Scene::random(&mut random);
+    let exposures = exposures(&scene, 2, &mut random);
+    let sightings = exposures
+        .iter()
+        .map(|e| sight(&scene, e, 20.0, &mut random));
+    let sightings: Vec<_> = sightings.collect::<Result<_, _>>().expect("clear photos");
+    let sheet = &scene.sheet;
+    let (width, height) = (f64::from(sheet.size.0), f64::from(sheet.size.1));
+    let distance = 600.0 / camera::PIXEL;
+    let mut asked = scene.setup.clone();
+    asked.viewer = Some(distance);
+    let claims = [&scene.setup, &asked].map(|setup| {
+        let found = fit(setup, &sightings).expect("a fit");
+        let mut claimed = sheet.clone();
+        (claimed.pitch, claimed.slant, claimed.offset) = (found.pitch, found.slant, found.offset);
+        claimed
+    });
+    // The farthest from the middle, in views, that an eye straight before the panel sees.
+    let [plain, matched] = claims.map(|claimed| {
+        let mut farthest = 0.0f64;
+        for (x, y) in [
+            (5.0, 5.0),
+            (955.0, 20.0),
+            (480.0, 270.0),
+            (20.0, 530.0),
+            (940.0, 535.0),
+        ] {
+            // On the axis of a lens; then the pixel under it that the eye sees.
+            let x = x + (0.5 - sheet.phase(x, y).rem_euclid(1.0)) * sheet.pitch / 3.0;
+            let lean = sheet.gap() / camera::PIXEL / distance;
+            let seen = claimed.phase(x + (x - width / 2.0) * lean, y + (y - height / 2.0) * lean);
+            farthest = farthest.max((seen.rem_euclid(1.0) - 0.5).abs() * f64::from(sheet.views));
+        }
+        farthest
+    });
+    assert!(plain > 1.0 && matched < 0.25, "{plain} and {matched} views");
+}
+
 /// What a photo of a scene is refused for, after `change`; the sighting where it is not.
 fn refusal(change: impl Fn(&mut Scene)) -> Result<Sighting, CalibrateError> {
     let mut random = Random(2);

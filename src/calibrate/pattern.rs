@@ -200,3 +200,55 @@ pub(super) fn picture(setup: &Setup) -> RgbImage {
         })
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn setup() -> Setup {
+        Setup::new(960, 540, 8, 8.0, 0.66)
+    }
+
+    #[test]
+    fn frame_ring_mark_and_code_are_where_they_are_looked_for() {
+        let layout = Layout::new(&setup());
+        for side in 0..4 {
+            for part in [0.07, 0.22, 0.78, 0.93] {
+                assert_eq!(layout.light(layout.along(side, part, 0.2)), 0.0);
+                assert_eq!(layout.light(layout.along(side, part, IN_FRAME)), 1.0);
+                assert_eq!(layout.light(layout.along(side, part, IN_RING)), 0.0);
+            }
+        }
+        for place in PLACES {
+            let expected = if place == (0, true) { 1.0 } else { 0.0 };
+            assert!(
+                layout.place(place).all(|p| layout.light(p) == expected),
+                "{place:?}"
+            );
+        }
+        for (bit, mut cell) in layout.bits().enumerate() {
+            let expected = f64::from(layout.code >> bit & 1);
+            assert!(cell.all(|p| layout.light(p) == expected), "bit {bit}");
+        }
+    }
+
+    #[test]
+    fn the_code_tells_panels_apart() {
+        let mut others = [(); 3].map(|()| setup());
+        others[0].pitch += 1e-6;
+        others[1].slant += 1e-6;
+        others[2].order = SubpixelOrder::Bgr;
+        let code = code(&setup());
+        assert!(others.iter().all(|other| self::code(other) != code));
+    }
+
+    #[test]
+    fn blue_on_the_left_swaps_the_channels_of_the_field() {
+        let mut bgr = setup();
+        bgr.order = SubpixelOrder::Bgr;
+        let (rgb, bgr) = (picture(&setup()), picture(&bgr));
+        let ([a, b, c], swapped) = (rgb.get_pixel(400, 300).0, bgr.get_pixel(400, 300).0);
+        assert!(a != c);
+        assert_eq!(swapped, [c, b, a]);
+    }
+}

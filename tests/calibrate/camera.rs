@@ -49,7 +49,7 @@ impl Sheet {
     }
 
     /// mm: a lens as wide as the pitch spreads it over the cone.
-    fn gap(&self) -> f64 {
+    pub(crate) fn gap(&self) -> f64 {
         self.pitch / 3.0 * PIXEL / 2.0 / (self.cone / 2.0).to_radians().tan()
     }
 }
