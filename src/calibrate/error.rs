@@ -157,7 +157,8 @@ pub enum CalibrateError {
     /// The frequency is where the search ends.
     #[error(
         "photo `{photo}`: the fringes are outside of what a pitch right to 1 % allows; \
-         correct the pitch and slant of --display and show the new pattern"
+         correct the pitch and slant of --display and show the new pattern, \
+         or go farther away if the cone is narrow"
     )]
     Outside {
         /// The file.

@@ -21,8 +21,10 @@ const PHASE: f64 = 0.02;
 /// Of nothing the scatter is believed to be smaller.
 const LEAST_EDGE: f64 = 0.03;
 const LEAST_PHASE: f64 = 0.001;
-/// What all points of an edge have in common that no scatter shows, panel pixels.
-const COMMON: f64 = 0.03;
+/// What all points of an edge have in common that their scatter does not show, panel pixels; and as a part of the scatter,
+/// as noise that is cut off at black moves a blurred edge.
+const COMMON: f64 = 0.04;
+const COMMON_PART: f64 = 0.25;
 /// Turns by which a photo may lie beside the first one, tried by steps of the gap within this many spreads.
 const GAPS: i32 = 40;
 const GAP_REACH: f64 = 3.0;
@@ -199,14 +201,15 @@ impl<'a> Problem<'a> {
     ///
     /// An upright edge is seen where a lens ends, so it is off by up to half a lens; a slanted lens sheet averages that
     /// out along the edge.
-    fn shift(&self, line: &Line) -> f64 {
+    fn shift(&self, line: &Line, scatter: f64) -> f64 {
+        let common = COMMON.hypot(COMMON_PART * scatter);
         if line.name.0.is_multiple_of(2) {
-            return COMMON;
+            return common;
         }
         let pitch = self.setup.pitch;
         let lenses = self.setup.slant.abs() * self.layout.size.y / pitch;
         let lens = pitch / 3.0 / 12f64.sqrt();
-        COMMON.hypot(lens / (std::f64::consts::PI * lenses).max(1.0))
+        common.hypot(lens / (std::f64::consts::PI * lenses).max(1.0))
     }
 
     fn residuals(&self, p: &[f64], turns: &[f64], scatter: Scatter) -> Option<Vec<f64>> {
@@ -221,7 +224,10 @@ impl<'a> Problem<'a> {
         }
         for photo in 0..self.sightings.len() {
             for line in self.edges(p, photo)? {
-                all.extend(line.whitened(scatter.edge, self.shift(&line)).map(soft));
+                all.extend(
+                    line.whitened(scatter.edge, self.shift(&line, scatter.edge))
+                        .map(soft),
+                );
             }
             let phases = self.phases(p, turns, photo)?;
             all.extend(phases.iter().map(|(_, miss)| soft(miss / scatter.phase)));
