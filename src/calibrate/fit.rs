@@ -7,8 +7,9 @@ use super::solve::{NODES, Problem, Sheet, Solution, weights};
 use super::{CalibrateError, Setup, Sighting};
 use glam::DVec2;
 
-/// The panel counts as known when this many standard deviations stay within half a view...
-const SURE: f64 = 3.0;
+/// The panel counts as known when this many standard deviations stay within half a view: in simulated photos one fit in
+/// some hundreds is off by nearly four...
+const SURE: f64 = 4.0;
 /// ...on all but this part of it.
 const UNSURE_PART: f64 = 0.05;
 /// Root mean square of the residuals, turns, above which the model does not describe the photo.
@@ -37,7 +38,7 @@ pub struct Fit {
     pub deviation: f64,
     /// The same at the worst place of the panel.
     pub worst_deviation: f64,
-    /// The part of the panel that may be off by more than half a view, at three standard deviations, 0 to 1.
+    /// The part of the panel that may be off by more than half a view, at four standard deviations, 0 to 1.
     pub unsure: f64,
     /// Why this should not be believed, each with the remedy; empty for a good fit.
     pub doubts: Vec<String>,
