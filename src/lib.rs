@@ -7,6 +7,9 @@
 
 pub mod display;
 
+#[cfg(feature = "cli")]
+pub mod calibrate;
+
 pub mod config;
 
 pub mod fixed;

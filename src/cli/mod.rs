@@ -3,6 +3,7 @@
 //! Results go to stdout, everything else to stderr.
 #![forbid(unsafe_code)]
 
+mod calibrate;
 mod capture;
 mod displays;
 mod doctor;
@@ -46,6 +47,8 @@ enum Action {
     Mask(mask::Arguments),
     /// Show what an eye in front of a panel sees of a picture, or a strip of eyes from left to right.
     Simulate(simulate::Arguments),
+    /// Measure a panel's lens sheet from photos of a pattern that it shows.
+    Calibrate(calibrate::Arguments),
     /// Say which OpenGL a program would get here and what the layer can do with it.
     Doctor(doctor::Arguments),
     /// List the built-in panels.
@@ -61,6 +64,7 @@ pub(crate) fn main() -> ExitCode {
         Action::Capture(arguments) => capture::run(&arguments),
         Action::Mask(arguments) => mask::run(&arguments),
         Action::Simulate(arguments) => simulate::run(&arguments),
+        Action::Calibrate(arguments) => calibrate::run(&arguments),
         Action::Doctor(arguments) => doctor::run(&arguments),
         Action::Displays(arguments) => displays::run(&arguments),
     };

@@ -1,6 +1,7 @@
 //! Why a program was not started, or its pictures not taken.
 #![forbid(unsafe_code)]
 
+use crate::calibrate::CalibrateError;
 use crate::config::ConfigError;
 use crate::display::{DisplayError, MaskError};
 use crate::simulate::SimulateError;
@@ -29,6 +30,9 @@ pub enum LaunchError {
     /// What an eye would see, but for this.
     #[error(transparent)]
     Simulate(#[from] SimulateError),
+    /// A panel that could not be measured.
+    #[error(transparent)]
+    Calibrate(#[from] CalibrateError),
     /// The program is neither a path nor in PATH.
     #[error("{0}: not found; give a path, or a name that is in PATH")]
     AppNotFound(String),
@@ -132,7 +136,8 @@ impl LaunchError {
             | Self::Size(_)
             | Self::Mask(_)
             | Self::Display(_)
-            | Self::Simulate(_) => 2,
+            | Self::Simulate(_)
+            | Self::Calibrate(_) => 2,
             Self::NoLibrary { .. }
             | Self::BadLibrary { .. }
             | Self::NoDisplay { .. }

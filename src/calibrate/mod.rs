@@ -1,0 +1,68 @@
+//! Measures a panel's lens sheet from hand-held photos of a pattern that the panel shows; pure, without GL.
+//!
+//! # What a photo says
+//!
+//! The sheet lies a gap `g` above the pixels, in effective air. A ray from the eye `E`, at distance `Z`, to the point `p`
+//! of the pixels crosses the sheet at `q = p + (E − p)·g/Z`. The lens there shows, over its whole width, the pixels that
+//! lie under it in the direction of the ray. With `ψ` the phase of the pattern and `Φ` that of the lenses, as
+//! [`crate::display::Slanted`] counts it (a lens begins where it is whole, so its axis is at one half), the fringes seen
+//! have the phase
+//!
+//! ```text
+//! D(p) = ψ(p) − Φ(q) + 1/2        in turns
+//! ```
+//!
+//! Both gratings are finer than the camera resolves; `D` is not, because `ψ` is the nominal lens plus a coarse carrier.
+//! All that is wrong with the nominal lens is magnified into the frequency and phase of the fringes, so they are measured
+//! in the frequency domain (as Hwang et al. 2016 do) and the place of the panel in the photo matters little.
+//!
+//! # What can be told apart
+//!
+//! `Φ(q)` is a plane: `1/pitch` along the row, `slant/pitch` down, and `offset/pitch`. With `u` the distance over the
+//! lenses, a photo gives three numbers: the two slopes, each times `1 − g/Z`, and the constant plus `g·u(E)/(Z·pitch)`.
+//!
+//! - The slant is the ratio of the slopes: one photo from anywhere gives it.
+//! - The pitch of one photo is known times `1 − g/Z`, so as well as `g/Z` is. A photo from where the viewers will be gives
+//!   the pitch for viewers there (`viewer`) without knowing `g`.
+//! - The offset of one photo is known as well as the direction of the camera, over the cone, and `g` are. Straight from
+//!   the front the gap does not matter, only the direction.
+//! - Photos from two directions give `g`: the constants differ by `g` times the difference of the directions. Up to a whole
+//!   turn: the cone must be known to the factor that leaves one candidate, and a second one that fits as well is reported.
+//!
+//! The camera's direction and distance come from the frame in the photo: four sides fix the homography, and it the pose up
+//! to the focal length, which EXIF gives, or the shared fit of all photos at a tilt. All unknowns (optics, poses, sheet,
+//! gap) are solved together with priors for what is known beforehand, so that the covariance says what is not known.
+//! Distances, in here, are panel pixels: nothing but a distance given in mm needs the panel's size in mm.
+//!
+//! # Limits
+//!
+//! A sheet whose views run from right to left looks the same with the cone turned inside out; the sheet here is one whose
+//! gap is positive. Colour offsets are seen through the camera's own colour filters, which make them smaller.
+#![forbid(unsafe_code)]
+
+mod camera;
+mod edges;
+mod error;
+mod find;
+mod fit;
+mod fringes;
+mod least_squares;
+mod pattern;
+mod photo;
+mod picture;
+mod setup;
+mod sighting;
+mod solve;
+mod written;
+
+pub use error::CalibrateError;
+pub use fit::{Camera, Fit, Residuals, fit};
+pub use photo::Photo;
+pub use setup::{Guess, Setup};
+pub use sighting::Sighting;
+
+/// The picture to show on the whole panel; row 0 on top.
+pub fn pattern(setup: &Setup) -> Result<image::RgbImage, CalibrateError> {
+    setup.check()?;
+    Ok(pattern::picture(setup))
+}

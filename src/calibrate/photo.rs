@@ -1,0 +1,204 @@
+//! A photo in linear light.
+#![forbid(unsafe_code)]
+
+use super::CalibrateError;
+use exif::{In, Reader, Tag};
+use glam::DVec2;
+use image::{DynamicImage, ImageDecoder, ImageReader, RgbImage};
+use std::io::Cursor;
+use std::path::Path;
+
+/// Larger photos are averaged down: the fringes are coarse, and averaging in linear light takes noise away.
+const LARGEST_SIDE: u32 = 2600;
+/// A channel at or above this value is taken as clipped.
+const CLIPPED: u8 = 253;
+/// Diagonal of the film that EXIF's equivalent focal length is for, mm.
+const FILM_DIAGONAL: f64 = 43.267;
+
+/// A photo in linear light.
+#[derive(Clone)]
+pub struct Photo {
+    pub(super) name: String,
+    pub(super) width: u32,
+    pub(super) height: u32,
+    /// Focal length in pixels, where the photo says it.
+    pub(super) focal: Option<f64>,
+    /// R, G, B from 0 to 1, rows from the top.
+    light: Vec<[f32; 3]>,
+    /// Part of the pixels under this one that is clipped, rows from the top.
+    clipped: Vec<f32>,
+}
+
+impl std::fmt::Debug for Photo {
+    // The values would be megabytes of text.
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "Photo({}, {}x{})", self.name, self.width, self.height)
+    }
+}
+
+impl Photo {
+    /// Reads a JPEG or PNG file, turned upright as its EXIF data says.
+    pub fn load(path: &Path) -> Result<Self, CalibrateError> {
+        let photo = path.display().to_string();
+        match std::fs::read(path) {
+            Ok(bytes) => Self::decode(&photo, &bytes),
+            Err(source) => Err(CalibrateError::Read { photo, source }),
+        }
+    }
+
+    /// A JPEG or PNG file in memory; `name` is for messages.
+    pub fn decode(name: &str, bytes: &[u8]) -> Result<Self, CalibrateError> {
+        let failed = |reason: String| CalibrateError::Decode {
+            photo: name.into(),
+            reason,
+        };
+        let reader = ImageReader::new(Cursor::new(bytes)).with_guessed_format();
+        let reader = reader.map_err(|e| failed(e.to_string()))?;
+        let mut decoder = reader.into_decoder().map_err(|e| failed(e.to_string()))?;
+        let orientation = decoder.orientation().map_err(|e| failed(e.to_string()))?;
+        let picture = DynamicImage::from_decoder(decoder).map_err(|e| failed(e.to_string()))?;
+        let mut picture = picture;
+        picture.apply_orientation(orientation);
+        Ok(Self::from_picture(
+            name,
+            &picture.into_rgb8(),
+            equivalent(bytes),
+        ))
+    }
+
+    /// A picture in sRGB; `equivalent` is the focal length in mm for film of 36x24 mm, as phones and EXIF give it.
+    #[must_use]
+    pub fn from_picture(name: &str, picture: &RgbImage, equivalent: Option<f64>) -> Self {
+        let linear: Vec<f32> = (0..=255u16).map(|v| linear(f32::from(v) / 255.0)).collect();
+        let pool = picture
+            .width()
+            .max(picture.height())
+            .div_ceil(LARGEST_SIDE)
+            .max(1);
+        let (width, height) = (picture.width() / pool, picture.height() / pool);
+        let (mut light, mut clipped) = (Vec::new(), Vec::new());
+        let share = 1.0 / (pool * pool) as f32;
+        for y in 0..height {
+            for x in 0..width {
+                let (mut sum, mut over) = ([0.0f32; 3], 0.0);
+                for (dx, dy) in (0..pool).flat_map(|dy| (0..pool).map(move |dx| (dx, dy))) {
+                    let pixel = picture.get_pixel(x * pool + dx, y * pool + dy).0;
+                    for (sum, value) in sum.iter_mut().zip(pixel) {
+                        *sum += share * linear.get(usize::from(value)).copied().unwrap_or(1.0);
+                    }
+                    over += share * f32::from(u8::from(pixel.iter().all(|&v| v >= CLIPPED)));
+                }
+                light.push(sum);
+                clipped.push(over);
+            }
+        }
+        Self {
+            name: name.into(),
+            width,
+            height,
+            focal: None,
+            light,
+            clipped,
+        }
+        .with_equivalent(equivalent)
+    }
+
+    /// The same photo with a focal length in mm for film of 36x24 mm; None leaves what it says itself.
+    #[must_use]
+    pub fn with_equivalent(mut self, equivalent: Option<f64>) -> Self {
+        if let Some(mm) = equivalent.filter(|mm| (5.0..2000.0).contains(mm)) {
+            self.focal = Some(2.0 * self.half() * mm / FILM_DIAGONAL);
+        }
+        self
+    }
+
+    /// Half of the diagonal, pixels.
+    pub(super) fn half(&self) -> f64 {
+        f64::from(self.width).hypot(f64::from(self.height)) / 2.0
+    }
+
+    /// The middle, pixels.
+    pub(super) fn centre(&self) -> DVec2 {
+        DVec2::new(f64::from(self.width), f64::from(self.height)) / 2.0
+    }
+
+    /// R, G, B between the four nearest pixels; None outside.
+    pub(super) fn at(&self, p: DVec2) -> Option<[f32; 3]> {
+        let (base, part) = ((p - 0.5).floor(), (p - 0.5).fract_gl().as_vec2());
+        if base.x < 0.0 || base.y < 0.0 {
+            return None;
+        }
+        let (x, y, width) = (base.x as usize, base.y as usize, self.width as usize);
+        if x + 1 >= width {
+            return None;
+        }
+        let pair = |y: usize| {
+            Some((
+                self.light.get(y * width + x)?,
+                self.light.get(y * width + x + 1)?,
+            ))
+        };
+        let ((a, b), (c, d)) = (pair(y)?, pair(y + 1)?);
+        let mut mixed = [0.0; 3];
+        for ((((mixed, a), b), c), d) in mixed.iter_mut().zip(a).zip(b).zip(c).zip(d) {
+            let (top, bottom) = (a + (b - a) * part.x, c + (d - c) * part.x);
+            *mixed = top + (bottom - top) * part.y;
+        }
+        Some(mixed)
+    }
+
+    /// The mean of R, G and B between the four nearest pixels; None outside.
+    pub(super) fn grey(&self, p: DVec2) -> Option<f64> {
+        self.at(p)
+            .map(|rgb| f64::from(rgb.iter().sum::<f32>() / 3.0))
+    }
+
+    /// How much of the nearest pixel is clipped in all channels; 0 outside.
+    pub(super) fn clipped(&self, p: DVec2) -> f64 {
+        if p.x < 0.0 || p.y < 0.0 || p.x >= f64::from(self.width) {
+            return 0.0;
+        }
+        let at = p.y as usize * self.width as usize + p.x as usize;
+        f64::from(self.clipped.get(at).copied().unwrap_or(0.0))
+    }
+
+    /// The mean grey of blocks of `pool` pixels, with width and height.
+    pub(super) fn small(&self, pool: u32) -> (Vec<f32>, usize, usize) {
+        let (width, height) = (self.width / pool, self.height / pool);
+        let (pool, across) = (pool as usize, self.width as usize);
+        let mut grey = Vec::with_capacity(width as usize * height as usize);
+        for y in 0..height as usize {
+            for x in 0..width as usize {
+                let rows = (y * pool..).take(pool);
+                let sum: f32 = rows
+                    .flat_map(|row| self.light.iter().skip(row * across + x * pool).take(pool))
+                    .flatten()
+                    .sum();
+                grey.push(sum / (3 * pool * pool) as f32);
+            }
+        }
+        (grey, width as usize, height as usize)
+    }
+}
+
+/// The transfer function of sRGB (IEC 61966-2-1).
+fn linear(value: f32) -> f32 {
+    if value <= 0.04045 {
+        value / 12.92
+    } else {
+        ((value + 0.055) / 1.055).powf(2.4)
+    }
+}
+
+/// The focal length for film of 36x24 mm, mm, where EXIF has it.
+fn equivalent(bytes: &[u8]) -> Option<f64> {
+    let exif = Reader::new()
+        .read_from_container(&mut Cursor::new(bytes))
+        .ok()?;
+    let field = exif.get_field(Tag::FocalLengthIn35mmFilm, In::PRIMARY)?;
+    field
+        .value
+        .get_uint(0)
+        .map(f64::from)
+        .filter(|&mm| mm > 0.0)
+}

@@ -1,0 +1,314 @@
+//! `manyview calibrate`
+#![forbid(unsafe_code)]
+
+use super::{Outcome, mask, print, tell};
+use clap::{Args, Subcommand};
+use indicatif::{ProgressBar, ProgressStyle};
+use manyview::calibrate::{self, CalibrateError, Fit, Guess, Photo, Setup, Sighting};
+use manyview::config::panel;
+use manyview::display::{Display, Kind};
+use manyview::launch::{LaunchError, writable};
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+const MM_PER_INCH: f64 = 25.4;
+/// How well a distance is believed that somebody measured with a tape.
+const TAPE: f64 = 0.01;
+/// How well a cone is believed that a data sheet gives.
+const DATA_SHEET: f64 = 0.05;
+
+#[derive(Args)]
+pub(crate) struct Arguments {
+    #[command(subcommand)]
+    step: Step,
+}
+
+#[derive(Subcommand)]
+enum Step {
+    /// Write the picture to show on the panel: full screen, unscaled, in a dark room.
+    Pattern(PatternArguments),
+    /// Measure the panel from photos of the pattern and write its display file.
+    ///
+    /// Take the first photo straight from the front, and one or two more from about 10 degrees to the sides and from other
+    /// distances, with one camera, without zoom, with the whole panel in the photo.
+    Fit(FitArguments),
+}
+
+#[derive(Args)]
+struct PanelArguments {
+    /// Panel as it is thought to be: a built-in name or a file of kind "slanted", with a pitch right to 1 %
+    #[arg(long, value_name = "NAME|FILE", required_unless_present = "pitch")]
+    display: Option<String>,
+    /// In place of --display: subpixels from lens to lens, right to 1 %
+    #[arg(long, value_name = "P", conflicts_with = "display", requires = "views")]
+    pitch: Option<f64>,
+    /// With --pitch: subpixels per row downwards
+    #[arg(
+        long,
+        value_name = "S",
+        default_value_t = 0.0,
+        allow_hyphen_values = true,
+        conflicts_with = "display"
+    )]
+    slant: f64,
+    /// With --pitch: number of views
+    #[arg(long, value_name = "N", conflicts_with = "display")]
+    views: Option<u32>,
+    /// Size of the panel in pixels
+    #[arg(long, value_name = "WxH")]
+    size: String,
+}
+
+#[derive(Args)]
+struct PatternArguments {
+    #[command(flatten)]
+    panel: PanelArguments,
+    /// PNG to write
+    #[arg(long, value_name = "PATH")]
+    out: PathBuf,
+}
+
+#[derive(Args)]
+struct FitArguments {
+    #[command(flatten)]
+    panel: PanelArguments,
+    /// Width and height of the lit part of the panel in mm
+    #[arg(long, value_name = "WxH", conflicts_with = "dpi")]
+    screen_mm: Option<String>,
+    /// Pixels per inch of the panel
+    #[arg(long, value_name = "N")]
+    dpi: Option<f64>,
+    /// Distance of the camera from the panel in the first photo, in mm, if it was measured
+    #[arg(long, value_name = "MM")]
+    distance: Option<f64>,
+    /// Write the pitch for viewers at this distance in mm, in place of that of the lens sheet
+    #[arg(long, value_name = "MM")]
+    viewer: Option<f64>,
+    /// Angle over which the views are seen once, in degrees, from the data sheet [default: about 40]
+    #[arg(long, value_name = "DEGREES")]
+    cone: Option<f64>,
+    /// Focal length of the camera in mm for film of 36x24 mm [default: what the photos say]
+    #[arg(long, value_name = "MM")]
+    focal: Option<f64>,
+    /// Measure where red, green and blue lie under the lenses as well
+    #[arg(long)]
+    colours: bool,
+    /// Measure a map of the sheet's low-order errors as well
+    #[arg(long)]
+    bias: bool,
+    /// Write the display file even if the fit is doubtful
+    #[arg(long)]
+    doubtful: bool,
+    /// Display file to write
+    #[arg(long, value_name = "FILE.toml")]
+    out: PathBuf,
+    /// Picture of the fit to write, PNG
+    #[arg(long, value_name = "PATH")]
+    picture: Option<PathBuf>,
+    /// Photos, JPEG or PNG
+    #[arg(required = true, value_name = "PHOTO")]
+    photos: Vec<PathBuf>,
+}
+
+pub(crate) fn run(arguments: &Arguments) -> Outcome {
+    match &arguments.step {
+        Step::Pattern(arguments) => pattern(arguments),
+        Step::Fit(arguments) => fit(arguments),
+    }
+}
+
+fn pattern(arguments: &PatternArguments) -> Outcome {
+    let setup = arguments.panel.setup()?;
+    writable("the pattern", &arguments.out)?;
+    let picture = calibrate::pattern(&setup)?;
+    write_png("the pattern", &picture, &arguments.out)?;
+    tell(&format_args!("wrote {}", arguments.out.display()));
+    Ok(ExitCode::SUCCESS)
+}
+
+fn fit(arguments: &FitArguments) -> Outcome {
+    let mut setup = arguments.panel.setup()?;
+    let pixel = arguments.pixel_mm(&setup)?;
+    let pixels = |option: &'static str, mm: Option<f64>| {
+        let Some(mm) = mm else { return Ok(None) };
+        let pixel = pixel.ok_or(CalibrateError::NoScreenSize { option })?;
+        Ok::<_, CalibrateError>(Some(mm / pixel))
+    };
+    setup.distance = pixels("--distance", arguments.distance)?.map(|value| Guess {
+        value,
+        spread: TAPE,
+    });
+    setup.viewer = pixels("--viewer", arguments.viewer)?;
+    setup.cone = arguments.cone.map_or(Setup::CONE, |value| Guess {
+        value,
+        spread: DATA_SHEET,
+    });
+    (setup.colours, setup.bias) = (arguments.colours, arguments.bias);
+    writable("the display file", &arguments.out)?;
+    if let Some(picture) = &arguments.picture {
+        writable("the picture of the fit", picture)?;
+    }
+    let bar = bar(arguments.photos.len() as u64);
+    let (mut photos, mut sightings) = (Vec::new(), Vec::new());
+    for path in &arguments.photos {
+        bar.set_message(path.display().to_string());
+        let photo = Photo::load(path)?.with_equivalent(arguments.focal);
+        sightings.push(Sighting::new(&photo, &setup)?);
+        photos.push(photo);
+        bar.inc(1);
+    }
+    bar.finish_and_clear();
+    let fit = calibrate::fit(&setup, &sightings)?;
+    if let Some(path) = &arguments.picture {
+        let picture = fit.picture(&photos, &sightings, (setup.width, setup.height));
+        write_png("the picture of the fit", &picture, path)?;
+        tell(&format_args!("wrote {}", path.display()));
+    }
+    print(&report(&fit, &setup, pixel))?;
+    if !fit.doubts.is_empty() {
+        let doubtful = CalibrateError::Doubtful {
+            reasons: fit.doubts.join("; "),
+        };
+        if !arguments.doubtful {
+            return Err(doubtful.into());
+        }
+        tell(&doubtful);
+    }
+    let name = arguments.out.file_stem().unwrap_or_default();
+    fit.write(&setup, &name.to_string_lossy(), &arguments.out)?;
+    tell(&format_args!("wrote {}", arguments.out.display()));
+    Ok(ExitCode::SUCCESS)
+}
+
+impl PanelArguments {
+    fn setup(&self) -> Result<Setup, LaunchError> {
+        let size = mask::size(&self.size).ok_or_else(|| LaunchError::Size(self.size.clone()))?;
+        let (Some(name), None) = (&self.display, self.pitch) else {
+            let (pitch, views) = (self.pitch.unwrap_or(0.0), self.views.unwrap_or(0));
+            return Ok(Setup::new(size.0, size.1, views, pitch, self.slant));
+        };
+        let display = panel::load(name).map_err(|reason| CalibrateError::Display { reason })?;
+        let Display {
+            kind: Kind::Slanted(lens),
+            views,
+            ..
+        } = display
+        else {
+            let reason = format!(
+                "display `{name}` is no slanted lens sheet; give one of kind \"slanted\", or --pitch, --slant and --views"
+            );
+            return Err(CalibrateError::Display { reason }.into());
+        };
+        let mut setup = Setup::new(
+            size.0,
+            size.1,
+            views,
+            lens.pitch.to_f64(),
+            lens.slant.to_f64(),
+        );
+        setup.order = lens.order;
+        setup.inverted = lens.inverted;
+        Ok(setup)
+    }
+}
+
+impl FitArguments {
+    /// Side of a pixel in mm, where it is known.
+    fn pixel_mm(&self, setup: &Setup) -> Result<Option<f64>, LaunchError> {
+        let Some(text) = &self.screen_mm else {
+            return Ok(self
+                .dpi
+                .filter(|dpi| *dpi > 0.0)
+                .map(|dpi| MM_PER_INCH / dpi));
+        };
+        let sides = text.split_once('x').and_then(|(width, height)| {
+            let side = |text: &str| {
+                text.parse()
+                    .ok()
+                    .filter(|mm: &f64| (10.0..20000.0).contains(mm))
+            };
+            Some((side(width)?, side(height)?))
+        });
+        let (width, height) =
+            sides.ok_or_else(|| CalibrateError::ScreenSize { text: text.clone() })?;
+        let (across, down) = (
+            width / f64::from(setup.width),
+            height / f64::from(setup.height),
+        );
+        if (across / down).ln().abs() > 0.02 {
+            return Err(CalibrateError::ScreenSize { text: text.clone() }.into());
+        }
+        Ok(Some((across + down) / 2.0))
+    }
+}
+
+/// What was measured, for people.
+fn report(fit: &Fit, setup: &Setup, pixel: Option<f64>) -> String {
+    let (scale, unit) = pixel.map_or((1.0, "px"), |pixel| (pixel, "mm"));
+    let mut text = format!(
+        "pitch      {:.6} subpixels\nslant      {:.6} subpixels per row\noffset     {:.4} subpixels\n\
+         gap        {:.3} {unit}\n",
+        fit.pitch,
+        fit.slant,
+        fit.offset,
+        fit.gap * scale
+    );
+    // Writing to a String cannot fail.
+    if let Some((colours, deviations)) = &fit.colours {
+        for ((name, value), deviation) in
+            ["red", "green", "blue"].iter().zip(colours).zip(deviations)
+        {
+            let _ = writeln!(text, "{name:<10} {value:+.3} ± {deviation:.3} subpixels");
+        }
+    }
+    if let Some(bias) = &fit.bias {
+        for (i, row) in bias.chunks(3).enumerate() {
+            let title = if i == 0 { "bias" } else { "" };
+            let row: Vec<String> = row.iter().map(|value| format!("{value:+.3}")).collect();
+            let _ = writeln!(text, "{title:<10} {} subpixels", row.join(" "));
+        }
+    }
+    for camera in &fit.cameras {
+        let [x, y, z] = camera.eye.map(|way| way * scale);
+        let contrast = 100.0 * camera.contrast;
+        let _ = writeln!(
+            text,
+            "photo      {}: from {x:+.0} {y:+.0} {z:.0} {unit} (right, down, before the middle), contrast {contrast:.0} %",
+            camera.name
+        );
+    }
+    let residuals = fit.residuals;
+    let _ = writeln!(
+        text,
+        "residuals  mean {:.4}, RMS {:.4}, largest {:.4} of {} views",
+        residuals.mean, residuals.rms, residuals.max, setup.views
+    );
+    let _ = writeln!(
+        text,
+        "confidence ± {:.3} views over the panel, ± {:.3} at its worst place; {:.0} % of it may be off by half a view or more",
+        fit.deviation,
+        fit.worst_deviation,
+        100.0 * fit.unsure
+    );
+    text
+}
+
+fn write_png(
+    what: &'static str,
+    picture: &image::RgbImage,
+    path: &Path,
+) -> Result<(), CalibrateError> {
+    let written = picture.save_with_format(path, image::ImageFormat::Png);
+    written.map_err(|error| CalibrateError::Write {
+        what,
+        file: path.display().to_string(),
+        reason: error.to_string(),
+    })
+}
+
+/// On stderr, and silent when that is no terminal.
+fn bar(photos: u64) -> ProgressBar {
+    let style = ProgressStyle::with_template("{spinner} {wide_bar} {pos}/{len} photos  {msg}");
+    ProgressBar::new(photos).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
+}
