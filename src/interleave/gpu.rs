@@ -28,10 +28,10 @@ pub struct Interleaver {
     panel: Option<Program>,
     layout: Option<Program>,
     anaglyph: Option<Program>,
-    /// Of a picture that lay there.
-    mask: Option<(Placement, Mask)>,
+    /// Of an output whose picture lay there.
+    mask: Option<((Output, Placement), Mask)>,
     mask_texture: u32,
-    mask_uploaded: Option<Placement>,
+    mask_uploaded: Option<(Output, Placement)>,
     cpu: Option<String>,
 }
 
@@ -117,10 +117,11 @@ impl Interleaver {
         placement: &Placement,
     ) -> Result<(), String> {
         let form = Form::of(config, output);
-        if self.mask.as_ref().is_none_or(|(at, _)| at != placement)
+        let of = (output, *placement);
+        if self.mask.as_ref().is_none_or(|(known, _)| *known != of)
             && let Some(mask) = form.mask(placement, config.views)
         {
-            self.mask = Some((*placement, mask.map_err(|e| e.to_string())?));
+            self.mask = Some((of, mask.map_err(|e| e.to_string())?));
         }
         let program = match form {
             Form::Panel(_) | Form::Eyes(_) => &self.panel,
@@ -135,8 +136,8 @@ impl Interleaver {
         gl.active_texture(c::TEXTURE0 + MASK_UNIT);
         if let Form::Panel(_) | Form::Eyes(_) = form {
             gl.bind_texture(c::TEXTURE_2D, self.mask_texture);
-            if let Some((at, mask)) = &self.mask
-                && self.mask_uploaded != Some(*at)
+            if let Some((known, mask)) = &self.mask
+                && self.mask_uploaded != Some(*known)
             {
                 let texels: Vec<[u16; 4]> =
                     mask.data().iter().map(|&[r, g, b]| [r, g, b, 0]).collect();
@@ -148,7 +149,7 @@ impl Interleaver {
                 ] {
                     gl.tex_parameteri(c::TEXTURE_2D, p, v as i32);
                 }
-                self.mask_uploaded = Some(*at);
+                self.mask_uploaded = Some(*known);
             }
         }
         gl.active_texture(c::TEXTURE0 + VIEWS_UNIT);

@@ -141,6 +141,11 @@ impl Classifier {
         }
     }
 
+    /// Another depth for flat draws that no rule places.
+    pub fn change_hud_depth(&mut self, depth: f64) {
+        self.hud_depth = depth;
+    }
+
     /// The groups of state that a draw's class may depend on, beside those that every draw needs. `first` as in [`Facts`].
     pub fn needs(&self, kind: Kind, projection: Projection, first: bool) -> Touch {
         if matches!(kind, Kind::Clear | Kind::Accum) {

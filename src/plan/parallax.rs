@@ -18,6 +18,8 @@ pub struct Rig {
     latched: Option<(f64, f64)>,
     /// A per unit of row 3, of the last perspective projection that was drawn with.
     a: Option<f64>,
+    /// All cameras stand where the program's own does.
+    flat: bool,
 }
 
 /// The shift of one draw's views in clip space: `x_i = x + sep_i·(w − conv·w_eye)`, `sep_i = a·e_i/focal`.
@@ -46,11 +48,20 @@ impl Rig {
             focal,
             latched: None,
             a: None,
+            flat: false,
         }
+    }
+
+    /// Other cameras from now on; `flat`: all of them stand where the program's own does.
+    pub fn change(&mut self, camera: Camera, flat: bool) {
+        (self.camera, self.flat) = (camera, flat);
     }
 
     /// Position of a view in units of the spacing: −(N−1)/2 … (N−1)/2; 0 is the program's own camera.
     pub fn place(&self, view: u32) -> f64 {
+        if self.flat {
+            return 0.0;
+        }
         f64::from(view) - (f64::from(self.views) - 1.0) / 2.0
     }
 
@@ -307,6 +318,25 @@ mod tests {
         assert_eq!(rig().shear(&ortho), None);
         let p = frustum(-1.0, 1.0, -1.0, 1.0, 1.0, 60.0).to_cols_array();
         assert_eq!(rig().shear(&p).expect("a shear").projection(&p, 0.0), p);
+    }
+
+    #[test]
+    fn cameras_that_change_are_those_of_a_rig_that_began_so() {
+        let p = frustum(-1.2, 0.8, -0.7, 0.9, 1.0, 60.0).to_cols_array();
+        let mut changed = Rig::new(5, Camera::Auto, None);
+        changed.latch(&p);
+        let eye = Camera::Eye {
+            spacing: 0.3,
+            focal_depth: 8.0,
+        };
+        changed.change(eye, false);
+        assert_eq!(changed.shear(&p), rig().shear(&p));
+        assert_eq!(changed.place(4), 2.0);
+        changed.change(eye, true);
+        let shear = changed.shear(&p).expect("a shear");
+        for view in 0..5 {
+            assert_eq!(shear.projection(&p, changed.place(view)), p);
+        }
     }
 
     #[test]
