@@ -12,6 +12,8 @@ pub mod calibrate;
 
 pub mod config;
 
+pub mod control;
+
 pub mod fixed;
 
 #[allow(unsafe_code, reason = "the one place that talks to the driver")]

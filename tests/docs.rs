@@ -13,17 +13,21 @@ const ARCHITECTURE: &str = include_str!("../ARCHITECTURE.md");
 /// In place of every program that a document starts.
 const NO_PROGRAM: &str = "/no/such/program";
 const APP_NOT_FOUND: i32 = 127;
+/// Of `ctl` where no program listens.
+const NOBODY: i32 = 3;
 
 #[test]
 fn the_readme_has_every_option_variable_and_key() {
     for spec in OPTIONS {
         assert!(
-            README.contains(&format!("`{}`", spec.variable)),
+            README.contains(&format!("`{}`", spec.variable))
+                || spec.id.is_switch() && README.contains(&format!("`{}=1`", spec.variable)),
             "{}",
             spec.variable
         );
         if let Some(flag) = spec.flag {
-            assert!(README.contains(&format!("`--{flag} ")), "--{flag}");
+            let end = if spec.id.is_switch() { '`' } else { ' ' };
+            assert!(README.contains(&format!("`--{flag}{end}")), "--{flag}");
         }
         if let Some(key) = spec.key {
             assert!(README.contains(&format!("| `{key}` |")), "{key}");
@@ -128,12 +132,17 @@ fn the_commands_of_the_documents_are_accepted() {
         let mut command = manyview();
         command
             .current_dir(folder.path())
+            .env("XDG_RUNTIME_DIR", folder.path())
             .args(options.split_whitespace());
         if app {
             command.args(["--", NO_PROGRAM]);
         }
         let output = command.output().expect("the command starts");
-        let wanted = if app { APP_NOT_FOUND } else { 0 };
+        let wanted = match app {
+            true => APP_NOT_FOUND,
+            false if line.starts_with("ctl ") => NOBODY,
+            false => 0,
+        };
         assert_eq!(
             output.status.code(),
             Some(wanted),

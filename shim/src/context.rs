@@ -1,5 +1,6 @@
 //! Which context is current on which thread, and the guard that every hook passes.
 
+use crate::control;
 use crate::deep;
 use crate::geometry;
 use crate::provider::Provider;
@@ -347,13 +348,13 @@ unsafe fn forget(context: *mut Context) {
 /// The program destroys a context. GL calls it only when it is current nowhere; until then the handle stays valid, and whoever has
 /// it current frees the record.
 pub(crate) fn destroyed(provider: Provider, handle: Ptr) {
-    let unused = {
+    let (unused, last) = {
         let mut registry = CONTEXTS.lock().unwrap_or_else(PoisonError::into_inner);
         // SAFETY: boxes of the list live; provider and handle do not change, the flags are only used under the lock.
         let found = registry.0.iter().position(|&c| unsafe {
             (*c).provider == provider && (*c).handle == handle && !(*c).destroyed
         });
-        found.and_then(|at| {
+        let unused = found.and_then(|at| {
             let context = registry.0.get(at).copied()?;
             // SAFETY: as above.
             let current = unsafe {
@@ -361,8 +362,14 @@ pub(crate) fn destroyed(provider: Provider, handle: Ptr) {
                 (*context).current
             };
             (!current).then(|| registry.0.swap_remove(at))
-        })
+        });
+        // SAFETY: as above.
+        let last = registry.0.iter().all(|&c| unsafe { (*c).destroyed });
+        (unused, last)
     };
+    if last {
+        control::close(control::State::Unopened);
+    }
     if let Some(context) = unused {
         // SAFETY: out of the list now, current nowhere.
         unsafe { forget(context) };
@@ -376,6 +383,7 @@ pub(crate) fn frame<R>(drawable: Option<Drawable>, swap: impl FnOnce() -> R) -> 
     if ours {
         with_context(|gl, c| {
             if let Some(l) = &mut c.layer {
+                control::before(l);
                 if l.follows_window() {
                     l.moved(place(c.drawable));
                 }
@@ -391,6 +399,7 @@ pub(crate) fn frame<R>(drawable: Option<Drawable>, swap: impl FnOnce() -> R) -> 
         with_context(|_, c| {
             if let Some(l) = &mut c.layer {
                 l.count_frame();
+                control::after(l);
             }
             if let Some(f) = &mut c.frames {
                 f.count_frame();

@@ -4,6 +4,7 @@
 #[macro_use]
 mod export;
 mod context;
+mod control;
 mod deep;
 mod dl;
 #[rustfmt::skip]

@@ -1,5 +1,6 @@
 //! Whether the layer is on in this process, and so where each exported function leads.
 
+use crate::control;
 use crate::entry::{ENTRY, HOOK};
 use crate::provider;
 use core::sync::atomic::{AtomicBool, Ordering::Relaxed};
@@ -69,6 +70,7 @@ pub(crate) fn say(text: &str) {
 /// Turns the layer off for the rest of the process.
 pub(crate) fn turn_off(why: &str) {
     if !OFF.swap(true, Relaxed) {
+        control::close(control::State::Closed);
         say(&format!(
             "{why}; the layer is off, the program goes on without it"
         ));

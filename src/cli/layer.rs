@@ -53,6 +53,9 @@ pub(crate) struct LayerArguments {
     /// Write a JSON report of frames, draws and fallbacks
     #[arg(long, value_name = "FILE.json")]
     report: Option<String>,
+    /// Let `manyview ctl` change the views while the program runs
+    #[arg(long)]
+    control: bool,
     /// Read options from a TOML file; variables and the command line win over it
     #[arg(long, value_name = "FILE.toml")]
     config: Option<String>,
@@ -84,6 +87,9 @@ impl LayerArguments {
             if let Some(value) = value {
                 settings.set(id, value, Origin::CommandLine);
             }
+        }
+        if self.control {
+            settings.set(OptionId::Control, "1", Origin::CommandLine);
         }
         settings
             .over(Settings::from_variables(variable))

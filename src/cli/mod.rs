@@ -5,6 +5,7 @@
 
 mod calibrate;
 mod capture;
+mod ctl;
 mod displays;
 mod doctor;
 mod layer;
@@ -19,8 +20,8 @@ use std::process::ExitCode;
 
 const EXIT_STATUS: &str = "\
 Exit status: that of APP for `run` (128 + the signal that killed it); else 0, or
-  2    an option or file that cannot be used
-  3    something missing here: the layer's library, an X server, OpenGL
+  2    an option or file that cannot be used, or a request that the program has refused
+  3    something missing here: the layer's library, an X server, OpenGL, a program for `ctl`
   4    the pictures of `capture` were not reached
   126  APP cannot be executed, or the layer cannot enter it (setuid, static, 32-bit)
   127  APP is not found";
@@ -43,6 +44,8 @@ enum Action {
     Run(run::Arguments),
     /// Run a program until the frames asked for are written as PNG, then end it.
     Capture(capture::Arguments),
+    /// Ask and tell a program that runs with --control.
+    Ctl(ctl::Arguments),
     /// Write the mask of a panel: 16-bit RGB PNG, each value the view that the subpixel shows, 65535 for black.
     Mask(mask::Arguments),
     /// Show what an eye in front of a panel sees of a picture, or a strip of eyes from left to right.
@@ -62,6 +65,7 @@ pub(crate) fn main() -> ExitCode {
     let outcome = match Arguments::parse().command {
         Action::Run(arguments) => run::run(&arguments),
         Action::Capture(arguments) => capture::run(&arguments),
+        Action::Ctl(arguments) => ctl::run(&arguments),
         Action::Mask(arguments) => mask::run(&arguments),
         Action::Simulate(arguments) => simulate::run(&arguments),
         Action::Calibrate(arguments) => calibrate::run(&arguments),

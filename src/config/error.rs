@@ -161,11 +161,19 @@ pub enum ConfigError {
         /// The option that is missing.
         explain: Field,
     },
+    /// Neither on nor off.
+    #[error("{field} is '{value}'; give 1 for on or 0 for off")]
+    Switch {
+        /// The option.
+        field: Field,
+        /// Its value.
+        value: String,
+    },
     /// One view is drawn by the program itself.
     #[error(
         "{field} is '{value}' and there is one view; one view is drawn by the program itself, so ask for two views or more"
     )]
-    ExplainOneView {
+    OneView {
         /// The option.
         field: Field,
         /// Its value.

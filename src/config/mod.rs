@@ -4,6 +4,7 @@
 mod class;
 mod error;
 mod explain;
+mod live;
 mod options;
 pub mod panel;
 mod parse;
@@ -18,6 +19,7 @@ mod tests;
 pub use class::{Class, DepthRange, DepthState, Projection, Viewport, Word};
 pub use error::ConfigError;
 pub use explain::Explain;
+pub use live::Live;
 pub use options::{DISABLE, Field, LIBRARY, OPTIONS, OptionId, OptionSpec, Origin, PathKind};
 pub use profile::{Profile, Rule};
 pub use settings::{Setting, Settings};
@@ -57,6 +59,8 @@ pub struct Config {
     pub explain: Option<Explain>,
     /// Where the JSON report goes at the end of the program.
     pub report: Option<PathBuf>,
+    /// The running program may be asked and told through a socket.
+    pub control: bool,
     /// Pictures to write, if any.
     pub capture: Option<Capture>,
     /// Where the layer tells the launcher how far it is, if the launcher asked.

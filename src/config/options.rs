@@ -46,6 +46,8 @@ pub enum OptionId {
     ExplainFrame,
     /// JSON report.
     Report,
+    /// A socket by which the running program is asked and told.
+    Control,
     /// Picture to write.
     CaptureOut,
     /// Frames to write.
@@ -135,6 +137,8 @@ pub const OPTIONS: &[OptionSpec] = &[
         "frame to explain, counted from 1; 30 unless given"),
     option!(Report, Some("report"), Some("report"), "MANYVIEW_REPORT", "FILE.json", File,
         "write a JSON report of frames, draws and fallbacks"),
+    option!(Control, Some("control"), Some("control"), "MANYVIEW_CONTROL", "0|1", No,
+        "let `manyview ctl` change the views while the program runs; 0 unless given"),
     option!(Config, Some("config"), None, "MANYVIEW_CONFIG", "FILE.toml", File,
         "read options from a TOML file; variables and the command line win over it"),
     option!(CaptureOut, Some("out"), Some("capture-out"), "MANYVIEW_CAPTURE_OUT", "PATH", File,
@@ -160,6 +164,12 @@ impl OptionId {
             .unwrap_or(&OPTIONS[0])
     }
 
+    /// True for options that are on or off; in a TOML file they are truth values.
+    #[must_use]
+    pub fn is_switch(self) -> bool {
+        self == Self::Control
+    }
+
     /// True for the four options that place the cameras: a source that sets one of them replaces them all.
     #[must_use]
     pub fn places_cameras(self) -> bool {
@@ -173,6 +183,8 @@ impl OptionId {
 /// Where a value comes from, the strongest first.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Origin {
+    /// A request to the running program.
+    Request,
     /// An option of the command.
     CommandLine,
     /// An environment variable.
@@ -207,6 +219,7 @@ impl fmt::Display for Field {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let spec = self.id.spec();
         match (&self.origin, spec.flag, spec.key) {
+            (Origin::Request, _, Some(key)) => f.write_str(key),
             (Origin::File(path), _, Some(key)) => write!(f, "{key} in {}", path.display()),
             (Origin::CommandLine | Origin::Default, Some(flag), _) => write!(f, "--{flag}"),
             _ => f.write_str(spec.variable),
@@ -241,6 +254,6 @@ mod tests {
         for row in OPTIONS {
             assert_eq!(row.id.spec().variable, row.variable);
         }
-        assert_eq!(OPTIONS.len(), 21, "a new option needs a row");
+        assert_eq!(OPTIONS.len(), 22, "a new option needs a row");
     }
 }

@@ -9,6 +9,7 @@ use super::{
     MAX_VIEWS, Mixture, Output, Profile, Strategy, panel, profile,
 };
 use crate::display::{Display, Kind, MaskError};
+use std::fmt;
 use std::path::{Path, PathBuf};
 
 const DEFAULT_FRAME: u64 = 30;
@@ -43,6 +44,7 @@ impl Config {
             profile: named_profile(settings)?,
             explain: explain(settings, views)?,
             report: path(settings, OptionId::Report),
+            control: control(settings, views)?,
             capture: capture(settings, views)?,
             status: path(settings, OptionId::Status),
             display,
@@ -119,6 +121,46 @@ const GLASSES: [(&str, Glasses); 3] = [
     ("green-magenta", Glasses::GreenMagenta),
     ("amber-blue", Glasses::AmberBlue),
 ];
+
+impl fmt::Display for Output {
+    /// As the option is written.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::View(view) => write!(f, "view:{view}"),
+            Self::Anaglyph(Anaglyph { glasses, mixture }) => {
+                let named = GLASSES.iter().find(|(_, known)| known == glasses);
+                let mixture = match mixture {
+                    Mixture::Dubois => "",
+                    Mixture::HalfColour => "-half",
+                    Mixture::Grey => "-grey",
+                };
+                let glasses = named.map_or(GLASSES[0].0, |(name, _)| name);
+                write!(f, "anaglyph:{glasses}{mixture}")
+            }
+            other => {
+                let named = OUTPUTS.iter().find(|(_, known)| known == other);
+                f.write_str(named.map_or(OUTPUTS[0].0, |(name, _)| name))
+            }
+        }
+    }
+}
+
+/// An output for views that are there.
+pub(super) fn output_of(
+    settings: &Settings,
+    display: &Display,
+    views: u32,
+) -> Result<Output, ConfigError> {
+    let output = output(settings, display)?;
+    if output == Output::Panel
+        && let Some((field, _)) = settings.field(OptionId::Output)
+    {
+        panel::check_views(display, views)
+            .map_err(|reason| ConfigError::Display { field, reason })?;
+    }
+    check_output(settings, output, views)?;
+    Ok(output)
+}
 
 /// The output as it is written; whether a single view is there is looked at when the number of views is known.
 fn output(settings: &Settings, display: &Display) -> Result<Output, ConfigError> {
@@ -219,7 +261,7 @@ fn choice<T: Copy>(
     }
 }
 
-fn camera(settings: &Settings) -> Result<Camera, ConfigError> {
+pub(super) fn camera(settings: &Settings) -> Result<Camera, ConfigError> {
     use OptionId::{Convergence, EyeSpacing, FocalDepth, Separation};
     let eye = settings
         .field(EyeSpacing)
@@ -302,7 +344,7 @@ fn view_scale(settings: &Settings) -> Result<f64, ConfigError> {
     }
 }
 
-fn hud_depth(settings: &Settings) -> Result<Option<f64>, ConfigError> {
+pub(super) fn hud_depth(settings: &Settings) -> Result<Option<f64>, ConfigError> {
     let Some((field, value)) = settings.field(OptionId::HudDepth) else {
         return Ok(None);
     };
@@ -341,7 +383,7 @@ fn explain(settings: &Settings, views: u32) -> Result<Option<Explain>, ConfigErr
     };
     let value = value.to_owned();
     if views < 2 {
-        return Err(ConfigError::ExplainOneView { field: out, value });
+        return Err(ConfigError::OneView { field: out, value });
     }
     let frame = match frame {
         None => DEFAULT_FRAME,
@@ -361,6 +403,19 @@ fn explain(settings: &Settings, views: u32) -> Result<Option<Explain>, ConfigErr
     }))
 }
 
+fn control(settings: &Settings, views: u32) -> Result<bool, ConfigError> {
+    let Some((field, value)) = settings.field(OptionId::Control) else {
+        return Ok(false);
+    };
+    let value = value.to_owned();
+    match &*value {
+        "0" => Ok(false),
+        "1" if views < 2 => Err(ConfigError::OneView { field, value }),
+        "1" => Ok(true),
+        _ => Err(ConfigError::Switch { field, value }),
+    }
+}
+
 fn path(settings: &Settings, id: OptionId) -> Option<PathBuf> {
     settings
         .get(id)
@@ -368,7 +423,6 @@ fn path(settings: &Settings, id: OptionId) -> Option<PathBuf> {
 }
 
 fn capture(settings: &Settings, views: u32) -> Result<Option<Capture>, ConfigError> {
-    const CHOICES: &str = "output, atlas, view:I and depth";
     let frames = settings.field(OptionId::CaptureFrames);
     let what = settings.field(OptionId::CaptureWhat);
     let Some(out) = path(settings, OptionId::CaptureOut) else {
@@ -388,18 +442,23 @@ fn capture(settings: &Settings, views: u32) -> Result<Option<Capture>, ConfigErr
             value: value.to_owned(),
         })?,
     };
-    let what = match what {
-        None | Some((_, "output")) => CaptureWhat::Output,
-        Some((_, "atlas")) => CaptureWhat::Atlas,
-        Some((_, "depth")) => CaptureWhat::Depth,
-        Some((field, value)) => CaptureWhat::View(one_view(&field, value, views, CHOICES)?),
-    };
     Ok(Some(Capture {
         out,
         first,
         last,
-        what,
+        what: capture_what(settings, views)?,
     }))
+}
+
+/// What a picture holds.
+pub(super) fn capture_what(settings: &Settings, views: u32) -> Result<CaptureWhat, ConfigError> {
+    const CHOICES: &str = "output, atlas, view:I and depth";
+    Ok(match settings.field(OptionId::CaptureWhat) {
+        None | Some((_, "output")) => CaptureWhat::Output,
+        Some((_, "atlas")) => CaptureWhat::Atlas,
+        Some((_, "depth")) => CaptureWhat::Depth,
+        Some((field, value)) => CaptureWhat::View(one_view(&field, value, views, CHOICES)?),
+    })
 }
 
 /// `30` or `30..40`, both ends included, counted from 1.

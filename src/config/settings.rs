@@ -124,6 +124,7 @@ impl Settings {
                 toml::Value::String(text) => text.clone(),
                 toml::Value::Integer(number) => number.to_string(),
                 toml::Value::Float(number) => number.to_string(),
+                toml::Value::Boolean(on) if spec.id.is_switch() => u8::from(*on).to_string(),
                 other => {
                     let field = Field {
                         id: spec.id,

@@ -94,6 +94,8 @@ fn every_message_is_one_clear_sentence() {
             ("MANYVIEW_EXPLAIN_FRAME", "3..4"),
         ],
         &[("MANYVIEW_EXPLAIN", "out"), ("MANYVIEW_VIEWS", "1")],
+        &[("MANYVIEW_CONTROL", "yes")],
+        &[("MANYVIEW_CONTROL", "1"), ("MANYVIEW_VIEWS", "1")],
         &[("MANYVIEW_CAPTURE_FRAMES", "30")],
         &[
             ("MANYVIEW_CAPTURE_OUT", "a.png"),
@@ -147,6 +149,7 @@ fn toml_messages_name_the_file() {
         "views = 0",
         "view = 8",
         "views = [8]",
+        "views = true",
         "views = ",
         "focal-depth = 4.0",
     ]
@@ -160,7 +163,7 @@ fn command_line_beats_variable_beats_file() {
     let path = folder.path().join("m.toml");
     std::fs::write(
         &path,
-        "views = 3\noutput = \"sbs\"\nstrategy = \"replay\"\nreport = \"r.json\"\n",
+        "views = 3\noutput = \"sbs\"\nstrategy = \"replay\"\nreport = \"r.json\"\ncontrol = true\n",
     )
     .unwrap();
     let variables = |name: &str| match name {
@@ -176,6 +179,7 @@ fn command_line_beats_variable_beats_file() {
         (config.views, config.output, config.strategy),
         (5, Output::Quilt, Strategy::Replay)
     );
+    assert!(config.control);
     assert_eq!(
         config.report,
         Some(folder.path().join("r.json")),
@@ -209,6 +213,7 @@ fn options_survive_the_way_through_the_environment() {
         (OptionId::Profile, "none"),
         (OptionId::Explain, "/tmp/why.png"),
         (OptionId::ExplainFrame, "7"),
+        (OptionId::Control, "1"),
         (OptionId::CaptureOut, "/tmp/a.png"),
         (OptionId::CaptureFrames, "3..5"),
         (OptionId::CaptureWhat, "atlas"),

@@ -3,6 +3,7 @@
 
 use crate::calibrate::CalibrateError;
 use crate::config::ConfigError;
+use crate::control::ControlError;
 use crate::display::{DisplayError, MaskError};
 use crate::simulate::SimulateError;
 use std::path::PathBuf;
@@ -33,6 +34,9 @@ pub enum LaunchError {
     /// A panel that could not be measured.
     #[error(transparent)]
     Calibrate(#[from] CalibrateError),
+    /// A running program that was not asked, or has refused.
+    #[error(transparent)]
+    Control(#[from] ControlError),
     /// The program is neither a path nor in PATH.
     #[error("{0}: not found; give a path, or a name that is in PATH")]
     AppNotFound(String),
@@ -138,6 +142,7 @@ impl LaunchError {
             | Self::Display(_)
             | Self::Simulate(_)
             | Self::Calibrate(_) => 2,
+            Self::Control(error) => error.exit_status(),
             Self::NoLibrary { .. }
             | Self::BadLibrary { .. }
             | Self::NoDisplay { .. }

@@ -1,7 +1,7 @@
 //! The end of a frame: interleave, capture, report.
 
 use super::{Layer, OnScreen};
-use crate::config::CaptureWhat;
+use crate::config::{Capture, CaptureWhat};
 use crate::display::Placement;
 use crate::gl::{Gl, consts as c};
 use crate::interleave::{Form, Layout, Source, reference};
@@ -64,12 +64,13 @@ impl Layer {
             top_down: self.atlas.flipped,
             srgb: self.state.window.srgb,
         };
+        let output = self.output();
         if let Err(e) = self.interleaver.draw(
             gl,
             self.config,
             &source,
             &mut |view| tile(gl, &self.atlas, view),
-            self.config.output,
+            output,
             &self.placement(),
         ) {
             self.report.note(e);
@@ -144,14 +145,26 @@ impl Layer {
 
     fn capture(&mut self, gl: &Gl, source: &Source) {
         let frame = self.report.frames() + 1;
-        let Some(wanted) = &self.config.capture else {
-            return;
-        };
-        if !(wanted.first..=wanted.last).contains(&frame) {
-            return;
+        if let Some(wanted) = &self.config.capture
+            && (wanted.first..=wanted.last).contains(&frame)
+        {
+            self.report.write_status(self.config, frame);
+            if let Err(e) = self.write(gl, source, wanted, frame) {
+                self.report.note(format!("capture of frame {frame}: {e}"));
+            }
         }
+        self.take_picture(gl, source, frame);
+    }
+
+    /// Writes what is wanted of the frame. Changes the framebuffers that are bound.
+    pub(super) fn write(
+        &mut self,
+        gl: &Gl,
+        source: &Source,
+        wanted: &Capture,
+        frame: u64,
+    ) -> Result<(), String> {
         let (width, height) = self.size();
-        self.report.write_status(self.config, frame);
         let views = || -> Vec<RgbImage> {
             (0..self.config.views)
                 .map(|v| tile(gl, &self.atlas, v))
@@ -168,7 +181,7 @@ impl Layer {
                 .and_then(|i| capture::write(&i, wanted, frame))
         };
         let written = match wanted.what {
-            CaptureWhat::Output => match Form::of(self.config, self.config.output) {
+            CaptureWhat::Output => match Form::of(self.config, self.output()) {
                 Form::Layout(layout) => whole(layout),
                 _ => {
                     gl.bind_framebuffer(c::READ_FRAMEBUFFER, 0);
@@ -185,9 +198,7 @@ impl Layer {
             }
         };
         gl.bind_framebuffer(c::FRAMEBUFFER, 0);
-        if let Err(e) = written {
-            self.report.note(format!("capture of frame {frame}: {e}"));
-        }
+        written
     }
 }
 

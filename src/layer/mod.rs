@@ -3,6 +3,7 @@
 
 mod accumulate;
 mod classing;
+mod control;
 mod copies;
 mod drawing;
 mod executed;
@@ -14,13 +15,14 @@ mod lists;
 mod queries;
 pub mod support;
 
+pub use control::Pictured;
 pub use drawing::Primitives;
 pub use frames::Frames;
 pub use lists::is_scaled;
 pub use queries::Answer;
 
 use crate::atlas::{Atlas, AtlasError, Names, Tiles};
-use crate::config::{AtlasLayout, Config, Projection, Strategy, profile};
+use crate::config::{AtlasLayout, Config, Live, Projection, Strategy, profile};
 use crate::draw::{Driver, FixedState, Programs};
 use crate::gl::{Count, Ends, Gl, Held, Recording, consts as c};
 use crate::interleave::Interleaver;
@@ -80,6 +82,8 @@ pub struct Layer {
     classifier: Classifier,
     frame: classing::Frame,
     explained: Option<explain::Explained>,
+    live: Live,
+    picture: control::Picture,
     made: Count,
     on_screen: Option<OnScreen>,
     /// Counts for `--report`.
@@ -127,9 +131,10 @@ impl Layer {
             report.note(note);
         }
         sweep(gl, &lists);
+        let live = Live::new(config);
         let mut layer = Layer {
             config,
-            rig: Rig::new(config.views, config.camera, config.profile.focal_depth),
+            rig: Rig::new(config.views, live.camera, config.profile.focal_depth),
             state,
             atlas,
             names,
@@ -153,12 +158,14 @@ impl Layer {
             support,
             classifier: Classifier::new(
                 &config.profile,
-                config.hud_depth,
+                Some(live.hud_depth),
                 profile::this_program().as_deref(),
                 config.explain.is_some(),
             ),
             frame: classing::Frame::default(),
             explained: None,
+            live,
+            picture: control::Picture::None,
             made: Count::default(),
             report,
             drawn: false,
@@ -189,7 +196,7 @@ impl Layer {
     /// Whether the picture depends on where the window lies; then [`Layer::moved`] wants to know before each frame is shown.
     pub fn follows_window(&self) -> bool {
         matches!(
-            self.config.output,
+            self.output(),
             crate::config::Output::Panel | crate::config::Output::Interlaced(_)
         )
     }

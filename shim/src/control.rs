@@ -1,0 +1,396 @@
+//! The socket by which `manyview ctl` asks and tells: looked at once per frame, on the thread that shows it. Nothing here waits.
+//!
+//! The descriptors live in the program's table, and the program may close what it has not opened: each is looked at again before it
+//! is used, and left alone once it is something else.
+
+use crate::switch::{config, say};
+use manyview_core::config::{Capture, Live};
+use manyview_core::control::{self, Answer, ControlError, Lines, place};
+use manyview_core::layer::{Layer, Pictured};
+use std::io::Read;
+use std::mem::ManuallyDrop;
+use std::os::fd::AsRawFd;
+use std::os::unix::fs::MetadataExt;
+use std::os::unix::net::{UnixListener, UnixStream};
+use std::path::PathBuf;
+use std::sync::{Mutex, MutexGuard, TryLockError};
+
+/// Askers at the same time.
+const CLIENTS: usize = 8;
+/// Connections accepted per frame; those that are over before the next one leave their room.
+const ACCEPTED: usize = CLIENTS;
+/// Bytes of answers that are kept for somebody who does not read them.
+const UNREAD: usize = 64 * 1024;
+
+/// Of this process.
+pub(crate) enum State {
+    /// No frame has been shown yet, or the last context is gone.
+    Unopened,
+    Open(Server),
+    /// For good.
+    Closed,
+}
+
+pub(crate) struct Server {
+    listener: Checked<UnixListener>,
+    path: PathBuf,
+    /// Device and inode of the socket's file.
+    file: Option<(u64, u64)>,
+    /// Who has opened it: a child after fork has our memory and our descriptors, and answers nobody.
+    pid: u32,
+    user: u32,
+    clients: Vec<Client>,
+    /// What all contexts of the process are to have; none as long as nobody has changed it.
+    live: Option<Live>,
+    /// A picture that somebody waits for, while no frame is being shown.
+    wanted: Option<Capture>,
+}
+
+struct Client {
+    stream: Checked<UnixStream>,
+    lines: Lines,
+    answers: Vec<u8>,
+    /// For the picture that is being taken.
+    waits: bool,
+    /// It has sent all it will, or what it sent was no request at all.
+    done: bool,
+}
+
+static STATE: Mutex<State> = Mutex::new(State::Unopened);
+
+fn wanted() -> bool {
+    config().is_some_and(|config| config.control)
+}
+
+/// None while another thread is here.
+fn state() -> Option<MutexGuard<'static, State>> {
+    match STATE.try_lock() {
+        Ok(state) => Some(state),
+        Err(TryLockError::Poisoned(error)) => Some(error.into_inner()),
+        Err(TryLockError::WouldBlock) => None,
+    }
+}
+
+/// Before a frame is shown: hands over the picture that is asked for.
+pub(crate) fn before(layer: &mut Layer) {
+    if !wanted() {
+        return;
+    }
+    if let Some(mut state) = state()
+        && let State::Open(server) = &mut *state
+        && server.pid == std::process::id()
+        && let Some(wanted) = server.wanted.take()
+    {
+        layer.picture(wanted);
+    }
+}
+
+/// After a frame was shown: what is asked now holds for the whole next one.
+pub(crate) fn after(layer: &mut Layer) {
+    if !wanted() {
+        return;
+    }
+    let Some(mut state) = state() else { return };
+    if let State::Unopened = *state {
+        *state = match Server::open() {
+            Ok(server) => State::Open(server),
+            Err(error) => {
+                say(&error.to_string());
+                layer.report.note(error.to_string());
+                State::Closed
+            }
+        };
+    }
+    if let State::Open(server) = &mut *state
+        && !(server.pid == std::process::id() && server.serve(layer))
+    {
+        *state = State::Closed;
+    }
+}
+
+/// Takes the socket away; it may be opened again if `state` says so.
+pub(crate) fn close(next: State) {
+    if !wanted() {
+        return;
+    }
+    let Some(mut state) = state() else { return };
+    if let State::Open(server) = &*state
+        && server.pid == std::process::id()
+        && server.file.is_some()
+        && server.file == file(&server.path)
+    {
+        let _ = std::fs::remove_file(&server.path);
+    }
+    // Closed for good stays so.
+    if let State::Open(_) | State::Unopened = *state {
+        *state = next;
+    }
+}
+
+/// Device and inode of a path, not followed.
+fn file(path: &std::path::Path) -> Option<(u64, u64)> {
+    let about = std::fs::symlink_metadata(path).ok()?;
+    Some((about.dev(), about.ino()))
+}
+
+impl Server {
+    fn open() -> Result<Server, ControlError> {
+        // SAFETY: cannot fail.
+        let user = unsafe { libc::geteuid() };
+        let folder = place::folder(std::env::var_os(place::RUNTIME).as_deref(), user);
+        place::prepare(&folder, user)?;
+        let pid = std::process::id();
+        let path = place::socket(&folder, pid);
+        let failed = |error: std::io::Error| ControlError::Socket {
+            path: path.clone(),
+            reason: error.kind().to_string(),
+        };
+        // Under its name when it listens and is closed to others: `ctl` takes away what is there and does not listen.
+        let growing = path.with_extension("new");
+        // Of a dead process that had our number.
+        let _ = std::fs::remove_file(&growing);
+        let listener = UnixListener::bind(&growing).map_err(failed)?;
+        let ready = place::close_to_others(&growing)
+            .and_then(|()| listener.set_nonblocking(true))
+            // A copy gets a number above those of stdin, stdout and stderr, which the program may have closed.
+            .and_then(|()| Checked::new(listener.try_clone()?))
+            .and_then(|listener| {
+                std::fs::rename(&growing, &path)?;
+                Ok(listener)
+            });
+        let listener = ready.map_err(|error| {
+            let _ = std::fs::remove_file(&growing);
+            failed(error)
+        })?;
+        Ok(Server {
+            listener,
+            file: file(&path),
+            path,
+            pid,
+            user,
+            clients: Vec::new(),
+            live: None,
+            wanted: None,
+        })
+    }
+
+    /// Whether the socket is still there.
+    fn serve(&mut self, layer: &mut Layer) -> bool {
+        if !self.accept() {
+            return false;
+        }
+        if let Some(live) = self.live
+            && live != layer.live()
+        {
+            layer.adopt(live);
+        }
+        match layer.pictured() {
+            None => {}
+            Some(Pictured::Later(wanted)) => self.wanted = Some(wanted),
+            Some(Pictured::Done(outcome)) => {
+                if let Some(client) = self.clients.iter_mut().find(|c| c.waits) {
+                    client.waits = false;
+                    client.answer(outcome.into());
+                }
+            }
+        }
+        let mut clients = std::mem::take(&mut self.clients);
+        for at in 0..clients.len() {
+            let busy = clients.iter().any(|c| c.waits);
+            if let Some(client) = clients.get_mut(at) {
+                self.listen(client, layer, busy);
+            }
+        }
+        clients.retain_mut(|client| client.send() && !client.is_done());
+        if !clients.iter().any(|c| c.waits) {
+            self.wanted = None;
+        }
+        self.clients = clients;
+        true
+    }
+
+    /// Takes in who is waiting at the door; false if the door is not ours any more.
+    fn accept(&mut self) -> bool {
+        for _ in 0..ACCEPTED {
+            let Some(listener) = self.listener.get() else {
+                return false;
+            };
+            let Ok((stream, _)) = listener.accept() else {
+                break;
+            };
+            if !place::may_talk(peer(&stream), self.user) {
+                continue;
+            }
+            // A copy, as above.
+            let ready = stream.set_nonblocking(true);
+            let Ok(stream) = ready.and_then(|()| Checked::new(stream.try_clone()?)) else {
+                continue;
+            };
+            let mut client = Client {
+                stream,
+                lines: Lines::default(),
+                answers: Vec::new(),
+                waits: false,
+                done: false,
+            };
+            if self.clients.len() < CLIENTS {
+                self.clients.push(client);
+            } else {
+                client.answer(Err(ControlError::Crowded(CLIENTS)).into());
+                client.send();
+            }
+        }
+        true
+    }
+
+    /// Follows what a client has asked since the last frame. `busy`: somebody waits for a picture.
+    fn listen(&mut self, client: &mut Client, layer: &mut Layer, mut busy: bool) {
+        client.receive();
+        while !client.waits
+            && client.answers.len() < UNREAD
+            && let Some(line) = client.lines.take()
+        {
+            // Where the next line begins is not known then.
+            client.done |= line.is_err();
+            let before = layer.live();
+            let outcome =
+                line.and_then(|line| control::order(&line))
+                    .and_then(|order| match order {
+                        control::Order::Capture(..) if busy => Err(ControlError::Busy),
+                        order => layer.control(order),
+                    });
+            match outcome {
+                Ok(Ok(answer)) => client.answer(answer),
+                Ok(Err(wanted)) => {
+                    self.wanted = Some(wanted);
+                    (client.waits, busy) = (true, true);
+                }
+                Err(error) => {
+                    let last = error == ControlError::TooLong;
+                    client.answer(Err(error).into());
+                    if last {
+                        break;
+                    }
+                }
+            }
+            if layer.live() != before {
+                self.live = Some(layer.live());
+            }
+        }
+    }
+}
+
+impl Client {
+    fn answer(&mut self, answer: Answer) {
+        self.answers
+            .extend_from_slice(control::line(&answer).as_bytes());
+    }
+
+    fn receive(&mut self) {
+        let mut bytes = [0; Lines::MAX + 1];
+        let room = self.lines.room();
+        if self.done || room == 0 {
+            return;
+        }
+        let Some(mut stream) = self.stream.get() else {
+            self.done = true;
+            return;
+        };
+        match stream.read(&mut bytes[..room]) {
+            Ok(0) => self.done = true,
+            Ok(count) => self.lines.push(&bytes[..count]),
+            Err(error) => self.done = error.kind() != std::io::ErrorKind::WouldBlock,
+        }
+    }
+
+    /// Sends what it takes; false if it takes nothing any more.
+    fn send(&mut self) -> bool {
+        let Some(stream) = self.stream.get() else {
+            return false;
+        };
+        if self.answers.is_empty() {
+            return true;
+        }
+        // SAFETY: our socket and our bytes. Without a signal: the program has its own handler for SIGPIPE, or none.
+        let sent = unsafe {
+            libc::send(
+                stream.as_raw_fd(),
+                self.answers.as_ptr().cast(),
+                self.answers.len(),
+                libc::MSG_NOSIGNAL | libc::MSG_DONTWAIT,
+            )
+        };
+        match usize::try_from(sent) {
+            Ok(count) => {
+                self.answers.drain(..count.min(self.answers.len()));
+                true
+            }
+            Err(_) => std::io::Error::last_os_error().kind() == std::io::ErrorKind::WouldBlock,
+        }
+    }
+
+    fn is_done(&self) -> bool {
+        self.done && !self.waits && self.answers.is_empty()
+    }
+}
+
+/// The user at the other end.
+fn peer(stream: &UnixStream) -> Option<u32> {
+    let mut about = libc::ucred {
+        pid: 0,
+        uid: 0,
+        gid: 0,
+    };
+    let mut size = size_of::<libc::ucred>() as libc::socklen_t;
+    // SAFETY: our socket, and a structure of the size that is given.
+    let known = unsafe {
+        libc::getsockopt(
+            stream.as_raw_fd(),
+            libc::SOL_SOCKET,
+            libc::SO_PEERCRED,
+            (&raw mut about).cast(),
+            &raw mut size,
+        )
+    };
+    (known == 0).then_some(about.uid)
+}
+
+/// A socket of ours, as long as its descriptor is that.
+struct Checked<T: AsRawFd> {
+    socket: ManuallyDrop<T>,
+    identity: (u64, u64),
+}
+
+impl<T: AsRawFd> Checked<T> {
+    fn new(socket: T) -> std::io::Result<Self> {
+        let identity = identity(&socket).ok_or_else(std::io::Error::last_os_error)?;
+        Ok(Checked {
+            socket: ManuallyDrop::new(socket),
+            identity,
+        })
+    }
+}
+
+impl<T: AsRawFd> Checked<T> {
+    fn get(&self) -> Option<&T> {
+        (identity(&*self.socket) == Some(self.identity)).then_some(&*self.socket)
+    }
+}
+
+impl<T: AsRawFd> Drop for Checked<T> {
+    fn drop(&mut self) {
+        if self.get().is_some() {
+            // SAFETY: dropped once, here; the descriptor is still the socket's.
+            unsafe { ManuallyDrop::drop(&mut self.socket) };
+        }
+    }
+}
+
+/// Device and inode of what a descriptor is.
+fn identity(socket: &impl AsRawFd) -> Option<(u64, u64)> {
+    // SAFETY: all-zero is a valid stat.
+    let mut status: libc::stat = unsafe { core::mem::zeroed() };
+    // SAFETY: status is ours; the descriptor may be anything.
+    let known = unsafe { libc::fstat(socket.as_raw_fd(), &mut status) } == 0;
+    known.then_some((status.st_dev, status.st_ino))
+}

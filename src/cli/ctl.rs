@@ -1,0 +1,206 @@
+//! `manyview ctl`
+#![forbid(unsafe_code)]
+
+use super::{Outcome, print};
+use clap::{Args, Subcommand};
+use manyview::control::{ALL, Answer, ControlError, LAYER, Picture, Request, line, place};
+use manyview::launch::LaunchError;
+use serde_json::Value;
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+use std::io::{BufRead, BufReader, ErrorKind, Write};
+use std::os::unix::net::UnixStream;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::time::Duration;
+
+/// A program answers once per frame; loading may take this long.
+const PATIENCE: Duration = Duration::from_secs(10);
+
+#[derive(Args)]
+pub(crate) struct Arguments {
+    /// The program's process; needed only if several listen
+    #[arg(long, value_name = "PID")]
+    pid: Option<u32>,
+    #[command(subcommand)]
+    what: What,
+}
+
+#[derive(Subcommand)]
+enum What {
+    /// Change values from the next frame on, all of them or none: output, separation, convergence, eye-spacing, focal-depth,
+    /// hud-depth
+    Set {
+        /// Names and values in turn, such as: separation 0.03 convergence 8
+        #[arg(
+            required = true,
+            num_args = 2..,
+            value_name = "NAME VALUE",
+            allow_negative_numbers = true
+        )]
+        pairs: Vec<String>,
+    },
+    /// Print the values in force
+    Get {
+        /// One of them; all unless given
+        name: Option<String>,
+    },
+    /// Write the next frame as PNG
+    Capture {
+        /// The file
+        path: PathBuf,
+        /// What the picture holds [default: output]
+        #[arg(long, value_name = "output|atlas|view:I|depth")]
+        what: Option<String>,
+    },
+    /// Show the program's own view, or all views again
+    Toggle,
+}
+
+pub(crate) fn run(arguments: &Arguments) -> Outcome {
+    let request = request(&arguments.what)?;
+    let (pid, stream) = find(arguments.pid)?;
+    match ask(pid, stream, &request)? {
+        Answer::Error(sentence) => Err(ControlError::Refused(sentence).into()),
+        Answer::Values(values) => match arguments.what {
+            What::Set { .. } => Ok(ExitCode::SUCCESS),
+            What::Get { name: Some(_) } => {
+                let values = values.values().map(|value| word(value) + "\n");
+                print(&values.collect::<String>())
+            }
+            _ => {
+                let mut text = String::new();
+                for (name, value) in &values {
+                    // Writing to a string cannot fail.
+                    let _ = writeln!(text, "{name} = {}", word(value));
+                }
+                print(&text)
+            }
+        },
+        Answer::Layer(on) => print(&format!("{LAYER} = {}\n", word(&on.into()))),
+        Answer::Captured { path, frame } => {
+            super::tell(&format_args!("wrote {} (frame {frame})", path.display()));
+            Ok(ExitCode::SUCCESS)
+        }
+    }
+}
+
+/// A value as it is given to `set`.
+fn word(value: &Value) -> String {
+    match value {
+        Value::String(text) => text.clone(),
+        Value::Bool(on) => if *on { "on" } else { "off" }.to_owned(),
+        other => other.to_string(),
+    }
+}
+
+fn request(what: &What) -> Result<Request, LaunchError> {
+    Ok(match what {
+        What::Set { pairs } => {
+            let mut values = BTreeMap::new();
+            for pair in pairs.chunks(2) {
+                let [name, value] = pair else {
+                    return Err(ControlError::NoValue(pair.concat()).into());
+                };
+                values.insert(name.clone(), value.clone().into());
+            }
+            Request::Set(values)
+        }
+        What::Get { name } => Request::Get(name.clone().unwrap_or_else(|| ALL.to_owned())),
+        What::Capture { path, what } => {
+            let path = std::path::absolute(path).map_err(|source| LaunchError::System {
+                doing: "finding the current folder",
+                source,
+            })?;
+            if path.to_str().is_none() {
+                return Err(ControlError::NotUtf8(path).into());
+            }
+            Request::Capture(Picture {
+                path,
+                what: what.clone(),
+            })
+        }
+        What::Toggle => Request::Toggle(LAYER.to_owned()),
+    })
+}
+
+/// The program to talk to. Sockets at which nobody listens any more are removed on the way.
+fn find(wanted: Option<u32>) -> Result<(u32, UnixStream), LaunchError> {
+    let user = rustix::process::geteuid().as_raw();
+    let folder = place::folder(std::env::var_os(place::RUNTIME).as_deref(), user);
+    let mut listening = Vec::new();
+    if place::check(&folder, user)? {
+        for (pid, socket) in sockets(&folder) {
+            match UnixStream::connect(&socket) {
+                Ok(stream) => listening.push((pid, stream)),
+                Err(error) if error.kind() == ErrorKind::ConnectionRefused => {
+                    let _ = std::fs::remove_file(&socket);
+                }
+                // Gone in between, or not a socket.
+                Err(_) => {}
+            }
+        }
+    }
+    if let Some(wanted) = wanted {
+        let found = listening.into_iter().find(|(pid, _)| *pid == wanted);
+        return found.ok_or_else(|| ControlError::NoSuchProgram(wanted).into());
+    }
+    if listening.len() > 1 {
+        let programs = listening.iter().map(|(pid, _)| match program(*pid) {
+            Some(name) => format!("{pid} ({name})"),
+            None => pid.to_string(),
+        });
+        let programs = programs.collect::<Vec<_>>().join(", ");
+        return Err(ControlError::SeveralPrograms(programs).into());
+    }
+    listening
+        .pop()
+        .ok_or_else(|| ControlError::NoProgram.into())
+}
+
+/// Processes and their sockets, in the order of their numbers.
+fn sockets(folder: &Path) -> Vec<(u32, PathBuf)> {
+    let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
+    let paths = entries.map(|entry| entry.path());
+    let mut found: Vec<_> = paths
+        .filter_map(|path| Some((place::pid(&path)?, path)))
+        .collect();
+    found.sort();
+    found
+}
+
+fn program(pid: u32) -> Option<String> {
+    let name = std::fs::read_to_string(format!("/proc/{pid}/comm")).ok()?;
+    Some(name.trim_end().to_owned())
+}
+
+fn ask(pid: u32, stream: UnixStream, request: &Request) -> Result<Answer, LaunchError> {
+    let failed = |source: std::io::Error| match source.kind() {
+        ErrorKind::WouldBlock | ErrorKind::TimedOut => ControlError::Silent {
+            pid,
+            seconds: PATIENCE.as_secs(),
+        }
+        .into(),
+        ErrorKind::BrokenPipe | ErrorKind::ConnectionReset => ControlError::Closed(pid).into(),
+        _ => LaunchError::System {
+            doing: "talking to the program",
+            source,
+        },
+    };
+    stream
+        .set_read_timeout(Some(PATIENCE))
+        .and_then(|()| stream.set_write_timeout(Some(PATIENCE)))
+        .and_then(|()| (&stream).write_all(line(request).as_bytes()))
+        .map_err(failed)?;
+    let mut answer = String::new();
+    BufReader::new(stream)
+        .read_line(&mut answer)
+        .map_err(failed)?;
+    if answer.is_empty() {
+        return Err(ControlError::Closed(pid).into());
+    }
+    serde_json::from_str(&answer).map_err(|error| LaunchError::System {
+        doing: "reading the program's answer",
+        source: error.into(),
+    })
+}

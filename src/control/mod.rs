@@ -1,0 +1,228 @@
+//! What a running program may be asked and told: requests and answers, one JSON object per line, and where the socket is.
+//!
+//! Pure but for the folder of the socket: the library answers, `manyview ctl` asks.
+#![forbid(unsafe_code)]
+
+mod error;
+mod lines;
+pub mod place;
+
+pub use error::ControlError;
+pub use lines::Lines;
+
+use crate::config::{Live, OptionId};
+use serde::{Deserialize, Serialize};
+use serde_json::{Map, Value};
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+
+/// In a [`Request::Get`]: every value that is in force.
+pub const ALL: &str = "all";
+/// What [`Request::Toggle`] names, and what the value is called that says how it stands.
+pub const LAYER: &str = "layer";
+/// The number of views, which can be asked for and not set.
+pub const VIEWS: &str = "views";
+/// In a [`Request::Capture`], unless it says otherwise.
+const OUTPUT: &str = "output";
+
+/// A request as it is sent.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Request {
+    /// Values by name, all of them or none.
+    Set(BTreeMap<String, Value>),
+    /// The value of one name, or of [`ALL`].
+    Get(String),
+    /// A picture of the next frame.
+    Capture(Picture),
+    /// [`LAYER`]: the third dimension off or on again.
+    Toggle(String),
+}
+
+/// A picture that is asked for.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Picture {
+    /// Where it goes; absolute, because the program's folder is not the asker's.
+    pub path: PathBuf,
+    /// What it holds, as `--what` says it; the output unless given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub what: Option<String>,
+}
+
+/// A request, understood.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Order {
+    /// Options and their values as text.
+    Set(Vec<(OptionId, String)>),
+    /// One value by its name, or all.
+    Get(Option<String>),
+    /// Path and content of a picture.
+    Capture(PathBuf, String),
+    /// The third dimension off or on.
+    Toggle,
+}
+
+/// An answer as it is sent.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Answer {
+    /// Values in force, by name.
+    Values(Map<String, Value>),
+    /// Whether the third dimension is on.
+    Layer(bool),
+    /// A picture is written.
+    Captured {
+        /// Its file.
+        path: PathBuf,
+        /// The frame that it shows, counted from 1.
+        frame: u64,
+    },
+    /// Why nothing has changed, in one sentence.
+    Error(String),
+}
+
+impl From<Result<Answer, ControlError>> for Answer {
+    fn from(outcome: Result<Answer, ControlError>) -> Self {
+        outcome.unwrap_or_else(|error| Self::Error(error.to_string()))
+    }
+}
+
+/// A request or an answer as a line.
+pub fn line(message: &impl Serialize) -> String {
+    // Names are text and paths have come as text, so nothing here cannot be written.
+    let mut text = serde_json::to_string(message).unwrap_or_default();
+    text.push('\n');
+    text
+}
+
+/// Understands a line as a request.
+pub fn order(line: &str) -> Result<Order, ControlError> {
+    let request =
+        serde_json::from_str(line).map_err(|error| ControlError::Request(error.to_string()))?;
+    match request {
+        Request::Set(values) => {
+            let values = values.into_iter().map(|(name, value)| {
+                let id = settable(&name)?;
+                match value {
+                    Value::String(text) => Ok((id, text)),
+                    Value::Number(number) => Ok((id, number.to_string())),
+                    _ => Err(ControlError::Type { name }),
+                }
+            });
+            Ok(Order::Set(values.collect::<Result<_, _>>()?))
+        }
+        Request::Get(name) if name == ALL => Ok(Order::Get(None)),
+        Request::Get(name) if names().any(|known| known == name) => Ok(Order::Get(Some(name))),
+        Request::Get(name) => Err(ControlError::UnknownName {
+            name,
+            known: names().collect::<Vec<_>>().join(", "),
+        }),
+        Request::Capture(Picture { path, .. }) if !path.is_absolute() => {
+            Err(ControlError::RelativePath(path))
+        }
+        Request::Capture(Picture { path, what }) => Ok(Order::Capture(
+            path,
+            what.unwrap_or_else(|| OUTPUT.to_owned()),
+        )),
+        Request::Toggle(what) if what == LAYER => Ok(Order::Toggle),
+        Request::Toggle(what) => Err(ControlError::Toggle(what)),
+    }
+}
+
+/// The options that can be set, by the names that they have in a TOML file.
+fn options() -> impl Iterator<Item = (OptionId, &'static str)> {
+    let named = |id: OptionId| Some((id, id.spec().key?));
+    Live::OPTIONS.into_iter().filter_map(named)
+}
+
+/// Everything that can be asked for.
+fn names() -> impl Iterator<Item = &'static str> {
+    options().map(|(_, name)| name).chain([VIEWS, LAYER])
+}
+
+fn settable(name: &str) -> Result<OptionId, ControlError> {
+    let found = options().find(|(_, known)| *known == name);
+    found.map(|(id, _)| id).ok_or_else(|| {
+        let known = options().map(|(_, name)| name);
+        ControlError::NotSettable {
+            name: name.to_owned(),
+            known: known.collect::<Vec<_>>().join(", "),
+        }
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn requests_are_understood() {
+        assert_eq!(
+            order(r#"{"set": {"separation": 0.03, "output": "view:1"}}"#),
+            Ok(Order::Set(vec![
+                (OptionId::Output, "view:1".to_owned()),
+                (OptionId::Separation, "0.03".to_owned()),
+            ]))
+        );
+        assert_eq!(order(r#"{"get": "all"}"#), Ok(Order::Get(None)));
+        assert_eq!(
+            order(r#"{"get": "hud-depth"}"#),
+            Ok(Order::Get(Some("hud-depth".to_owned())))
+        );
+        assert_eq!(
+            order(r#"{"capture": {"path": "/a.png"}}"#),
+            Ok(Order::Capture("/a.png".into(), "output".to_owned()))
+        );
+        assert_eq!(order(r#"{"toggle": "layer"}"#), Ok(Order::Toggle));
+    }
+
+    #[test]
+    fn what_is_sent_is_understood() {
+        let request = Request::Capture(Picture {
+            path: "/x/y.png".into(),
+            what: Some("view:2".to_owned()),
+        });
+        let sent = line(&request);
+        assert_eq!(
+            sent,
+            "{\"capture\":{\"path\":\"/x/y.png\",\"what\":\"view:2\"}}\n"
+        );
+        assert_eq!(
+            order(&sent),
+            Ok(Order::Capture("/x/y.png".into(), "view:2".to_owned()))
+        );
+        let answer = Answer::Captured {
+            path: "/x/y.png".into(),
+            frame: 31,
+        };
+        let sent = line(&answer);
+        assert_eq!(
+            sent,
+            "{\"captured\":{\"path\":\"/x/y.png\",\"frame\":31}}\n"
+        );
+        assert_eq!(serde_json::from_str::<Answer>(&sent).unwrap(), answer);
+    }
+
+    #[test]
+    fn every_refusal_is_one_sentence() {
+        let all = [
+            "",
+            "separation 0.03",
+            "{}",
+            "[]",
+            r#"{"set": 3}"#,
+            r#"{"set": {"views": 3}}"#,
+            r#"{"set": {"separation": [1]}}"#,
+            r#"{"set": {"separation": true}}"#,
+            r#"{"get": "strategy"}"#,
+            r#"{"capture": {"path": "a.png"}}"#,
+            r#"{"capture": {"path": "/a.png", "frames": 3}}"#,
+            r#"{"toggle": "sound"}"#,
+            r#"{"stop": "now"}"#,
+        ]
+        .map(|line| order(line).unwrap_err().to_string());
+        assert!(all.iter().all(|message| !message.contains('\n')));
+        insta::assert_snapshot!(all.join("\n"));
+    }
+}

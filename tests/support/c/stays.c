@@ -1,0 +1,97 @@
+/* Draws the same frame again and again until the file STOP exists or the frames are over.
+ *   stays STOP [FOLDER]
+ * In FOLDER, a file `shoot` makes it write what the window shows to `shot.ppm`, and take `shoot` away. */
+#include <GL/gl.h>
+#include <GL/glx.h>
+#include <X11/Xlib.h>
+#include <X11/Xutil.h>
+#include <stdio.h>
+#include <unistd.h>
+
+enum { WIDTH = 96, HEIGHT = 64, FRAMES = 20000 };
+
+static void draw(void)
+{
+    glClearColor(0.1f, 0.2f, 0.3f, 1);
+    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    glEnable(GL_DEPTH_TEST);
+    glMatrixMode(GL_PROJECTION);
+    glLoadIdentity();
+    glFrustum(-0.6, 0.6, -0.4, 0.4, 1, 50);
+    glMatrixMode(GL_MODELVIEW);
+    glLoadIdentity();
+    /* Bars at several depths, each with its own colour, none of which is half way between two steps of 255: windows and
+     * textures round those differently. */
+    for (int i = 0; i < 12; i++) {
+        float x = -3 + 0.55f * i, z = -3 - 2.3f * (float)((i * 5) % 12);
+        glColor3f((float)(i % 3) / 3, (float)(i % 5) / 5, 1 - (float)(i % 7) / 7);
+        glBegin(GL_TRIANGLES);
+        glVertex3f(x, -2, z);
+        glVertex3f(x + 0.8f, -2, z);
+        glVertex3f(x + 0.3f, 3, z - 1);
+        glEnd();
+    }
+    /* A gauge before it. */
+    glMatrixMode(GL_PROJECTION);
+    glLoadIdentity();
+    glOrtho(0, WIDTH, 0, HEIGHT, -1, 1);
+    glDisable(GL_DEPTH_TEST);
+    glColor3f(1, 1, 0);
+    glRecti(40, 4, 56, 12);
+}
+
+static void shoot(Display *display, Window window, const char *folder)
+{
+    char order[4096], growing[4096], done[4096];
+    snprintf(order, sizeof order, "%s/shoot", folder);
+    snprintf(growing, sizeof growing, "%s/growing", folder);
+    snprintf(done, sizeof done, "%s/shot.ppm", folder);
+    if (access(order, F_OK))
+        return;
+    XSync(display, False);
+    XImage *image = XGetImage(display, window, 0, 0, WIDTH, HEIGHT, AllPlanes, ZPixmap);
+    FILE *out = fopen(growing, "wb");
+    if (!image || !out)
+        return;
+    fprintf(out, "P6\n%d %d\n255\n", WIDTH, HEIGHT);
+    for (int y = 0; y < HEIGHT; y++)
+        for (int x = 0; x < WIDTH; x++) {
+            unsigned long p = XGetPixel(image, x, y);
+            fputc((int)(p >> 16 & 255), out);
+            fputc((int)(p >> 8 & 255), out);
+            fputc((int)(p & 255), out);
+        }
+    fclose(out);
+    XDestroyImage(image);
+    rename(growing, done);
+    unlink(order);
+}
+
+int main(int count, char **arguments)
+{
+    int wanted[] = {GLX_RGBA, GLX_DOUBLEBUFFER, GLX_DEPTH_SIZE, 16, None};
+    Display *display = XOpenDisplay(NULL);
+    XVisualInfo *visual = display ? glXChooseVisual(display, DefaultScreen(display), wanted) : NULL;
+    if (count < 2 || !visual)
+        return 2;
+    Window root = DefaultRootWindow(display);
+    XSetWindowAttributes a = {.colormap = XCreateColormap(display, root, visual->visual, AllocNone), .override_redirect = True};
+    Window window = XCreateWindow(display, root, 0, 0, WIDTH, HEIGHT, 0, visual->depth, InputOutput, visual->visual,
+                                  CWColormap | CWOverrideRedirect, &a);
+    XMapWindow(display, window);
+    XSync(display, False);
+    GLXContext context = glXCreateContext(display, visual, NULL, True);
+    if (!glXMakeCurrent(display, window, context))
+        return 3;
+    for (int i = 0; i < FRAMES && access(arguments[1], F_OK); i++) {
+        draw();
+        glXSwapBuffers(display, window);
+        if (count > 2)
+            shoot(display, window, arguments[2]);
+        usleep(2000);
+    }
+    glXMakeCurrent(display, None, NULL);
+    glXDestroyContext(display, context);
+    XCloseDisplay(display);
+    return 0;
+}
