@@ -5,6 +5,7 @@
 mod support;
 
 use image::{Rgb, RgbImage, imageops};
+use manyview::config::Filter;
 use manyview::display::{Display, Placement};
 use manyview::interleave::reference;
 use support::{Compiled, Screen, compiled, layered, own_screen, rgb, succeed};
@@ -126,6 +127,36 @@ fn masks_follow_the_window() {
             );
         }
         assert_ne!(shown[1], shown[3], "{name}: the phase moved");
+    }
+}
+
+#[test]
+fn filtered_panels_are_the_reference() {
+    let screen = own_screen();
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = folder.path().join("panel.toml");
+    let text = "kind = \"slanted\"\nviews = 7\npitch = 18.6579\nslant = -0.41\noffset = 0.25";
+    std::fs::write(&file, text).expect("written");
+    let name = file.to_str().expect("UTF-8");
+    let display = Display::load(name).expect("a display");
+    let atlas = frames(&screen, 7, &[], "atlas");
+    let tiles = tiles(&atlas[1], 7);
+    let at = Placement {
+        screen_width: SCREEN.0,
+        screen_height: SCREEN.1,
+        x: PLACES[0].0,
+        y: PLACES[0].1,
+        width: tiles[0].width(),
+        height: tiles[0].height(),
+    };
+    let mask = display.fine_mask(&at, 7).expect("a mask");
+    let nearest = frames(&screen, 7, &[("DISPLAY", name)], "output");
+    for (word, filter) in [("blend", Filter::Blend), ("gaussian", Filter::Gaussian)] {
+        let shown = frames(&screen, 7, &[("DISPLAY", name), ("FILTER", word)], "output");
+        let expected = reference::filtered(&tiles, &mask, filter).expect("a picture");
+        // Floats of the driver may round the other way.
+        same(&expected, &shown[1], 1, word);
+        assert_ne!(shown[1], nearest[1], "{word} does something");
     }
 }
 
