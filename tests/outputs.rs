@@ -17,6 +17,17 @@ const SCREEN: (u32, u32) = (1920, 1200);
 
 /// Frames 1 to 6 of the program that moves its window.
 fn frames(screen: &Screen, views: u32, options: &[(&str, &str)], what: &str) -> Vec<RgbImage> {
+    frames_of(screen, views, options, what, &[])
+}
+
+/// As [`frames`], with arguments for the program.
+fn frames_of(
+    screen: &Screen,
+    views: u32,
+    options: &[(&str, &str)],
+    what: &str,
+    arguments: &[&str],
+) -> Vec<RgbImage> {
     let program = compiled("moves", Compiled::Program, &["-lGL", "-lX11"]);
     let folder = tempfile::tempdir().expect("a folder");
     let out = folder.path().join("%d.png");
@@ -31,7 +42,7 @@ fn frames(screen: &Screen, views: u32, options: &[(&str, &str)], what: &str) -> 
         ("FOCAL_DEPTH", "8"),
     ];
     all.extend(options);
-    succeed(screen.give(&mut layered(&program, &all)));
+    succeed(screen.give(layered(&program, &all).args(arguments)));
     let frame = |i: i32| rgb(&folder.path().join(format!("{i}.png")));
     (1..=6).map(frame).collect()
 }
@@ -94,6 +105,24 @@ fn interlaced_outputs_follow_the_window() {
             }
         }
     }
+}
+
+/// The same for a drawable of glXCreateWindow, which GLFW and others draw to.
+#[test]
+fn drawables_of_windows_follow_them() {
+    let screen = own_screen();
+    let options = [("OUTPUT", "checker")];
+    let plain = frames(&screen, 2, &options, "output");
+    let drawable = frames_of(&screen, 2, &options, "output", &["drawable"]);
+    for (x, y, frame) in PLACES {
+        same(
+            &plain[frame - 1],
+            &drawable[frame - 1],
+            0,
+            &format!("at {x},{y}"),
+        );
+    }
+    assert_ne!(plain[1], plain[3], "the phase moved");
 }
 
 #[test]
