@@ -24,7 +24,7 @@ PICTURE_PACKAGES := netpbm
 # A game with a timedemo: 423 MB, and only for the targets that play it.
 OPENARENA_PACKAGES := openarena unzip
 
-.PHONY: help build demos demo pictures test test-long test-full programs soak openarena openarena-pictures lint packages \
+.PHONY: help build demos demo pictures gallery test test-long test-full programs soak openarena openarena-pictures lint packages \
 	install uninstall clean
 
 help: ## list the targets
@@ -57,6 +57,10 @@ pictures: packages build demos ## make the picture of the README
 		$(DEMOS)/mirror --size 672x336
 	pngtopnm $(PICTURES)/quilt.png >$(PICTURES)/quilt.ppm
 	pngtopnm $(PICTURES)/panel.png | pnmcat -topbottom $(PICTURES)/quilt.ppm - | pnmtopng -compression 9 >docs/mirror.png
+
+gallery: packages build demos ## make the pictures of docs/gallery.md
+	@sh scripts/packages.sh $(PICTURE_PACKAGES)
+	@sh scripts/gallery.sh $(BIN) $(DEMOS)/mirror docs/gallery
 
 test: packages build demos ## run the tests
 	@if $(CARGO) nextest --version >/dev/null 2>&1; \

@@ -1,25 +1,5 @@
 // The first and the last view for coloured glasses: two matrices on linear light.
 
-// sRGB to linear light; what is fetched from an sRGB texture is linear already.
-fn linear(colour: vec3<f32>) -> vec3<f32> {
-    if u.linear != 0u {
-        return colour;
-    }
-    let low = colour / 12.92;
-    let high = pow((colour + 0.055) / 1.055, vec3<f32>(2.4));
-    return select(high, low, colour <= vec3<f32>(0.04045));
-}
-
-// And back; an sRGB framebuffer does it itself.
-fn encoded(light: vec3<f32>) -> vec3<f32> {
-    if u.linear != 0u {
-        return light;
-    }
-    let low = light * 12.92;
-    let high = 1.055 * pow(light, vec3<f32>(1.0 / 2.4)) - 0.055;
-    return select(high, low, light <= vec3<f32>(0.0031308));
-}
-
 @fragment
 fn anaglyph(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
     let at = 2u * top_down(position) + 1u;

@@ -29,9 +29,11 @@ struct Uniforms {
     cells_from_top: u32,
     // 1: the mask is that of two eyes, and its view 1 is the last one (interleave only).
     eyes: u32,
-    // 1: colours are fetched and written as linear light (anaglyph only).
+    // 1: colours are fetched and written as linear light.
     linear: u32,
-    pad: vec2<u32>,
+    // 0: the mask has views; 1 and 2: it has 256ths of views, of which two are blended or three filtered (interleave only).
+    filtered: u32,
+    pad: u32,
     // What the left and the right view give to each colour (anaglyph only).
     left_red: vec4<f32>,
     left_green: vec4<f32>,
@@ -89,4 +91,24 @@ fn colour(view: u32, num: vec2<u32>, den: vec2<u32>) -> vec3<f32> {
     let upper = mix(texel(view, vec2<u32>(x.low, y.low)), texel(view, vec2<u32>(x.high, y.low)), x.weight);
     let lower = mix(texel(view, vec2<u32>(x.low, y.high)), texel(view, vec2<u32>(x.high, y.high)), x.weight);
     return mix(upper, lower, y.weight);
+}
+
+// sRGB to linear light; what is fetched from an sRGB texture is linear already.
+fn linear(colour: vec3<f32>) -> vec3<f32> {
+    if u.linear != 0u {
+        return colour;
+    }
+    let low = colour / 12.92;
+    let high = pow((colour + 0.055) / 1.055, vec3<f32>(2.4));
+    return select(high, low, colour <= vec3<f32>(0.04045));
+}
+
+// And back; an sRGB framebuffer does it itself.
+fn encoded(light: vec3<f32>) -> vec3<f32> {
+    if u.linear != 0u {
+        return light;
+    }
+    let low = light * 12.92;
+    let high = 1.055 * pow(light, vec3<f32>(1.0 / 2.4)) - 0.055;
+    return select(high, low, light <= vec3<f32>(0.0031308));
 }

@@ -1,7 +1,13 @@
-// The picture of a panel: each subpixel from the view that the mask names.
+// The picture of a panel: each subpixel from the view that the mask names, or from those around its place between views.
 
 // Row 0 is the top row. A value of N or more, such as the guard 65535, is black.
 @group(0) @binding(1) var mask_texture: texture_2d<u32>;
+
+const GUARD = 65535u;
+// Steps from view to view.
+const FINE = 256.0;
+// Of the Gaussian, in views: a view's neighbours have a quarter of the weight in its middle.
+const SIGMA = 0.6;
 
 // One channel at a time: three fetches of one colour each where the views differ.
 fn channel(view: u32, at: vec2<u32>) -> vec3<f32> {
@@ -11,10 +17,42 @@ fn channel(view: u32, at: vec2<u32>) -> vec3<f32> {
     return colour(view, 2u * at + 1u, 2u * u.picture);
 }
 
+// Light of a view, the nearest one where there is none.
+fn light(view: i32, at: vec2<u32>) -> vec3<f32> {
+    let inside = u32(clamp(view, 0, i32(u.views) - 1));
+    return linear(colour(inside, 2u * at + 1u, 2u * u.picture));
+}
+
+// What lies at a place between views; `step` counts 256ths of a view from the left end of view 0.
+fn between(step: u32, at: vec2<u32>) -> vec3<f32> {
+    if step == GUARD {
+        return vec3<f32>(0.0);
+    }
+    // From the middle of view 0, in views; the middle of the step.
+    let place = (f32(step) + 0.5) / FINE - 0.5;
+    if u.filtered == 1u {
+        let low = floor(place);
+        return encoded(mix(light(i32(low), at), light(i32(low) + 1, at), place - low));
+    }
+    let middle = floor(place + 0.5);
+    var sum = vec3<f32>(0.0);
+    var weights = 0.0;
+    for (var i = -1; i <= 1; i++) {
+        let distance = (middle + f32(i) - place) / SIGMA;
+        let weight = exp(-0.5 * distance * distance);
+        sum += weight * light(i32(middle) + i, at);
+        weights += weight;
+    }
+    return encoded(sum / weights);
+}
+
 @fragment
 fn interleave(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
     let at = top_down(position);
     var views = textureLoad(mask_texture, vec2<i32>(at), 0).rgb;
+    if u.filtered != 0u {
+        return vec4<f32>(between(views.r, at).r, between(views.g, at).g, between(views.b, at).b, 1.0);
+    }
     if u.eyes != 0u {
         views = select(views, vec3<u32>(u.views - 1u), views == vec3<u32>(1u));
     }

@@ -34,8 +34,8 @@ fn bad_options_are_one_line_and_status_2() {
         ),
         (&["--output", "view:8"], "the last is view:7"),
         (
-            &["--output", "checker"],
-            "this version knows panel, sbs, quilt and view:I",
+            &["--output", "chequer"],
+            "this version knows panel, quilt, sbs, ",
         ),
         (&["--strategy", "magic"], "replay"),
         (&["--view-scale", "auto"], "leave it out or give 1"),

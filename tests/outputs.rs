@@ -5,6 +5,7 @@
 mod support;
 
 use image::{Rgb, RgbImage, imageops};
+use manyview::config::Filter;
 use manyview::display::{Display, Placement};
 use manyview::interleave::reference;
 use support::{Compiled, Screen, compiled, layered, own_screen, rgb, succeed};
@@ -16,6 +17,17 @@ const SCREEN: (u32, u32) = (1920, 1200);
 
 /// Frames 1 to 6 of the program that moves its window.
 fn frames(screen: &Screen, views: u32, options: &[(&str, &str)], what: &str) -> Vec<RgbImage> {
+    frames_of(screen, views, options, what, &[])
+}
+
+/// As [`frames`], with arguments for the program.
+fn frames_of(
+    screen: &Screen,
+    views: u32,
+    options: &[(&str, &str)],
+    what: &str,
+    arguments: &[&str],
+) -> Vec<RgbImage> {
     let program = compiled("moves", Compiled::Program, &["-lGL", "-lX11"]);
     let folder = tempfile::tempdir().expect("a folder");
     let out = folder.path().join("%d.png");
@@ -30,7 +42,7 @@ fn frames(screen: &Screen, views: u32, options: &[(&str, &str)], what: &str) -> 
         ("FOCAL_DEPTH", "8"),
     ];
     all.extend(options);
-    succeed(screen.give(&mut layered(&program, &all)));
+    succeed(screen.give(layered(&program, &all).args(arguments)));
     let frame = |i: i32| rgb(&folder.path().join(format!("{i}.png")));
     (1..=6).map(frame).collect()
 }
@@ -95,6 +107,24 @@ fn interlaced_outputs_follow_the_window() {
     }
 }
 
+/// The same for a drawable of glXCreateWindow, which GLFW and others draw to.
+#[test]
+fn drawables_of_windows_follow_them() {
+    let screen = own_screen();
+    let options = [("OUTPUT", "checker")];
+    let plain = frames(&screen, 2, &options, "output");
+    let drawable = frames_of(&screen, 2, &options, "output", &["drawable"]);
+    for (x, y, frame) in PLACES {
+        same(
+            &plain[frame - 1],
+            &drawable[frame - 1],
+            0,
+            &format!("at {x},{y}"),
+        );
+    }
+    assert_ne!(plain[1], plain[3], "the phase moved");
+}
+
 #[test]
 fn masks_follow_the_window() {
     let screen = own_screen();
@@ -126,6 +156,36 @@ fn masks_follow_the_window() {
             );
         }
         assert_ne!(shown[1], shown[3], "{name}: the phase moved");
+    }
+}
+
+#[test]
+fn filtered_panels_are_the_reference() {
+    let screen = own_screen();
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = folder.path().join("panel.toml");
+    let text = "kind = \"slanted\"\nviews = 7\npitch = 18.6579\nslant = -0.41\noffset = 0.25";
+    std::fs::write(&file, text).expect("written");
+    let name = file.to_str().expect("UTF-8");
+    let display = Display::load(name).expect("a display");
+    let atlas = frames(&screen, 7, &[], "atlas");
+    let tiles = tiles(&atlas[1], 7);
+    let at = Placement {
+        screen_width: SCREEN.0,
+        screen_height: SCREEN.1,
+        x: PLACES[0].0,
+        y: PLACES[0].1,
+        width: tiles[0].width(),
+        height: tiles[0].height(),
+    };
+    let mask = display.fine_mask(&at, 7).expect("a mask");
+    let nearest = frames(&screen, 7, &[("DISPLAY", name)], "output");
+    for (word, filter) in [("blend", Filter::Blend), ("gaussian", Filter::Gaussian)] {
+        let shown = frames(&screen, 7, &[("DISPLAY", name), ("FILTER", word)], "output");
+        let expected = reference::filtered(&tiles, &mask, filter).expect("a picture");
+        // Floats of the driver may round the other way.
+        same(&expected, &shown[1], 1, word);
+        assert_ne!(shown[1], nearest[1], "{word} does something");
     }
 }
 

@@ -6,6 +6,7 @@ use crate::geometry;
 use crate::provider::Provider;
 use crate::shares;
 use crate::switch::{self, Mode, say, turn_off};
+use crate::windows;
 use core::cell::Cell;
 use core::ffi::c_ulong;
 use core::panic::AssertUnwindSafe;
@@ -210,7 +211,9 @@ fn size(drawable: Drawable) -> Option<(u32, u32)> {
 fn place(drawable: Drawable) -> Option<OnScreen> {
     match drawable {
         // SAFETY: the program shows this drawable on this thread.
-        Drawable::Glx(display, drawable) => unsafe { geometry::glx_place(display, drawable) },
+        Drawable::Glx(display, drawable) => unsafe {
+            geometry::glx_place(display, windows::behind(display, drawable))
+        },
         // Their windows are not known here, and memory lies nowhere.
         Drawable::Egl(..) | Drawable::Memory(..) => None,
     }

@@ -7,7 +7,7 @@ use manyview_core::gl::{Ptr, slot};
 use manyview_core::state::Effect;
 
 /// Where each exported function jumps to, by slot: at first its resolver, then the driver's function or the hook.
-pub(crate) static ENTRY: [AtomicPtr<()>; 1240] = [
+pub(crate) static ENTRY: [AtomicPtr<()>; 1242] = [
     AtomicPtr::new(first_glVertex2d as *mut ()),
     AtomicPtr::new(first_glVertex2dv as *mut ()),
     AtomicPtr::new(first_glVertex2f as *mut ()),
@@ -1197,6 +1197,8 @@ pub(crate) static ENTRY: [AtomicPtr<()>; 1240] = [
     AtomicPtr::new(first_glXCreateContextAttribsARB as *mut ()),
     AtomicPtr::new(first_glXCreateContextWithConfigSGIX as *mut ()),
     AtomicPtr::new(first_glXDestroyContext as *mut ()),
+    AtomicPtr::new(first_glXCreateWindow as *mut ()),
+    AtomicPtr::new(first_glXDestroyWindow as *mut ()),
     AtomicPtr::new(first_glXGetProcAddress as *mut ()),
     AtomicPtr::new(first_glXGetProcAddressARB as *mut ()),
     AtomicPtr::new(core::ptr::null_mut()),
@@ -1251,7 +1253,7 @@ pub(crate) static ENTRY: [AtomicPtr<()>; 1240] = [
 ];
 
 /// The hook of each exported function, by slot.
-pub(crate) static HOOK: [Option<crate::Address>; 1240] = [
+pub(crate) static HOOK: [Option<crate::Address>; 1242] = [
     Some(crate::Address(hook_glVertex2d as *const ())),
     Some(crate::Address(hook_glVertex2dv as *const ())),
     Some(crate::Address(hook_glVertex2f as *const ())),
@@ -2441,6 +2443,8 @@ pub(crate) static HOOK: [Option<crate::Address>; 1240] = [
     Some(crate::Address(hook_glXCreateContextAttribsARB as *const ())),
     Some(crate::Address(hook_glXCreateContextWithConfigSGIX as *const ())),
     Some(crate::Address(hook_glXDestroyContext as *const ())),
+    Some(crate::Address(hook_glXCreateWindow as *const ())),
+    Some(crate::Address(hook_glXDestroyWindow as *const ())),
     Some(crate::Address(hook_glXGetProcAddress as *const ())),
     Some(crate::Address(hook_glXGetProcAddressARB as *const ())),
     None,
@@ -2495,21 +2499,21 @@ pub(crate) static HOOK: [Option<crate::Address>; 1240] = [
 ];
 
 /// Exported names in order, their slots and addresses: what dlsym and the GetProcAddress family hand out.
-pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1205] = [
-    (b"OSMesaCreateContext", 1205, crate::Address(OSMesaCreateContext as *const ())),
-    (b"OSMesaCreateContextAttribs", 1207, crate::Address(OSMesaCreateContextAttribs as *const ())),
-    (b"OSMesaCreateContextExt", 1206, crate::Address(OSMesaCreateContextExt as *const ())),
-    (b"OSMesaDestroyContext", 1208, crate::Address(OSMesaDestroyContext as *const ())),
-    (b"OSMesaGetProcAddress", 1209, crate::Address(OSMesaGetProcAddress as *const ())),
-    (b"OSMesaMakeCurrent", 1204, crate::Address(OSMesaMakeCurrent as *const ())),
-    (b"eglCreateContext", 1196, crate::Address(eglCreateContext as *const ())),
-    (b"eglDestroyContext", 1197, crate::Address(eglDestroyContext as *const ())),
-    (b"eglGetProcAddress", 1199, crate::Address(eglGetProcAddress as *const ())),
-    (b"eglMakeCurrent", 1195, crate::Address(eglMakeCurrent as *const ())),
-    (b"eglReleaseThread", 1198, crate::Address(eglReleaseThread as *const ())),
-    (b"eglSwapBuffers", 1192, crate::Address(eglSwapBuffers as *const ())),
-    (b"eglSwapBuffersWithDamageEXT", 1194, crate::Address(eglSwapBuffersWithDamageEXT as *const ())),
-    (b"eglSwapBuffersWithDamageKHR", 1193, crate::Address(eglSwapBuffersWithDamageKHR as *const ())),
+pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1207] = [
+    (b"OSMesaCreateContext", 1207, crate::Address(OSMesaCreateContext as *const ())),
+    (b"OSMesaCreateContextAttribs", 1209, crate::Address(OSMesaCreateContextAttribs as *const ())),
+    (b"OSMesaCreateContextExt", 1208, crate::Address(OSMesaCreateContextExt as *const ())),
+    (b"OSMesaDestroyContext", 1210, crate::Address(OSMesaDestroyContext as *const ())),
+    (b"OSMesaGetProcAddress", 1211, crate::Address(OSMesaGetProcAddress as *const ())),
+    (b"OSMesaMakeCurrent", 1206, crate::Address(OSMesaMakeCurrent as *const ())),
+    (b"eglCreateContext", 1198, crate::Address(eglCreateContext as *const ())),
+    (b"eglDestroyContext", 1199, crate::Address(eglDestroyContext as *const ())),
+    (b"eglGetProcAddress", 1201, crate::Address(eglGetProcAddress as *const ())),
+    (b"eglMakeCurrent", 1197, crate::Address(eglMakeCurrent as *const ())),
+    (b"eglReleaseThread", 1200, crate::Address(eglReleaseThread as *const ())),
+    (b"eglSwapBuffers", 1194, crate::Address(eglSwapBuffers as *const ())),
+    (b"eglSwapBuffersWithDamageEXT", 1196, crate::Address(eglSwapBuffersWithDamageEXT as *const ())),
+    (b"eglSwapBuffersWithDamageKHR", 1195, crate::Address(eglSwapBuffersWithDamageKHR as *const ())),
     (b"glAccum", 956, crate::Address(glAccum as *const ())),
     (b"glActiveTexture", 536, crate::Address(glActiveTexture as *const ())),
     (b"glActiveTextureARB", 537, crate::Address(glActiveTextureARB as *const ())),
@@ -3693,9 +3697,11 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1205] = [
     (b"glXCreateContextAttribsARB", 1186, crate::Address(glXCreateContextAttribsARB as *const ())),
     (b"glXCreateContextWithConfigSGIX", 1187, crate::Address(glXCreateContextWithConfigSGIX as *const ())),
     (b"glXCreateNewContext", 1185, crate::Address(glXCreateNewContext as *const ())),
+    (b"glXCreateWindow", 1189, crate::Address(glXCreateWindow as *const ())),
     (b"glXDestroyContext", 1188, crate::Address(glXDestroyContext as *const ())),
-    (b"glXGetProcAddress", 1189, crate::Address(glXGetProcAddress as *const ())),
-    (b"glXGetProcAddressARB", 1190, crate::Address(glXGetProcAddressARB as *const ())),
+    (b"glXDestroyWindow", 1190, crate::Address(glXDestroyWindow as *const ())),
+    (b"glXGetProcAddress", 1191, crate::Address(glXGetProcAddress as *const ())),
+    (b"glXGetProcAddressARB", 1192, crate::Address(glXGetProcAddressARB as *const ())),
     (b"glXMakeContextCurrent", 1182, crate::Address(glXMakeContextCurrent as *const ())),
     (b"glXMakeCurrent", 1181, crate::Address(glXMakeCurrent as *const ())),
     (b"glXMakeCurrentReadSGI", 1183, crate::Address(glXMakeCurrentReadSGI as *const ())),
@@ -12927,67 +12933,75 @@ export! { 1188, glXDestroyContext, first_glXDestroyContext, hook_glXDestroyConte
     // SAFETY: the program's own arguments.
     unsafe { special::glXDestroyContext(dpy, ctx) }
 } }
-export! { 1189, glXGetProcAddress, first_glXGetProcAddress, hook_glXGetProcAddress, (name: Ptr) -> Ptr, {
+export! { 1189, glXCreateWindow, first_glXCreateWindow, hook_glXCreateWindow, (dpy: Ptr, config: Ptr, win: c_ulong, attribs: Ptr) -> c_ulong, {
+    // SAFETY: the program's own arguments.
+    unsafe { special::glXCreateWindow(dpy, config, win, attribs) }
+} }
+export! { 1190, glXDestroyWindow, first_glXDestroyWindow, hook_glXDestroyWindow, (dpy: Ptr, win: c_ulong) -> (), {
+    // SAFETY: the program's own arguments.
+    unsafe { special::glXDestroyWindow(dpy, win) }
+} }
+export! { 1191, glXGetProcAddress, first_glXGetProcAddress, hook_glXGetProcAddress, (name: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXGetProcAddress(name) }
 } }
-export! { 1190, glXGetProcAddressARB, first_glXGetProcAddressARB, hook_glXGetProcAddressARB, (name: Ptr) -> Ptr, {
+export! { 1192, glXGetProcAddressARB, first_glXGetProcAddressARB, hook_glXGetProcAddressARB, (name: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXGetProcAddressARB(name) }
 } }
-export! { 1192, eglSwapBuffers, first_eglSwapBuffers, hook_eglSwapBuffers, (dpy: Ptr, surface: Ptr) -> u32, {
+export! { 1194, eglSwapBuffers, first_eglSwapBuffers, hook_eglSwapBuffers, (dpy: Ptr, surface: Ptr) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglSwapBuffers(dpy, surface) }
 } }
-export! { 1193, eglSwapBuffersWithDamageKHR, first_eglSwapBuffersWithDamageKHR, hook_eglSwapBuffersWithDamageKHR, (dpy: Ptr, surface: Ptr, rects: Ptr, n: i32) -> u32, {
+export! { 1195, eglSwapBuffersWithDamageKHR, first_eglSwapBuffersWithDamageKHR, hook_eglSwapBuffersWithDamageKHR, (dpy: Ptr, surface: Ptr, rects: Ptr, n: i32) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglSwapBuffersWithDamageKHR(dpy, surface, rects, n) }
 } }
-export! { 1194, eglSwapBuffersWithDamageEXT, first_eglSwapBuffersWithDamageEXT, hook_eglSwapBuffersWithDamageEXT, (dpy: Ptr, surface: Ptr, rects: Ptr, n: i32) -> u32, {
+export! { 1196, eglSwapBuffersWithDamageEXT, first_eglSwapBuffersWithDamageEXT, hook_eglSwapBuffersWithDamageEXT, (dpy: Ptr, surface: Ptr, rects: Ptr, n: i32) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglSwapBuffersWithDamageEXT(dpy, surface, rects, n) }
 } }
-export! { 1195, eglMakeCurrent, first_eglMakeCurrent, hook_eglMakeCurrent, (dpy: Ptr, draw: Ptr, read: Ptr, ctx: Ptr) -> u32, {
+export! { 1197, eglMakeCurrent, first_eglMakeCurrent, hook_eglMakeCurrent, (dpy: Ptr, draw: Ptr, read: Ptr, ctx: Ptr) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglMakeCurrent(dpy, draw, read, ctx) }
 } }
-export! { 1196, eglCreateContext, first_eglCreateContext, hook_eglCreateContext, (dpy: Ptr, config: Ptr, share: Ptr, attribs: Ptr) -> Ptr, {
+export! { 1198, eglCreateContext, first_eglCreateContext, hook_eglCreateContext, (dpy: Ptr, config: Ptr, share: Ptr, attribs: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglCreateContext(dpy, config, share, attribs) }
 } }
-export! { 1197, eglDestroyContext, first_eglDestroyContext, hook_eglDestroyContext, (dpy: Ptr, ctx: Ptr) -> u32, {
+export! { 1199, eglDestroyContext, first_eglDestroyContext, hook_eglDestroyContext, (dpy: Ptr, ctx: Ptr) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglDestroyContext(dpy, ctx) }
 } }
-export! { 1198, eglReleaseThread, first_eglReleaseThread, hook_eglReleaseThread, () -> u32, {
+export! { 1200, eglReleaseThread, first_eglReleaseThread, hook_eglReleaseThread, () -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglReleaseThread() }
 } }
-export! { 1199, eglGetProcAddress, first_eglGetProcAddress, hook_eglGetProcAddress, (name: Ptr) -> Ptr, {
+export! { 1201, eglGetProcAddress, first_eglGetProcAddress, hook_eglGetProcAddress, (name: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglGetProcAddress(name) }
 } }
-export! { 1204, OSMesaMakeCurrent, first_OSMesaMakeCurrent, hook_OSMesaMakeCurrent, (ctx: Ptr, buffer: Ptr, kind: u32, width: i32, height: i32) -> u8, {
+export! { 1206, OSMesaMakeCurrent, first_OSMesaMakeCurrent, hook_OSMesaMakeCurrent, (ctx: Ptr, buffer: Ptr, kind: u32, width: i32, height: i32) -> u8, {
     // SAFETY: the program's own arguments.
     unsafe { special::OSMesaMakeCurrent(ctx, buffer, kind, width, height) }
 } }
-export! { 1205, OSMesaCreateContext, first_OSMesaCreateContext, hook_OSMesaCreateContext, (format: u32, share: Ptr) -> Ptr, {
+export! { 1207, OSMesaCreateContext, first_OSMesaCreateContext, hook_OSMesaCreateContext, (format: u32, share: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::OSMesaCreateContext(format, share) }
 } }
-export! { 1206, OSMesaCreateContextExt, first_OSMesaCreateContextExt, hook_OSMesaCreateContextExt, (format: u32, depth: i32, stencil: i32, accum: i32, share: Ptr) -> Ptr, {
+export! { 1208, OSMesaCreateContextExt, first_OSMesaCreateContextExt, hook_OSMesaCreateContextExt, (format: u32, depth: i32, stencil: i32, accum: i32, share: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::OSMesaCreateContextExt(format, depth, stencil, accum, share) }
 } }
-export! { 1207, OSMesaCreateContextAttribs, first_OSMesaCreateContextAttribs, hook_OSMesaCreateContextAttribs, (attribs: Ptr, share: Ptr) -> Ptr, {
+export! { 1209, OSMesaCreateContextAttribs, first_OSMesaCreateContextAttribs, hook_OSMesaCreateContextAttribs, (attribs: Ptr, share: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::OSMesaCreateContextAttribs(attribs, share) }
 } }
-export! { 1208, OSMesaDestroyContext, first_OSMesaDestroyContext, hook_OSMesaDestroyContext, (ctx: Ptr) -> (), {
+export! { 1210, OSMesaDestroyContext, first_OSMesaDestroyContext, hook_OSMesaDestroyContext, (ctx: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::OSMesaDestroyContext(ctx) }
 } }
-export! { 1209, OSMesaGetProcAddress, first_OSMesaGetProcAddress, hook_OSMesaGetProcAddress, (name: Ptr) -> Ptr, {
+export! { 1211, OSMesaGetProcAddress, first_OSMesaGetProcAddress, hook_OSMesaGetProcAddress, (name: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::OSMesaGetProcAddress(name) }
 } }

@@ -16,6 +16,7 @@ mod provider;
 mod shares;
 mod special;
 mod switch;
+mod windows;
 
 /// Address of a function, in a static table.
 #[derive(Clone, Copy)]

@@ -14,9 +14,12 @@ pub(crate) struct LayerArguments {
     /// Number of views, 1 to 256 [default: the panel's own]
     #[arg(long, value_name = "N", allow_hyphen_values = true)]
     views: Option<String>,
-    /// What the window shows [default: panel]
-    #[arg(long, value_name = "panel|sbs|quilt|view:I")]
+    /// What the window shows: panel, quilt, sbs, half-sbs, tb, half-tb, rows, columns, checker, anaglyph[:KIND] or view:I [default: panel]
+    #[arg(long, value_name = "OUTPUT")]
     output: Option<String>,
+    /// What a subpixel between two views shows on the panel: nearest, blend or gaussian [default: nearest]
+    #[arg(long, value_name = "FILTER")]
+    filter: Option<String>,
     /// Spacing of neighbouring viewpoints in eye-space units; with --focal-depth
     #[arg(long, value_name = "K", allow_hyphen_values = true)]
     eye_spacing: Option<String>,
@@ -68,6 +71,7 @@ impl LayerArguments {
             (OptionId::Display, &self.display),
             (OptionId::Views, &self.views),
             (OptionId::Output, &self.output),
+            (OptionId::Filter, &self.filter),
             (OptionId::EyeSpacing, &self.eye_spacing),
             (OptionId::FocalDepth, &self.focal_depth),
             (OptionId::Separation, &self.separation),

@@ -2,6 +2,7 @@
 #![forbid(unsafe_code)]
 
 use super::options::Field;
+use crate::display::MAX_FINE_VIEWS;
 use std::path::PathBuf;
 
 /// Why the options cannot be used.
@@ -40,6 +41,16 @@ pub enum ConfigError {
     OneEye {
         /// The option.
         field: Field,
+    },
+    /// More views than a mask has steps for.
+    #[error(
+        "{field} blends at most {MAX_FINE_VIEWS} views, and there are {views}; leave it out or ask for fewer views"
+    )]
+    Fine {
+        /// The option.
+        field: Field,
+        /// N.
+        views: u32,
     },
     /// Not a finite number.
     #[error("{field} is '{value}'; give a finite number such as {example}")]

@@ -43,6 +43,8 @@ pub struct Config {
     pub display: Display,
     /// What is given to the swap.
     pub output: Output,
+    /// How a subpixel of the panel is made of the views around its place.
+    pub filter: Filter,
     /// Spacing of the cameras and the depth of zero parallax.
     pub camera: Camera,
     /// How draws are repeated per view.
@@ -134,6 +136,17 @@ impl Output {
             Self::Panel | Self::Quilt | Self::View(_) => false,
         }
     }
+}
+
+/// What a subpixel of a lens sheet shows, whose place lies between two views as a rule.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Filter {
+    /// The view it belongs to.
+    Nearest,
+    /// The two views beside its place, by their distances.
+    Blend,
+    /// Three views by a Gaussian: what differs too much from view to view is blurred rather than seen twice.
+    Gaussian,
 }
 
 /// Which pixels of the screen the left eye has; counted from the left top corner, the first one is its.

@@ -20,6 +20,8 @@ pub enum OptionId {
     Views,
     /// What is given to the swap.
     Output,
+    /// How a subpixel is made of the views around its place.
+    Filter,
     /// κ
     EyeSpacing,
     /// ξ
@@ -113,6 +115,8 @@ pub const OPTIONS: &[OptionSpec] = &[
         "number of views, 1 to 256; the panel's own unless given"),
     option!(Output, Some("output"), Some("output"), "MANYVIEW_OUTPUT", "panel|quilt|sbs|half-sbs|tb|half-tb|rows|columns|checker|anaglyph[:KIND]|view:I", No,
         "what the window shows; panel unless given"),
+    option!(Filter, Some("filter"), Some("filter"), "MANYVIEW_FILTER", "nearest|blend|gaussian", No,
+        "what a subpixel between two views shows on the panel; nearest unless given"),
     option!(EyeSpacing, Some("eye-spacing"), Some("eye-spacing"), "MANYVIEW_EYE_SPACING", "K", No,
         "spacing of neighbouring viewpoints in eye-space units; with --focal-depth"),
     option!(FocalDepth, Some("focal-depth"), Some("focal-depth"), "MANYVIEW_FOCAL_DEPTH", "X", No,
@@ -254,6 +258,6 @@ mod tests {
         for row in OPTIONS {
             assert_eq!(row.id.spec().variable, row.variable);
         }
-        assert_eq!(OPTIONS.len(), 22, "a new option needs a row");
+        assert_eq!(OPTIONS.len(), 23, "a new option needs a row");
     }
 }

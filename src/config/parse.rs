@@ -5,10 +5,10 @@ use super::error::ConfigError;
 use super::options::{Field, OptionId, Origin};
 use super::settings::Settings;
 use super::{
-    Anaglyph, AtlasLayout, Camera, Capture, CaptureWhat, Config, Explain, Glasses, Interlace,
-    MAX_VIEWS, Mixture, Output, Profile, Strategy, panel, profile,
+    Anaglyph, AtlasLayout, Camera, Capture, CaptureWhat, Config, Explain, Filter, Glasses,
+    Interlace, MAX_VIEWS, Mixture, Output, Profile, Strategy, panel, profile,
 };
-use crate::display::{Display, Kind, MaskError};
+use crate::display::{Display, Kind, MAX_FINE_VIEWS, MaskError};
 use std::fmt;
 use std::path::{Path, PathBuf};
 
@@ -24,6 +24,7 @@ impl Config {
         Ok(Self {
             views,
             output,
+            filter: filter(settings, views)?,
             camera: camera(settings)?,
             strategy: choice(
                 settings,
@@ -212,6 +213,22 @@ fn check_output(settings: &Settings, output: Output, views: u32) -> Result<(), C
         Output::View(_) => one_view(&field, value, views, OUTPUT_CHOICES).map(drop),
         _ if output.is_stereo() && views < 2 => Err(ConfigError::OneEye { field }),
         _ => Ok(()),
+    }
+}
+
+fn filter(settings: &Settings, views: u32) -> Result<Filter, ConfigError> {
+    const FILTERS: &[(&str, Filter)] = &[
+        ("nearest", Filter::Nearest),
+        ("blend", Filter::Blend),
+        ("gaussian", Filter::Gaussian),
+    ];
+    let names = "nearest, blend and gaussian";
+    let filter = choice(settings, OptionId::Filter, FILTERS, names)?.unwrap_or(Filter::Nearest);
+    match settings.field(OptionId::Filter) {
+        Some((field, _)) if filter != Filter::Nearest && views > MAX_FINE_VIEWS => {
+            Err(ConfigError::Fine { field, views })
+        }
+        _ => Ok(filter),
     }
 }
 

@@ -88,6 +88,15 @@ impl Mask {
             .collect()
     }
 
+    /// Changes every view; the guard stays.
+    pub(super) fn map(&mut self, change: impl Fn(u16) -> u16) {
+        for view in self.data.as_flattened_mut() {
+            if *view != GUARD {
+                *view = change(*view);
+            }
+        }
+    }
+
     /// Writes a 16-bit RGB PNG.
     pub fn to_png(&self, path: impl AsRef<Path>) -> Result<(), MaskError> {
         let path = path.as_ref();

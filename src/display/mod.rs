@@ -49,6 +49,12 @@ use std::sync::Arc;
 /// Largest number of views: indices are 16-bit and 65535 is the guard.
 pub const MAX_VIEWS: u32 = 65_535;
 
+/// Steps from view to view in [`Display::fine_mask`].
+pub const FINE: u16 = 256;
+
+/// Largest number of views that have such steps.
+pub const MAX_FINE_VIEWS: u32 = 255;
+
 /// A panel: how many views it shows and which subpixel shows which.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Display {
@@ -205,6 +211,25 @@ impl Display {
         self.check_mask()?;
         self.rotation
             .mask(placement, |placement| self.upright(placement, views))
+    }
+
+    /// As [`Display::mask`], in steps of a 256th of a view: where between the views a subpixel lies. Panels that have no places
+    /// between views have the middle of one. At most [`MAX_FINE_VIEWS`] views.
+    pub fn fine_mask(&self, placement: &Placement, views: u32) -> Result<Mask, MaskError> {
+        if !(1..=MAX_FINE_VIEWS).contains(&views) {
+            return Err(MaskError::Views { views });
+        }
+        let steps = match &self.kind {
+            Kind::Integer(steps) => steps.table.is_empty(),
+            Kind::Slanted(_) | Kind::LookingGlass(_) | Kind::Leia(_) => true,
+            _ => false,
+        };
+        if steps {
+            return self.mask(placement, views * u32::from(FINE));
+        }
+        let mut mask = self.mask(placement, views)?;
+        mask.map(|view| view.saturating_mul(FINE).saturating_add(FINE / 2));
+        Ok(mask)
     }
 
     /// Refuses a number of views that a pattern, a table or a mask file cannot do with.

@@ -4,7 +4,7 @@ use super::real::{Ptr, Real};
 use core::ffi::{CStr, c_ulong};
 
 /// Number of commands in the table.
-pub const COUNT: usize = 1240;
+pub const COUNT: usize = 1242;
 
 /// Index of each command in the table.
 pub mod slot {
@@ -1197,57 +1197,59 @@ pub mod slot {
     pub const glXCreateContextAttribsARB: usize = 1186;
     pub const glXCreateContextWithConfigSGIX: usize = 1187;
     pub const glXDestroyContext: usize = 1188;
-    pub const glXGetProcAddress: usize = 1189;
-    pub const glXGetProcAddressARB: usize = 1190;
-    pub const glXQueryDrawable: usize = 1191;
-    pub const eglSwapBuffers: usize = 1192;
-    pub const eglSwapBuffersWithDamageKHR: usize = 1193;
-    pub const eglSwapBuffersWithDamageEXT: usize = 1194;
-    pub const eglMakeCurrent: usize = 1195;
-    pub const eglCreateContext: usize = 1196;
-    pub const eglDestroyContext: usize = 1197;
-    pub const eglReleaseThread: usize = 1198;
-    pub const eglGetProcAddress: usize = 1199;
-    pub const eglQuerySurface: usize = 1200;
-    pub const eglQueryContext: usize = 1201;
-    pub const eglGetCurrentContext: usize = 1202;
-    pub const glXGetCurrentContext: usize = 1203;
-    pub const OSMesaMakeCurrent: usize = 1204;
-    pub const OSMesaCreateContext: usize = 1205;
-    pub const OSMesaCreateContextExt: usize = 1206;
-    pub const OSMesaCreateContextAttribs: usize = 1207;
-    pub const OSMesaDestroyContext: usize = 1208;
-    pub const OSMesaGetProcAddress: usize = 1209;
-    pub const glCopyImageSubData: usize = 1210;
-    pub const glGetString: usize = 1211;
-    pub const glGetStringi: usize = 1212;
-    pub const glGenQueries: usize = 1213;
-    pub const glTexImage2DMultisample: usize = 1214;
-    pub const glTexImage3DMultisample: usize = 1215;
-    pub const glCreateShader: usize = 1216;
-    pub const glShaderSource: usize = 1217;
-    pub const glCompileShader: usize = 1218;
-    pub const glGetShaderiv: usize = 1219;
-    pub const glGetShaderInfoLog: usize = 1220;
-    pub const glCreateProgram: usize = 1221;
-    pub const glAttachShader: usize = 1222;
-    pub const glLinkProgram: usize = 1223;
-    pub const glGetProgramiv: usize = 1224;
-    pub const glGetProgramInfoLog: usize = 1225;
-    pub const glDeleteShader: usize = 1226;
-    pub const glDeleteProgram: usize = 1227;
-    pub const glGetUniformLocation: usize = 1228;
-    pub const glGetUniformBlockIndex: usize = 1229;
-    pub const glUniformBlockBinding: usize = 1230;
-    pub const glBindBufferBase: usize = 1231;
-    pub const glBindBufferRange: usize = 1232;
-    pub const glGenBuffers: usize = 1233;
-    pub const glBindAttribLocation: usize = 1234;
-    pub const glProgramParameteri: usize = 1235;
-    pub const glGenVertexArrays: usize = 1236;
-    pub const glBindVertexArray: usize = 1237;
-    pub const glGenSamplers: usize = 1238;
-    pub const glBindSampler: usize = 1239;
+    pub const glXCreateWindow: usize = 1189;
+    pub const glXDestroyWindow: usize = 1190;
+    pub const glXGetProcAddress: usize = 1191;
+    pub const glXGetProcAddressARB: usize = 1192;
+    pub const glXQueryDrawable: usize = 1193;
+    pub const eglSwapBuffers: usize = 1194;
+    pub const eglSwapBuffersWithDamageKHR: usize = 1195;
+    pub const eglSwapBuffersWithDamageEXT: usize = 1196;
+    pub const eglMakeCurrent: usize = 1197;
+    pub const eglCreateContext: usize = 1198;
+    pub const eglDestroyContext: usize = 1199;
+    pub const eglReleaseThread: usize = 1200;
+    pub const eglGetProcAddress: usize = 1201;
+    pub const eglQuerySurface: usize = 1202;
+    pub const eglQueryContext: usize = 1203;
+    pub const eglGetCurrentContext: usize = 1204;
+    pub const glXGetCurrentContext: usize = 1205;
+    pub const OSMesaMakeCurrent: usize = 1206;
+    pub const OSMesaCreateContext: usize = 1207;
+    pub const OSMesaCreateContextExt: usize = 1208;
+    pub const OSMesaCreateContextAttribs: usize = 1209;
+    pub const OSMesaDestroyContext: usize = 1210;
+    pub const OSMesaGetProcAddress: usize = 1211;
+    pub const glCopyImageSubData: usize = 1212;
+    pub const glGetString: usize = 1213;
+    pub const glGetStringi: usize = 1214;
+    pub const glGenQueries: usize = 1215;
+    pub const glTexImage2DMultisample: usize = 1216;
+    pub const glTexImage3DMultisample: usize = 1217;
+    pub const glCreateShader: usize = 1218;
+    pub const glShaderSource: usize = 1219;
+    pub const glCompileShader: usize = 1220;
+    pub const glGetShaderiv: usize = 1221;
+    pub const glGetShaderInfoLog: usize = 1222;
+    pub const glCreateProgram: usize = 1223;
+    pub const glAttachShader: usize = 1224;
+    pub const glLinkProgram: usize = 1225;
+    pub const glGetProgramiv: usize = 1226;
+    pub const glGetProgramInfoLog: usize = 1227;
+    pub const glDeleteShader: usize = 1228;
+    pub const glDeleteProgram: usize = 1229;
+    pub const glGetUniformLocation: usize = 1230;
+    pub const glGetUniformBlockIndex: usize = 1231;
+    pub const glUniformBlockBinding: usize = 1232;
+    pub const glBindBufferBase: usize = 1233;
+    pub const glBindBufferRange: usize = 1234;
+    pub const glGenBuffers: usize = 1235;
+    pub const glBindAttribLocation: usize = 1236;
+    pub const glProgramParameteri: usize = 1237;
+    pub const glGenVertexArrays: usize = 1238;
+    pub const glBindVertexArray: usize = 1239;
+    pub const glGenSamplers: usize = 1240;
+    pub const glBindSampler: usize = 1241;
 }
 
 /// Name of each command.
@@ -2441,6 +2443,8 @@ pub static NAMES: [&CStr; COUNT] = [
     c"glXCreateContextAttribsARB",
     c"glXCreateContextWithConfigSGIX",
     c"glXDestroyContext",
+    c"glXCreateWindow",
+    c"glXDestroyWindow",
     c"glXGetProcAddress",
     c"glXGetProcAddressARB",
     c"glXQueryDrawable",
@@ -3684,6 +3688,8 @@ real_functions! {
     glXCreateContextAttribsARB(dpy: Ptr, config: Ptr, share: Ptr, direct: i32, attribs: Ptr) -> Ptr = core::ptr::null_mut();
     glXCreateContextWithConfigSGIX(dpy: Ptr, config: Ptr, kind: i32, share: Ptr, direct: i32) -> Ptr = core::ptr::null_mut();
     glXDestroyContext(dpy: Ptr, ctx: Ptr);
+    glXCreateWindow(dpy: Ptr, config: Ptr, win: c_ulong, attribs: Ptr) -> c_ulong = 0;
+    glXDestroyWindow(dpy: Ptr, win: c_ulong);
     glXGetProcAddress(name: Ptr) -> Ptr = core::ptr::null_mut();
     glXGetProcAddressARB(name: Ptr) -> Ptr = core::ptr::null_mut();
     glXQueryDrawable(dpy: Ptr, drawable: c_ulong, attribute: i32, value: Ptr);

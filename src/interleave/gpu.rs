@@ -3,7 +3,7 @@
 use super::shader::{MASK_UNIT, Pass, Uniforms, VIEWS_UNIT};
 use super::{Form, Layout, Program, reference};
 use crate::atlas::{Names, Tiles};
-use crate::config::{Config, Output};
+use crate::config::{Config, Filter, Output};
 use crate::display::{Mask, Placement};
 use crate::gl::{Gl, consts as c};
 use image::RgbImage;
@@ -124,7 +124,7 @@ impl Interleaver {
             self.mask = Some((of, mask.map_err(|e| e.to_string())?));
         }
         let program = match form {
-            Form::Panel(_) | Form::Eyes(_) => &self.panel,
+            Form::Panel(..) | Form::Eyes(_) => &self.panel,
             Form::Layout(_) => &self.layout,
             Form::Anaglyph(_) => &self.anaglyph,
         };
@@ -134,7 +134,7 @@ impl Interleaver {
         let size = [placement.width, placement.height];
         gl.viewport(0, 0, size[0] as i32, size[1] as i32);
         gl.active_texture(c::TEXTURE0 + MASK_UNIT);
-        if let Form::Panel(_) | Form::Eyes(_) = form {
+        if let Form::Panel(..) | Form::Eyes(_) = form {
             gl.bind_texture(c::TEXTURE_2D, self.mask_texture);
             if let Some((known, mask)) = &self.mask
                 && self.mask_uploaded != Some(*known)
@@ -168,6 +168,10 @@ impl Interleaver {
             rows_top_down: source.top_down,
             eyes: matches!(form, Form::Eyes(_)),
             linear: source.srgb,
+            filter: match form {
+                Form::Panel(_, filter) => filter,
+                _ => Filter::Nearest,
+            },
             matrices: match form {
                 Form::Anaglyph(anaglyph) => anaglyph.matrices(),
                 _ => Default::default(),
@@ -199,11 +203,11 @@ impl Interleaver {
         let picture = match (form, &self.mask) {
             (Form::Layout(layout), _) => reference::arrange(&tiles, *layout, size),
             (Form::Anaglyph(anaglyph), _) => reference::anaglyph(&tiles, *anaglyph, size),
-            (Form::Panel(_), Some((_, mask))) => reference::interleave(&tiles, mask),
+            (Form::Panel(_, filter), Some((_, mask))) => reference::filtered(&tiles, mask, *filter),
             (Form::Eyes(_), Some((_, mask))) => {
                 reference::interleave(&reference::eyes(tiles), mask)
             }
-            (Form::Panel(_) | Form::Eyes(_), None) => return Ok(()),
+            (Form::Panel(..) | Form::Eyes(_), None) => return Ok(()),
         };
         let mut picture = picture.map_err(|e| e.to_string())?;
         image::imageops::flip_vertical_in_place(&mut picture);

@@ -18,14 +18,14 @@ pub use gpu::{Interleaver, Source, glsl_version};
 pub use layout::Layout;
 pub use program::Program;
 
-use crate::config::{Anaglyph, Config, Interlace, Output};
+use crate::config::{Anaglyph, Config, Filter, Interlace, Output};
 use crate::display::{Display, DisplayError, Mask, Placement};
 
 /// How a picture is made of the views.
 #[derive(Clone, Copy, Debug)]
 pub enum Form<'a> {
-    /// Each subpixel by the mask of a display.
-    Panel(&'a Display),
+    /// Each subpixel by the mask of a display; finely, where views are filtered.
+    Panel(&'a Display, Filter),
     /// The first and the last view by pixels of the screen.
     Eyes(Interlace),
     /// Whole views beside each other.
@@ -38,7 +38,7 @@ impl<'a> Form<'a> {
     /// What an output is made by.
     pub fn of(config: &'a Config, output: Output) -> Self {
         match output {
-            Output::Panel => Self::Panel(&config.display),
+            Output::Panel => Self::Panel(&config.display, config.filter),
             Output::Interlaced(interlace) => Self::Eyes(interlace),
             Output::SideBySide { half } => Self::Layout(Layout::SideBySide { half }),
             Output::TopBottom { half } => Self::Layout(Layout::TopBottom { half }),
@@ -51,7 +51,8 @@ impl<'a> Form<'a> {
     /// The mask of a picture at a place; none where none is needed.
     fn mask(&self, placement: &Placement, views: u32) -> Option<Result<Mask, DisplayError>> {
         let made = match self {
-            Self::Panel(display) => display.mask(placement, views),
+            Self::Panel(display, Filter::Nearest) => display.mask(placement, views),
+            Self::Panel(display, _) => display.fine_mask(placement, views),
             Self::Eyes(interlace) => match Display::named(interlace.display()) {
                 Ok(display) => display.mask(placement, 2),
                 Err(error) => return Some(Err(error)),

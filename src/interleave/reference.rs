@@ -2,12 +2,12 @@
 //!
 //! Pictures have row 0 on top. Resampling: a pixel centre at place p in (0, 1) of its cell takes the tile's colour at p,
 //! bilinear between texel centres and clamped inside the tile, in whole numbers, rounded half up to 8 bits. Where tile
-//! and cell have the same size that is the texel itself. Views are never blended with each other.
+//! and cell have the same size that is the texel itself. Views are blended with each other only by [`filtered`] and [`anaglyph`].
 #![forbid(unsafe_code)]
 
 use super::Layout;
-use crate::config::Anaglyph;
-use crate::display::{GUARD, Mask};
+use crate::config::{Anaglyph, Filter};
+use crate::display::{FINE, GUARD, Mask};
 use image::{ImageBuffer, Pixel, Rgb, RgbImage};
 
 /// Views of one size, RGB or RGBA with 8 bits; alpha is ignored.
@@ -102,6 +102,73 @@ pub fn interleave<P: Pixel<Subpixel = u8>>(
         }
     }
     Ok(out)
+}
+
+/// As [`interleave`], where the mask is a [fine one](crate::display::Display::fine_mask) unless the filter is the nearest view.
+/// Views are weighted as linear light; beyond the first and the last one lies that one again.
+pub fn filtered<P: Pixel<Subpixel = u8>>(
+    tiles: &[Tile<P>],
+    mask: &Mask,
+    filter: Filter,
+) -> Result<RgbImage, ReferenceError> {
+    if filter == Filter::Nearest {
+        return interleave(tiles, mask);
+    }
+    let tile = tile_size(tiles)?;
+    let size = (mask.width(), mask.height());
+    let mut out = picture(size)?;
+    let taps = Taps::new(size, (1, 1), tile);
+    for (row, steps) in (0..).zip(mask.rows()) {
+        for (x, steps) in (0..).zip(steps) {
+            let mut pixel = [0; 3];
+            for (channel, (out, &step)) in pixel.iter_mut().zip(steps).enumerate() {
+                if step == GUARD {
+                    continue;
+                }
+                let light = |view: i64| {
+                    let view = view.clamp(0, tiles.len() as i64 - 1) as usize;
+                    let colour = taps.colour(tiles.get(view)?, x, row)?;
+                    let value = colour.0.get(channel).copied()?;
+                    Some(linear(f32::from(value) / 255.0))
+                };
+                let (mut sum, mut weights) = (0.0, 0.0);
+                for (view, weight) in filter.weights(step) {
+                    sum += weight * light(view).unwrap_or(0.0);
+                    weights += weight;
+                }
+                *out = (encoded(sum / weights) * 255.0 + 0.5) as u8;
+            }
+            out.put_pixel(x, row, Rgb(pixel));
+        }
+    }
+    Ok(out)
+}
+
+/// Of the Gaussian, in views.
+const SIGMA: f32 = 0.6;
+
+impl Filter {
+    /// Views around the middle of a step of a fine mask, and their weights.
+    fn weights(self, step: u16) -> Vec<(i64, f32)> {
+        let place = (f32::from(step) + 0.5) / f32::from(FINE) - 0.5;
+        let nearest = (place + 0.5).floor();
+        match self {
+            Self::Nearest => vec![(nearest as i64, 1.0)],
+            Self::Blend => {
+                let low = place.floor();
+                vec![
+                    (low as i64, 1.0 - (place - low)),
+                    (low as i64 + 1, place - low),
+                ]
+            }
+            Self::Gaussian => [-1.0, 0.0, 1.0]
+                .map(|i: f32| {
+                    let distance = (nearest + i - place) / SIGMA;
+                    ((nearest + i) as i64, (-0.5 * distance * distance).exp())
+                })
+                .to_vec(),
+        }
+    }
 }
 
 /// Whole views beside each other, in a picture of any size. A pixel belongs to the cell that its centre lies in.

@@ -7,6 +7,7 @@
 
 use super::Layout;
 use super::anaglyph::Matrix;
+use crate::config::Filter;
 use naga::back::glsl;
 use naga::valid::{Capabilities, ValidationFlags, Validator};
 
@@ -185,8 +186,10 @@ pub struct Uniforms {
     pub rows_top_down: bool,
     /// The mask is that of two eyes; only the interleave pass reads it.
     pub eyes: bool,
-    /// Colours are linear light when they are fetched, and are written as such; only the anaglyph pass reads it.
+    /// Colours are linear light when they are fetched, and are written as such.
     pub linear: bool,
+    /// What a subpixel between views shows; only the interleave pass reads it.
+    pub filter: Filter,
     /// Of the left and the right view; only the anaglyph pass reads them.
     pub matrices: (Matrix, Matrix),
 }
@@ -214,6 +217,11 @@ impl Uniforms {
             u32::from(self.layout.from_top()),
             u32::from(self.eyes),
             u32::from(self.linear),
+            match self.filter {
+                Filter::Nearest => 0,
+                Filter::Blend => 1,
+                Filter::Gaussian => 2,
+            },
         ];
         for (word, value) in words.iter_mut().zip(whole) {
             *word = value;

@@ -1,10 +1,10 @@
 //! The CPU reference against pictures that are easy to reason about; the shaders' translation.
 #![forbid(unsafe_code)]
 
-use super::reference::{ReferenceError, anaglyph, arrange, interleave};
+use super::reference::{ReferenceError, anaglyph, arrange, filtered, interleave};
 use super::shader::*;
 use super::*;
-use crate::config::{Glasses, Mixture};
+use crate::config::{Filter, Glasses, Mixture};
 use crate::display::{Display, GUARD, Mask, Placement};
 use image::{GrayImage, Rgb, RgbImage, Rgba, RgbaImage};
 use proptest::prelude::*;
@@ -222,7 +222,7 @@ fn every_pass_translates_for_every_version() {
             for texture in &fragment.textures {
                 assert!(fragment.source.contains(&format!(" {};", texture.name)));
             }
-            assert_eq!(fragment.uniforms.len(), 18);
+            assert_eq!(fragment.uniforms.len(), 19);
             assert!(!fragment.source.contains("std140"), "no uniform block");
 
             let vertex = translate(pass, Stage::Vertex, version).unwrap();
@@ -251,6 +251,7 @@ fn uniforms_are_found_by_name() {
         rows_top_down: true,
         eyes: true,
         linear: false,
+        filter: Filter::Gaussian,
         matrices: ([[1.0; 3]; 3], [[2.0; 3]; 3]),
     };
     let version = GlslVersion::Desktop(330);
@@ -268,7 +269,7 @@ fn uniforms_are_found_by_name() {
         .collect();
     let (one, two) = (1.0f32.to_bits(), 2.0f32.to_bits());
     let (left, right) = ([one, one, one, 0], [two, two, two, 0]);
-    let expected: [(&str, &[u32]); 16] = [
+    let expected: [(&str, &[u32]); 17] = [
         ("tile", &[1, 2]),
         ("picture", &[5, 6]),
         ("grid", &[7, 8]),
@@ -280,13 +281,14 @@ fn uniforms_are_found_by_name() {
         ("cells_from_top", &[0]),
         ("eyes", &[1]),
         ("linear", &[0]),
-        ("pad", &[0, 0]),
+        ("filtered", &[2]),
+        ("pad", &[0]),
         ("left_red", &left),
         ("left_green", &left),
         ("left_blue", &left),
         ("right_red", &right),
     ];
-    assert_eq!(of[..16], expected);
+    assert_eq!(of[..17], expected);
 }
 
 #[test]
@@ -304,6 +306,40 @@ fn columns_of_views_begin_on_top() {
         Layout::SideBySide { half: true },
     ] {
         assert_eq!(layout.native_size(2, (4, 2)), (4, 2));
+    }
+}
+
+/// Grey views of 0, 100 and 200 under a mask that steps through all places between them.
+#[test]
+fn filters_at_places_between_views() {
+    let tile = |value| RgbImage::from_pixel(1, 1, Rgb([value; 3]));
+    let views = [tile(0), tile(100), tile(200)];
+    let shown = |step: u16, filter| {
+        let mask = Mask::new(1, 1, vec![[step; 3]]).unwrap();
+        filtered(&views, &mask, filter).unwrap().get_pixel(0, 0).0[0]
+    };
+    // In the middle of a view, which lies between two steps, blending takes it nearly alone: half a step is a 512th of the light of
+    // 100, which is 0.127. At the ends there is no view beyond.
+    assert_eq!(
+        [0, 127, 128].map(|step| shown(step, Filter::Blend)),
+        [0, 0, 1]
+    );
+    assert_eq!(shown(256 + 127, Filter::Blend), 100);
+    assert_eq!(
+        [512 + 128, 767].map(|step| shown(step, Filter::Blend)),
+        [200, 200]
+    );
+    // Half way from 100 to 200 there is the mean of the light: 0.127 and 0.578 make 0.352, which is 161.
+    assert!((160..=162).contains(&shown(511, Filter::Blend)));
+    // A view's neighbours have a quarter of its weight: (0.127 + 0.249 (0 + 0.578)) / 1.499 is 0.181, which is 118.
+    assert!((117..=119).contains(&shown(256 + 128, Filter::Gaussian)));
+    let flat = [tile(90), tile(90), tile(90)];
+    for step in (0..768).step_by(7) {
+        let mask = Mask::new(1, 1, vec![[step, step, GUARD]]).unwrap();
+        for filter in [Filter::Blend, Filter::Gaussian] {
+            let shown = filtered(&flat, &mask, filter).unwrap().get_pixel(0, 0).0;
+            assert_eq!(shown, [90, 90, 0], "{filter:?} {step}");
+        }
     }
 }
 

@@ -452,7 +452,9 @@ fn write_planes(w: &mut Writer) {
             "clip_plane",
             format!("{plane} {} {}", floats(&[a, b, c]), d),
         );
-        w.say("enable", format!("GL_CLIP_PLANE{plane}"));
+        // The headers of fixed function have names for six.
+        const CLIP_PLANE0: usize = 0x3000;
+        w.say("enable", (CLIP_PLANE0 + plane).to_string());
         w.key.clip_planes |= 1 << plane;
     }
 }

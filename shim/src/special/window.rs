@@ -6,6 +6,7 @@ use crate::context::{
 use crate::dl::proc_address;
 use crate::provider::Provider;
 use crate::shares::created;
+use crate::windows;
 use core::ffi::c_ulong;
 use manyview_core::gl::{Ptr, Real};
 
@@ -108,6 +109,21 @@ pub(crate) unsafe fn glXDestroyContext(dpy: Ptr, ctx: Ptr) {
     destroyed(Provider::Gl, ctx);
     // SAFETY: the program's own call.
     guarded(|| unsafe { gl().glXDestroyContext(dpy, ctx) });
+}
+
+pub(crate) unsafe fn glXCreateWindow(dpy: Ptr, config: Ptr, win: c_ulong, attribs: Ptr) -> c_ulong {
+    // SAFETY: the program's own call.
+    let drawable = guarded(|| unsafe { gl().glXCreateWindow(dpy, config, win, attribs) });
+    if drawable != 0 {
+        windows::made(dpy, drawable, win);
+    }
+    drawable
+}
+
+pub(crate) unsafe fn glXDestroyWindow(dpy: Ptr, win: c_ulong) {
+    windows::gone(dpy, win);
+    // SAFETY: the program's own call.
+    guarded(|| unsafe { gl().glXDestroyWindow(dpy, win) });
 }
 
 pub(crate) unsafe fn glXGetProcAddress(name: Ptr) -> Ptr {

@@ -296,6 +296,46 @@ fn inverted_sheets_have_the_views_in_the_other_order() {
 }
 
 #[test]
+fn fine_masks_have_the_places_between_views() {
+    for case in cases() {
+        let views = case.display.views;
+        let (screen_width, screen_height) = case.size;
+        let at = Placement {
+            screen_width,
+            screen_height,
+            x: 3811,
+            y: 2160,
+            width: 60,
+            height: 40,
+        };
+        let fine = case.display.fine_mask(&at, views).unwrap();
+        let whole = case.display.mask(&at, views).unwrap();
+        for (fine, whole) in fine
+            .data()
+            .as_flattened()
+            .iter()
+            .zip(whole.data().as_flattened())
+        {
+            assert_eq!(fine / FINE, *whole, "{}", case.name);
+        }
+        let steps: std::collections::BTreeSet<u16> = fine
+            .data()
+            .as_flattened()
+            .iter()
+            .map(|step| step % FINE)
+            .collect();
+        let flat = matches!(case.display.kind, Kind::Huebner(_) | Kind::Lenticular);
+        assert_eq!(steps == [FINE / 2].into(), flat, "{}", case.name);
+    }
+    let table = load(
+        "kind = \"integer\"\nviews = 3\nhorizontal = 1\nmodulus = 8\ntable = [0, \"b\", 2, 1]",
+    );
+    let fine = table.fine_mask(&Placement::full_screen(4, 1), 3).unwrap();
+    assert_eq!(fine.data()[1..3], [[128; 3], [GUARD; 3]]);
+    assert!(table.fine_mask(&Placement::full_screen(4, 1), 256).is_err());
+}
+
+#[test]
 fn turned_panels_are_turned_masks() {
     let upright = mask(
         &load("kind = \"slanted\"\nviews = 9\npitch = 9\nslant = \"2/3\""),

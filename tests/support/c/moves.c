@@ -1,4 +1,5 @@
-/* A window that lies at 7,5, then at 8,5, then at 8,6, two frames at each place. */
+/* A window that lies at 7,5, then at 8,5, then at 8,6, two frames at each place. With an argument it is drawn to through a drawable
+ * of glXCreateWindow. */
 #include <GL/gl.h>
 #include <GL/glx.h>
 #include <X11/Xlib.h>
@@ -27,11 +28,13 @@ static void draw(void)
     }
 }
 
-int main(void)
+int main(int argc, char **argv)
 {
-    int wanted[] = {GLX_RGBA, GLX_DOUBLEBUFFER, GLX_DEPTH_SIZE, 16, None};
+    int wanted[] = {GLX_DOUBLEBUFFER, True, GLX_DEPTH_SIZE, 16, None}, count;
+    (void)argv;
     Display *display = XOpenDisplay(NULL);
-    XVisualInfo *visual = display ? glXChooseVisual(display, DefaultScreen(display), wanted) : NULL;
+    GLXFBConfig *configs = display ? glXChooseFBConfig(display, DefaultScreen(display), wanted, &count) : NULL;
+    XVisualInfo *visual = configs ? glXGetVisualFromFBConfig(display, configs[0]) : NULL;
     if (!visual)
         return 2;
     Window root = DefaultRootWindow(display);
@@ -40,14 +43,19 @@ int main(void)
                                   CWColormap | CWOverrideRedirect, &a);
     XMapWindow(display, window);
     XSync(display, False);
-    if (!glXMakeCurrent(display, window, glXCreateContext(display, visual, NULL, True)))
+    GLXDrawable drawable = argc > 1 ? glXCreateWindow(display, configs[0], window, NULL) : window;
+    GLXContext context = glXCreateNewContext(display, configs[0], GLX_RGBA_TYPE, NULL, True);
+    if (!glXMakeContextCurrent(display, drawable, drawable, context))
         return 3;
     static const int places[3][2] = {{7, 5}, {8, 5}, {8, 6}};
     for (int i = 0; i < 6; i++) {
         XMoveWindow(display, window, places[i / 2][0], places[i / 2][1]);
         XSync(display, False);
         draw();
-        glXSwapBuffers(display, window);
+        glXSwapBuffers(display, drawable);
     }
+    glXMakeContextCurrent(display, None, None, NULL);
+    if (argc > 1)
+        glXDestroyWindow(display, drawable);
     return 0;
 }

@@ -1,0 +1,41 @@
+#!/bin/sh
+# The pictures of docs/gallery.md: one scene in each layout, and what eyes see of a panel. gallery.sh BIN DEMO FOLDER
+set -eu
+bin=$1 demo=$2 folder=$3
+scene="--frame 40 --eye-spacing 0.3 --focal-depth 8"
+mkdir -p "$folder"
+
+# shot NAME SIZE OPTIONS...
+shot() {
+    name=$1 size=$2
+    shift 2
+    # The scene's options are words.
+    # shellcheck disable=SC2086
+    env -u DISPLAY "$bin/manyview" capture $scene "$@" --out "$folder/$name.png" -- "$demo" --size "$size" >/dev/null
+}
+
+shot quilt 168x126 --views 8 --output quilt
+shot sbs 252x189 --views 2 --output sbs
+shot half-sbs 252x189 --views 2 --output half-sbs
+shot tb 252x189 --views 2 --output tb
+shot rows 252x189 --output rows
+shot columns 252x189 --output columns
+shot checker 252x189 --output checker
+for glasses in red-cyan green-magenta amber-blue; do
+    for mixture in "" -half -grey; do
+        shot "anaglyph-$glasses$mixture" 252x189 --output "anaglyph:$glasses$mixture"
+    done
+done
+shot panel 504x378 --display slanted8
+shot blend 504x378 --display slanted8 --filter blend
+shot gaussian 504x378 --display slanted8 --filter gaussian
+for filter in panel blend gaussian; do
+    "$bin/manyview" simulate --display slanted8 --eye 0,0,600 --strip 5 --width 300 \
+        --in "$folder/$filter.png" --out "$folder/$filter-strip.png"
+done
+# Small enough for a page; everything else is as the commands wrote it.
+for strip in panel-strip blend-strip gaussian-strip; do
+    pngtopnm "$folder/$strip.png" | pnmscale 0.4 | pnmtopng -compression 9 >"$folder/$strip.tmp"
+    mv "$folder/$strip.tmp" "$folder/$strip.png"
+done
+rm -f "$folder/blend.png" "$folder/gaussian.png"
