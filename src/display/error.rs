@@ -210,7 +210,7 @@ pub enum MaskError {
     /// A mask of another picture.
     #[error(
         "mask `{file}` is {mask_width}x{mask_height} pixels, but the picture is {width}x{height} at column {x}, \
-         row {y} of a screen of {screen_width}x{screen_height}; give a mask of the whole screen or resize the window"
+         row {y} of a screen of {screen_width}x{screen_height}; give a mask of the whole screen, or one of the window's size"
     )]
     WindowSize {
         /// The mask.

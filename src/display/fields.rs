@@ -60,11 +60,15 @@ impl Fields {
         field: &'static str,
         remedy: &'static str,
     ) -> Result<&Value, DisplayError> {
-        self.get(field).ok_or_else(|| DisplayError::Missing {
+        self.get(field).ok_or_else(|| self.missing(field, remedy))
+    }
+
+    pub(super) fn missing(&self, field: &'static str, remedy: &'static str) -> DisplayError {
+        DisplayError::Missing {
             file: self.file.clone(),
             field,
             remedy,
-        })
+        }
     }
 
     pub(super) fn wrong(

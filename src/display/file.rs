@@ -196,10 +196,7 @@ impl Reader<'_> {
         let given = f.need("kind", KIND)?;
         let kind = f.text("kind", given, KINDS, KIND)?;
         let only = |read: &[&'static str]| f.only(kind, &COMMON, read, &ALL);
-        let need_views = || match views {
-            Some(views) => Ok(views),
-            None => f.need("views", VIEWS).map(|_| 0),
-        };
+        let need_views = || views.ok_or_else(|| f.missing("views", VIEWS));
         let mut display = match kind {
             "lenticular" => {
                 only(&[])?;

@@ -49,15 +49,7 @@ impl Lattice {
 
     /// The views of a row from column `first` on.
     pub(super) fn fill(&self, first: i64, row: &Row, views: u32, out: &mut [[u16; 3]]) {
-        let starts = self.starts(first, row);
-        // Small units: the phases themselves are carried along, in one machine word.
-        if let Ok(turn) = i64::try_from(self.turn)
-            && turn < 1 << 46
-        {
-            self.fill_narrow(turn, starts, views, out);
-        } else {
-            self.fill_wide(starts, views, out);
-        }
+        self.fill_wide(self.starts(first, row), views, out);
     }
 
     /// As [`Lattice::fill`], with phases that something measured is added to, in turns: `bias(i)` for the i-th pixel of `out`.
@@ -88,25 +80,6 @@ impl Lattice {
         let class = first.rem_euclid(2) as usize;
         [class, 1 - class]
             .map(|class| row.colours[class].map(|colour| (start + colour).rem_euclid(self.turn)))
-    }
-
-    fn fill_narrow(&self, turn: i64, starts: [[i128; 3]; 2], views: u32, out: &mut [[u16; 3]]) {
-        let step = self.step as i64;
-        let next = |phase: i64| match phase + step {
-            next if next >= turn => next - turn,
-            next => next,
-        };
-        let view = |phase: i64| match self.way {
-            Way::Up => (i64::from(views) * phase / turn) as u16,
-            Way::Down => {
-                (i64::from(views) * (turn - phase) / turn).min(i64::from(views) - 1) as u16
-            }
-        };
-        let mut phases = starts.map(|class| class.map(|phase| phase as i64));
-        for (i, out) in out.iter_mut().enumerate() {
-            *out = phases[i % 2].map(view);
-            phases = phases.map(|class| class.map(next));
-        }
     }
 
     /// Phases as 64-bit fractions of a turn; next to a boundary between views the exact phase decides.

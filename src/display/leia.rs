@@ -10,7 +10,7 @@
 #![forbid(unsafe_code)]
 
 use super::lattice::{Lattice, Row, Way};
-use super::number::common_denominator;
+use super::number::in_units;
 use super::{Mask, MaskError, Number, Placement};
 
 /// The numbers of a panel; all in views.
@@ -41,15 +41,7 @@ impl Leia {
             self.colour_slant,
             self.offset,
         ];
-        let exact = numbers.map(Number::fraction);
-        let (unit, fractions) = match common_denominator(&exact) {
-            Some(unit) => (unit, exact),
-            None => (
-                1 << 60,
-                numbers.map(|n| Number::Float(n.to_f64()).fraction()),
-            ),
-        };
-        let [across, up, slant, offset] = fractions.map(|(n, d)| n * (unit / d));
+        let (unit, [across, up, slant, offset]) = in_units(numbers);
         let Some(lattice) = Lattice::new(i128::from(native) * unit, across, Way::Up) else {
             return Err(MaskError::Pitch);
         };

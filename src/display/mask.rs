@@ -192,8 +192,8 @@ impl Mask {
         Ok(())
     }
 
-    /// The part of a mask of the whole screen that lies under a picture.
-    ///
+    /// The part of a mask of the whole screen that lies under a picture, black beyond the screen, where nothing is seen. A mask of the
+    /// picture's own size is that of the picture, wherever it lies.
     pub(super) fn crop(&self, path: &Path, placement: &Placement) -> Result<Self, MaskError> {
         let &Placement {
             screen_width,
@@ -203,13 +203,11 @@ impl Mask {
             width,
             height,
         } = placement;
-        let inside = |start: i32, length: u32, all: u32| {
-            start >= 0 && i64::from(start) + i64::from(length) <= i64::from(all)
-        };
-        let fits = inside(x, width, self.width)
-            && inside(y, height, self.height)
-            && (self.width, self.height) == (screen_width, screen_height);
-        if !fits {
+        let size = (self.width, self.height);
+        if size != (screen_width, screen_height) {
+            if size == (width, height) {
+                return Ok(self.clone());
+            }
             return Err(MaskError::WindowSize {
                 file: path.display().to_string(),
                 mask_width: self.width,
@@ -223,9 +221,12 @@ impl Mask {
             });
         }
         Self::by_rows(placement, |first, row, out| {
-            let start = row as usize * self.width as usize + first as usize;
-            for (out, pixel) in out.iter_mut().zip(self.data.iter().skip(start)) {
-                *out = *pixel;
+            for (x, out) in (first..).zip(out) {
+                if let (Ok(x), Ok(row)) = (u32::try_from(x), u32::try_from(row))
+                    && let Some(pixel) = self.at(x, row)
+                {
+                    *out = pixel;
+                }
             }
         })
     }

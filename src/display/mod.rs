@@ -208,7 +208,6 @@ impl Display {
             return Err(MaskError::Views { views });
         }
         self.check_views(views)?;
-        self.check_mask()?;
         self.rotation
             .mask(placement, |placement| self.upright(placement, views))
     }
@@ -245,10 +244,14 @@ impl Display {
     /// Refuses a panel without a mask.
     pub fn check_mask(&self) -> Result<(), MaskError> {
         match &self.kind {
-            Kind::Uncalibrated => Err(MaskError::Uncalibrated {
-                name: self.name.clone(),
-            }),
+            Kind::Uncalibrated => Err(self.uncalibrated()),
             _ => Ok(()),
+        }
+    }
+
+    fn uncalibrated(&self) -> MaskError {
+        MaskError::Uncalibrated {
+            name: self.name.clone(),
         }
     }
 
@@ -267,8 +270,7 @@ impl Display {
             Kind::Leia(panel) => panel.mask(placement, self.views, views),
             Kind::Pattern(pattern) => pattern.mask(placement),
             Kind::MaskFile { path, mask } => mask.crop(path, placement),
-            // Refused before.
-            Kind::Uncalibrated => Mask::by_rows(placement, |_, _, _| {}),
+            Kind::Uncalibrated => Err(self.uncalibrated()),
         }
     }
 }

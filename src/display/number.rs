@@ -66,7 +66,7 @@ impl Number {
 
     /// Numerator and denominator. A float is rounded to a multiple of 2^-60, far below what anyone can measure; its size must be
     /// at most 2^40.
-    pub(super) fn fraction(self) -> (i128, i128) {
+    fn fraction(self) -> (i128, i128) {
         match self {
             Self::Exact {
                 numerator,
@@ -101,8 +101,28 @@ fn decimal(text: &str) -> Option<Number> {
     Number::ratio(format!("{whole}{fraction}").parse().ok()?, denominator)
 }
 
+/// Numbers as multiples of one unit: how many of it are 1, and how many each number is. Denominators without a common one of a
+/// modest size come from fractions nobody has measured; then all numbers are rounded to a multiple of 2^-60.
+pub(super) fn in_units<const N: usize>(numbers: [Number; N]) -> (i128, [i128; N]) {
+    let exact = numbers.map(Number::fraction);
+    let (unit, fractions) = match common_denominator(&exact) {
+        Some(unit) => (unit, exact),
+        None => (
+            1 << 60,
+            numbers.map(|n| Number::Float(n.to_f64()).fraction()),
+        ),
+    };
+    (unit, fractions.map(|(n, d)| n * (unit / d)))
+}
+
+/// Whether [`in_units`] rounds nothing.
+pub(super) fn are_exact<const N: usize>(numbers: [Number; N]) -> bool {
+    numbers.iter().all(|n| matches!(n, Number::Exact { .. }))
+        && common_denominator(&numbers.map(Number::fraction)).is_some()
+}
+
 /// The least unit that all denominators divide; None when it has more than 2^73 parts.
-pub(super) fn common_denominator(fractions: &[(i128, i128)]) -> Option<i128> {
+fn common_denominator(fractions: &[(i128, i128)]) -> Option<i128> {
     let unit = fractions
         .iter()
         .try_fold(1i128, |unit, &(_, denominator)| {

@@ -5,7 +5,7 @@
 #![forbid(unsafe_code)]
 
 use super::lattice::{Lattice, Row, Way, by_colour};
-use super::number::common_denominator;
+use super::number::{are_exact, in_units};
 use super::{Bias, Mask, MaskError, Number, Placement, SubpixelOrder};
 
 /// The optics of a slanted lens or barrier.
@@ -44,9 +44,7 @@ impl Slanted {
 
     /// True when no number has to be rounded for the mask.
     pub fn is_exact(&self) -> bool {
-        let numbers = self.numbers();
-        numbers.iter().all(|n| matches!(n, Number::Exact { .. }))
-            && common_denominator(&numbers.map(Number::fraction)).is_some()
+        are_exact(self.numbers())
     }
 
     fn numbers(&self) -> [Number; 6] {
@@ -55,16 +53,7 @@ impl Slanted {
     }
 
     pub(super) fn mask(&self, placement: &Placement, views: u32) -> Result<Mask, MaskError> {
-        // Denominators that have no common one of a modest size come from fractions nobody has measured.
-        let exact = self.numbers().map(Number::fraction);
-        let (unit, fractions) = match common_denominator(&exact) {
-            Some(unit) => (unit, exact),
-            None => (
-                1 << 60,
-                self.numbers().map(|n| Number::Float(n.to_f64()).fraction()),
-            ),
-        };
-        let [pitch, slant, offset, r, g, b] = fractions.map(|(n, d)| n * (unit / d));
+        let (unit, [pitch, slant, offset, r, g, b]) = in_units(self.numbers());
         // Descending views are ascending ones of the phase that falls.
         let sign = if self.inverted { -1 } else { 1 };
         let Some(lattice) = Lattice::new(pitch, sign * 3 * unit, Way::Up) else {

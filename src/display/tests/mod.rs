@@ -354,6 +354,41 @@ fn descriptions_give_displays() {
     assert_eq!(Display::load("huebner8").unwrap(), Display::default());
 }
 
+#[test]
+fn mask_pictures_of_screens_and_of_windows() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("panel.png");
+    let whole = mask(&Display::default(), 40, 30, 8);
+    whole.to_png(&path).unwrap();
+    let display = Display::load(path.to_str().unwrap()).unwrap();
+    // Hanging over the left and the lower edge: what is on the screen is the screen's, the rest is black.
+    let over = Placement {
+        screen_width: 40,
+        screen_height: 30,
+        x: -7,
+        y: 20,
+        width: 20,
+        height: 15,
+    };
+    let over = display.mask(&over, 8).unwrap();
+    for row in 0..15 {
+        for x in 0..20u32 {
+            let on_screen = x.checked_sub(7).and_then(|x| whole.at(x, row + 20));
+            assert_eq!(over.at(x, row), Some(on_screen.unwrap_or([GUARD; 3])));
+        }
+    }
+    // On a larger screen it is that of a window of its size.
+    let window = Placement {
+        screen_width: 1920,
+        screen_height: 1200,
+        x: 300,
+        y: -5,
+        width: 40,
+        height: 30,
+    };
+    assert_eq!(display.mask(&window, 8).unwrap(), whole);
+}
+
 /// All messages of this module in one snapshot: whoever changes one sees them side by side.
 #[test]
 fn messages() {
@@ -495,18 +530,16 @@ fn messages() {
         let error = good.mask(&full(width, height), 8).unwrap_err();
         say(&format!("{width}x{height} for 4x4"), error.to_string());
     }
-    let over = Placement {
-        screen_width: 4,
-        screen_height: 4,
-        x: -1,
-        y: 0,
-        width: 3,
+    let window = Placement {
+        screen_width: 9,
+        screen_height: 8,
+        x: 2,
+        y: 1,
+        width: 5,
         height: 4,
     };
-    say(
-        "left of the screen",
-        good.mask(&over, 8).unwrap_err().to_string(),
-    );
+    let error = good.mask(&window, 8).unwrap_err();
+    say("a window of 5x4 on 9x8", error.to_string());
     let display = Display::default();
     say(
         "--views 0",
