@@ -1,11 +1,13 @@
 //! The program's framebuffer 0, redirected: one array texture with a tile per view, a framebuffer per layer.
 #![forbid(unsafe_code)]
 
+mod depths;
 mod front;
 mod names;
 mod single;
 mod tiles;
 
+use depths::Depths;
 use front::Front;
 pub use names::Names;
 use single::Single;
@@ -30,6 +32,7 @@ pub struct Atlas {
     front: Option<Front>,
     /// What is read from, and what a scaled blit is drawn to.
     singles: Vec<Single>,
+    depths: Option<Depths>,
     bound_row: u32,
 }
 
@@ -207,6 +210,7 @@ impl Atlas {
             resolve,
             front: None,
             singles: Vec::new(),
+            depths: None,
             bound_row: 0,
         };
         if status != c::FRAMEBUFFER_COMPLETE {
@@ -223,16 +227,20 @@ impl Atlas {
     }
 
     /// Gives everything back; only while its context is current.
-    pub fn delete(self, gl: &Gl) {
+    pub fn delete(mut self, gl: &Gl) {
         self.framebuffers().for_each(|f| gl.delete_framebuffer(f));
         self.textures.iter().for_each(|&t| gl.delete_texture(t));
+        let (buffer, fence) = self.give_buffer();
+        buffer.into_iter().for_each(|b| gl.delete_buffer(b));
+        fence.into_iter().for_each(|f| gl.delete_fence(f));
     }
 
     /// All framebuffer objects; each has a texture at the first colour attachment.
     pub fn framebuffers(&self) -> impl Iterator<Item = u32> {
         let resolve = self.resolve.iter().flatten().copied();
         let singles = self.singles.iter().map(Single::framebuffer);
-        self.targets().chain(resolve).chain(singles)
+        let depths = self.depths.iter().map(Depths::framebuffer);
+        self.targets().chain(resolve).chain(singles).chain(depths)
     }
 
     /// Whether a texture is the atlas's own.
@@ -339,7 +347,8 @@ impl Atlas {
     /// saves and restores bindings as for [`Atlas::new`].
     pub fn make_singles(&mut self, gl: &Gl, names: &mut Names, window: &Window, staged: bool) {
         while !self.has_singles(staged) {
-            let single = Single::new(gl, names, window, self.flipped, &mut self.textures);
+            let size = [window.width as i32, window.height as i32];
+            let single = Single::new(gl, names, window, size, self.flipped, &mut self.textures);
             self.singles.push(single);
         }
     }

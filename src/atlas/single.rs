@@ -12,16 +12,16 @@ pub(super) struct Single {
 }
 
 impl Single {
-    /// For a window, with tiles of its size; the textures behind it are added to `textures`. Changes the bindings that
+    /// In a window's formats and any size; the textures behind it are added to `textures`. Changes the bindings that
     /// [`super::Atlas::new`] does.
     pub(super) fn new(
         gl: &Gl,
         names: &mut Names,
         window: &Window,
+        size: [i32; 2],
         flip: bool,
         textures: &mut Vec<u32>,
     ) -> Single {
-        let size = [window.width as i32, window.height as i32];
         let framebuffer = gl.gen_framebuffer();
         gl.bind_framebuffer(c::FRAMEBUFFER, framebuffer);
         let mut attach = |point, (internal, format, kind)| {
@@ -59,6 +59,21 @@ impl Single {
         gl.bind_framebuffer(c::READ_FRAMEBUFFER, from);
         gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, to);
         gl.blit_framebuffer(x, 0, x + w, h, to_x, 0, to_x + w, h, all, c::NEAREST);
+    }
+
+    /// Takes the depths of such a tile, `window` pixels wide and high, each of its own pixels the nearest one's. Binds as
+    /// [`Single::take`].
+    pub(super) fn shrink(&self, gl: &Gl, from: u32, x: i32, window: [i32; 2]) {
+        let ([w, h], [width, height]) = (self.size, window);
+        gl.bind_framebuffer(c::READ_FRAMEBUFFER, from);
+        gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, self.framebuffer);
+        let depth = c::DEPTH_BUFFER_BIT;
+        gl.blit_framebuffer(x, 0, x + width, height, 0, 0, w, h, depth, c::NEAREST);
+    }
+
+    /// Width and height in pixels.
+    pub(super) fn size(&self) -> [i32; 2] {
+        self.size
     }
 
     /// Its name.

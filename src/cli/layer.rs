@@ -32,6 +32,9 @@ pub(crate) struct LayerArguments {
     /// Clip-space w of zero parallax; with --separation
     #[arg(long, value_name = "C", allow_hyphen_values = true)]
     convergence: Option<String>,
+    /// Place the cameras by the depths of each frame, within what the display can show; one of the four values above may be given with it
+    #[arg(long)]
+    auto_depth: bool,
     /// How draws are repeated per view [default: auto]
     #[arg(long, value_name = "auto|replay|instanced|geometry")]
     strategy: Option<String>,
@@ -92,8 +95,13 @@ impl LayerArguments {
                 settings.set(id, value, Origin::CommandLine);
             }
         }
-        if self.control {
-            settings.set(OptionId::Control, "1", Origin::CommandLine);
+        for (id, on) in [
+            (OptionId::AutoDepth, self.auto_depth),
+            (OptionId::Control, self.control),
+        ] {
+            if on {
+                settings.set(id, "1", Origin::CommandLine);
+            }
         }
         settings
             .over(Settings::from_variables(variable))

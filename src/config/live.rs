@@ -18,12 +18,13 @@ pub struct Live {
 
 impl Live {
     /// The options that can be set while the program runs.
-    pub const OPTIONS: [OptionId; 6] = [
+    pub const OPTIONS: [OptionId; 7] = [
         OptionId::Output,
         OptionId::Separation,
         OptionId::Convergence,
         OptionId::EyeSpacing,
         OptionId::FocalDepth,
+        OptionId::AutoDepth,
         OptionId::HudDepth,
     ];
 
@@ -38,8 +39,8 @@ impl Live {
         }
     }
 
-    /// These values with some of them changed, all or none. `chosen` is what [`Camera::Auto`] stands for, once it is known:
-    /// separation and convergence.
+    /// These values with some of them changed, all or none. `chosen` is what [`Camera::Auto`] and [`Camera::Measured`] stand for,
+    /// once it is known: separation and convergence.
     pub fn with(
         self,
         config: &Config,
@@ -51,7 +52,8 @@ impl Live {
             settings.set(*id, value, Origin::Request);
         }
         let changed = |id| changes.iter().any(|(given, _)| *given == id);
-        if changes.iter().any(|(id, _)| id.places_cameras()) {
+        let measured = settings.get(OptionId::AutoDepth);
+        if !measured.is_some_and(|s| s.value == "1") {
             self.complete(&mut settings, chosen);
         }
         Ok(Self {
@@ -61,12 +63,25 @@ impl Live {
                 self.output
             },
             camera: match parse::camera(&settings)? {
+                Camera::Auto if changed(OptionId::AutoDepth) => self.as_they_stand(chosen),
                 Camera::Auto => self.camera,
                 placed => placed,
             },
             hud_depth: parse::hud_depth(&settings)?.unwrap_or(self.hud_depth),
             flat: self.flat,
         })
+    }
+
+    /// The cameras of now, which follow the depths no more.
+    fn as_they_stand(self, chosen: Option<(f64, f64)>) -> Camera {
+        match (self.camera, chosen) {
+            (Camera::Measured(_), Some((separation, convergence))) => Camera::Clip {
+                separation,
+                convergence,
+            },
+            (Camera::Measured(_), None) => Camera::Auto,
+            (placed, _) => placed,
+        }
     }
 
     /// Of a pair of which one half is given, the other one stays as it is.
@@ -94,7 +109,7 @@ impl Live {
             ]
         };
         match self.camera {
-            Camera::Auto => chosen.map(clip),
+            Camera::Auto | Camera::Measured(_) => chosen.map(clip),
             Camera::Clip {
                 separation,
                 convergence,

@@ -208,6 +208,8 @@ pub enum Mixture {
 pub enum Camera {
     /// Derived from the first perspective projection that is drawn with.
     Auto,
+    /// Derived from what is in the depth buffer, within the budget of the display, but for a value that is kept.
+    Measured(Option<Kept>),
     /// κ and ξ of Luo et al.: spacing of neighbouring viewpoints, depth of the focal plane.
     Eye {
         /// κ
@@ -222,6 +224,19 @@ pub enum Camera {
         /// In units of clip-space w.
         convergence: f64,
     },
+}
+
+/// One value of the cameras that the user has chosen. Lengths are in the program's eye-space units.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Kept {
+    /// As in [`Camera::Clip`].
+    Separation(f64),
+    /// As in [`Camera::Clip`].
+    Convergence(f64),
+    /// κ
+    EyeSpacing(f64),
+    /// ξ, positive
+    FocalDepth(f64),
 }
 
 /// How a draw call is repeated for the views.

@@ -30,6 +30,8 @@ pub enum OptionId {
     Separation,
     /// Convergence in clip space.
     Convergence,
+    /// Cameras by what is in the depth buffer.
+    AutoDepth,
     /// How draws are repeated.
     Strategy,
     /// Where the views lie.
@@ -125,6 +127,8 @@ pub const OPTIONS: &[OptionSpec] = &[
         "shift of neighbouring views in clip space; with --convergence"),
     option!(Convergence, Some("convergence"), Some("convergence"), "MANYVIEW_CONVERGENCE", "C", No,
         "clip-space w of zero parallax; with --separation"),
+    option!(AutoDepth, Some("auto-depth"), Some("auto-depth"), "MANYVIEW_AUTO_DEPTH", "0|1", No,
+        "place the cameras by the depths of each frame, within what the display can show; one of the four values above may be given with it"),
     option!(Strategy, Some("strategy"), Some("strategy"), "MANYVIEW_STRATEGY", "auto|replay|instanced|geometry", No,
         "how draws are repeated per view; auto unless given"),
     option!(Atlas, Some("atlas"), Some("atlas"), "MANYVIEW_ATLAS", "side-by-side|layers", No,
@@ -171,15 +175,19 @@ impl OptionId {
     /// True for options that are on or off; in a TOML file they are truth values.
     #[must_use]
     pub fn is_switch(self) -> bool {
-        self == Self::Control
+        matches!(self, Self::Control | Self::AutoDepth)
     }
 
-    /// True for the four options that place the cameras: a source that sets one of them replaces them all.
+    /// True for the options that place the cameras: a source that sets one of them replaces them all.
     #[must_use]
     pub fn places_cameras(self) -> bool {
         matches!(
             self,
-            Self::EyeSpacing | Self::FocalDepth | Self::Separation | Self::Convergence
+            Self::EyeSpacing
+                | Self::FocalDepth
+                | Self::Separation
+                | Self::Convergence
+                | Self::AutoDepth
         )
     }
 }
@@ -258,6 +266,6 @@ mod tests {
         for row in OPTIONS {
             assert_eq!(row.id.spec().variable, row.variable);
         }
-        assert_eq!(OPTIONS.len(), 23, "a new option needs a row");
+        assert_eq!(OPTIONS.len(), 24, "a new option needs a row");
     }
 }

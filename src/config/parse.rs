@@ -6,7 +6,7 @@ use super::options::{Field, OptionId, Origin};
 use super::settings::Settings;
 use super::{
     Anaglyph, AtlasLayout, Camera, Capture, CaptureWhat, Config, Explain, Filter, Glasses,
-    Interlace, MAX_VIEWS, Mixture, Output, Profile, Strategy, panel, profile,
+    Interlace, Kept, MAX_VIEWS, Mixture, Output, Profile, Strategy, panel, profile,
 };
 use crate::display::{Display, Kind, MAX_FINE_VIEWS, MaskError};
 use std::fmt;
@@ -279,7 +279,8 @@ fn choice<T: Copy>(
 }
 
 pub(super) fn camera(settings: &Settings) -> Result<Camera, ConfigError> {
-    use OptionId::{Convergence, EyeSpacing, FocalDepth, Separation};
+    use OptionId::{AutoDepth, Convergence, EyeSpacing, FocalDepth, Separation};
+    let measured = switch(settings, AutoDepth)?;
     let eye = settings
         .field(EyeSpacing)
         .or_else(|| settings.field(FocalDepth));
@@ -294,16 +295,36 @@ pub(super) fn camera(settings: &Settings) -> Result<Camera, ConfigError> {
             second_value: (*second_value).to_owned(),
         });
     }
+    if let Some((field, value)) = settings.field(FocalDepth)
+        && number((field.clone(), value))? <= 0.0
+    {
+        return Err(ConfigError::NotPositive {
+            field,
+            value: value.to_owned(),
+        });
+    }
+    let given = |id| settings.field(id).map(number).transpose();
+    if measured {
+        let kept = match (
+            given(Separation)?,
+            given(Convergence)?,
+            given(EyeSpacing)?,
+            given(FocalDepth)?,
+        ) {
+            (None, None, None, None) => Some(None),
+            (Some(separation), None, ..) => Some(Some(Kept::Separation(separation))),
+            (None, Some(convergence), ..) => Some(Some(Kept::Convergence(convergence))),
+            (_, _, Some(spacing), None) => Some(Some(Kept::EyeSpacing(spacing))),
+            (_, _, None, Some(depth)) => Some(Some(Kept::FocalDepth(depth))),
+            // Both are given: there is nothing to find.
+            _ => None,
+        };
+        if let Some(kept) = kept {
+            return Ok(Camera::Measured(kept));
+        }
+    }
     if eye.is_some() {
         let (spacing, focal_depth) = pair(settings, EyeSpacing, FocalDepth)?;
-        if focal_depth <= 0.0
-            && let Some((field, value)) = settings.field(FocalDepth)
-        {
-            return Err(ConfigError::NotPositive {
-                field,
-                value: value.to_owned(),
-            });
-        }
         return Ok(Camera::Eye {
             spacing,
             focal_depth,
@@ -421,15 +442,24 @@ fn explain(settings: &Settings, views: u32) -> Result<Option<Explain>, ConfigErr
 }
 
 fn control(settings: &Settings, views: u32) -> Result<bool, ConfigError> {
-    let Some((field, value)) = settings.field(OptionId::Control) else {
-        return Ok(false);
-    };
-    let value = value.to_owned();
-    match &*value {
-        "0" => Ok(false),
-        "1" if views < 2 => Err(ConfigError::OneView { field, value }),
-        "1" => Ok(true),
-        _ => Err(ConfigError::Switch { field, value }),
+    match settings.field(OptionId::Control) {
+        Some((field, value)) if views < 2 && value == "1" => Err(ConfigError::OneView {
+            field,
+            value: value.to_owned(),
+        }),
+        _ => switch(settings, OptionId::Control),
+    }
+}
+
+/// An option that is on or off; off where it is not given.
+fn switch(settings: &Settings, id: OptionId) -> Result<bool, ConfigError> {
+    match settings.field(id) {
+        None | Some((_, "0")) => Ok(false),
+        Some((_, "1")) => Ok(true),
+        Some((field, value)) => Err(ConfigError::Switch {
+            field,
+            value: value.to_owned(),
+        }),
     }
 }
 

@@ -75,7 +75,7 @@ impl Settings {
         Self::from_variables(lookup).with_file()
     }
 
-    /// Puts these options over weaker ones. A source that places the cameras replaces all four camera options.
+    /// Puts these options over weaker ones. A source that places the cameras replaces all camera options.
     #[must_use]
     pub fn over(self, weaker: Self) -> Self {
         let cameras = self.entries.keys().any(|id| id.places_cameras());

@@ -36,6 +36,15 @@ impl Display {
         if let Some(cone) = facts.cone {
             lines.push(("view cone", format!("{cone}°")));
         }
+        if let Some((width, _)) = facts.screen {
+            let budget = self.budget(self.views, width);
+            let mm = budget.mm_per_px.map(|per_px| budget.px * per_px);
+            let mm = mm.map_or(String::new(), |mm| format!(" = {mm:.3} mm"));
+            lines.push((
+                "disparity budget",
+                format!("{:.2} pixels{mm} from view to view", budget.px),
+            ));
+        }
         if let Some((columns, rows)) = facts.quilt {
             lines.push(("quilt", format!("{columns}x{rows}")));
         }

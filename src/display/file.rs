@@ -42,10 +42,25 @@ const SCREEN: &str = "give the screen in pixels, for example screen = \"2560x160
 const DPI: &str = "give the pixels per inch, for example dpi = 338";
 const CONE: &str = "give the angle of the views in degrees, for example cone = 40";
 const ROTATION: &str = "give how far the glass is turned clockwise, for example rotation = 90";
+const BUDGET_PX: &str =
+    "give the disparity between neighbouring views in pixels, for example budget-px = 1.5";
+const BUDGET_MM: &str =
+    "give the disparity between neighbouring views in mm, for example budget-mm = 0.2";
+const DPI_FOR_MM: &str = "give the pixels per inch with budget-mm, for example dpi = 338";
 const QUILT: &str = "give columns and rows, for example quilt = \"8x6\"";
 
-const COMMON: [&str; 9] = [
-    "version", "name", "kind", "views", "screen", "dpi", "cone", "rotation", "quilt",
+const COMMON: [&str; 11] = [
+    "version",
+    "name",
+    "kind",
+    "views",
+    "screen",
+    "dpi",
+    "cone",
+    "rotation",
+    "quilt",
+    "budget-px",
+    "budget-mm",
 ];
 const LENS: [&str; 7] = [
     "pitch",
@@ -265,6 +280,11 @@ impl Reader<'_> {
         facts.dpi = f.float("dpi", (1.0, 10_000.0), DPI)?.or(facts.dpi);
         facts.cone = f.float("cone", (0.1, 170.0), CONE)?.or(facts.cone);
         facts.quilt = f.pair("quilt", 256, QUILT)?.or(facts.quilt);
+        facts.budget_px = f.float("budget-px", (0.01, 1000.0), BUDGET_PX)?;
+        facts.budget_mm = f.float("budget-mm", (0.001, 100.0), BUDGET_MM)?;
+        if facts.budget_mm.is_some() && facts.dpi.is_none() {
+            return Err(f.missing("dpi", DPI_FOR_MM));
+        }
         Ok(())
     }
 

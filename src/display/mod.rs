@@ -12,6 +12,7 @@
 #![forbid(unsafe_code)]
 
 mod bias;
+mod budget;
 mod builtin;
 mod calibration;
 mod describe;
@@ -32,6 +33,7 @@ mod slanted;
 mod tests;
 
 pub use bias::Bias;
+pub use budget::Budget;
 pub use builtin::{Builtin, builtins};
 pub use error::{DisplayError, MaskError};
 pub use integer::Integer;
@@ -81,6 +83,10 @@ pub struct Facts {
     pub cone: Option<f64>,
     /// Columns and rows of its quilt.
     pub quilt: Option<(u32, u32)>,
+    /// Largest disparity between neighbouring views, in pixels of the screen.
+    pub budget_px: Option<f64>,
+    /// The same, in mm.
+    pub budget_mm: Option<f64>,
 }
 
 /// How a panel's mask is made.

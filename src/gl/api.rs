@@ -130,6 +130,7 @@ impl Gl {
         gen_framebuffer = glGenFramebuffers, Framebuffer;
         gen_query = glGenQueries, Query;
         gen_vertex_array = glGenVertexArrays, VertexArray;
+        gen_buffer = glGenBuffers, Buffer;
     }
 
     /// glIsEnabled

@@ -15,6 +15,8 @@ pub enum Held {
     Query,
     /// A vertex array object.
     VertexArray,
+    /// A buffer object.
+    Buffer,
     /// A shader that is not yet part of a program, or the program.
     Shader,
 }
@@ -27,13 +29,14 @@ pub struct Count {
     pub framebuffers: i64,
     pub queries: i64,
     pub vertex_arrays: i64,
+    pub buffers: i64,
     pub shaders: i64,
 }
 
 thread_local! {
     // Of the context that is current on the thread. No destructor: threads may call GL while they are torn down.
     static SINCE: Cell<Count> = const {
-        Cell::new(Count { textures: 0, framebuffers: 0, queries: 0, vertex_arrays: 0, shaders: 0 })
+        Cell::new(Count { textures: 0, framebuffers: 0, queries: 0, vertex_arrays: 0, buffers: 0, shaders: 0 })
     };
 }
 
@@ -46,6 +49,7 @@ impl Held {
             Held::Framebuffer => &mut count.framebuffers,
             Held::Query => &mut count.queries,
             Held::VertexArray => &mut count.vertex_arrays,
+            Held::Buffer => &mut count.buffers,
             Held::Shader => &mut count.shaders,
         } += by;
         SINCE.set(count);
@@ -60,6 +64,7 @@ impl Count {
         self.framebuffers += since.framebuffers;
         self.queries += since.queries;
         self.vertex_arrays += since.vertex_arrays;
+        self.buffers += since.buffers;
         self.shaders += since.shaders;
     }
 }

@@ -4,6 +4,7 @@
 #[macro_use]
 mod real;
 pub mod api;
+mod buffers;
 pub mod consts;
 mod held;
 pub mod immediate;
@@ -13,6 +14,7 @@ mod table;
 mod textures;
 
 pub use api::Gl;
+pub use buffers::Fence;
 pub use held::{Count, Held};
 pub use immediate::{Ends, Recording};
 pub use real::{Ptr, Real};

@@ -4,7 +4,7 @@ use super::real::{Ptr, Real};
 use core::ffi::{CStr, c_ulong};
 
 /// Number of commands in the table.
-pub const COUNT: usize = 1242;
+pub const COUNT: usize = 1246;
 
 /// Index of each command in the table.
 pub mod slot {
@@ -1239,17 +1239,21 @@ pub mod slot {
     pub const glDeleteShader: usize = 1228;
     pub const glDeleteProgram: usize = 1229;
     pub const glGetUniformLocation: usize = 1230;
-    pub const glGetUniformBlockIndex: usize = 1231;
-    pub const glUniformBlockBinding: usize = 1232;
-    pub const glBindBufferBase: usize = 1233;
-    pub const glBindBufferRange: usize = 1234;
-    pub const glGenBuffers: usize = 1235;
-    pub const glBindAttribLocation: usize = 1236;
-    pub const glProgramParameteri: usize = 1237;
-    pub const glGenVertexArrays: usize = 1238;
-    pub const glBindVertexArray: usize = 1239;
-    pub const glGenSamplers: usize = 1240;
-    pub const glBindSampler: usize = 1241;
+    pub const glFenceSync: usize = 1231;
+    pub const glClientWaitSync: usize = 1232;
+    pub const glDeleteSync: usize = 1233;
+    pub const glGetBufferSubData: usize = 1234;
+    pub const glGetUniformBlockIndex: usize = 1235;
+    pub const glUniformBlockBinding: usize = 1236;
+    pub const glBindBufferBase: usize = 1237;
+    pub const glBindBufferRange: usize = 1238;
+    pub const glGenBuffers: usize = 1239;
+    pub const glBindAttribLocation: usize = 1240;
+    pub const glProgramParameteri: usize = 1241;
+    pub const glGenVertexArrays: usize = 1242;
+    pub const glBindVertexArray: usize = 1243;
+    pub const glGenSamplers: usize = 1244;
+    pub const glBindSampler: usize = 1245;
 }
 
 /// Name of each command.
@@ -2485,6 +2489,10 @@ pub static NAMES: [&CStr; COUNT] = [
     c"glDeleteShader",
     c"glDeleteProgram",
     c"glGetUniformLocation",
+    c"glFenceSync",
+    c"glClientWaitSync",
+    c"glDeleteSync",
+    c"glGetBufferSubData",
     c"glGetUniformBlockIndex",
     c"glUniformBlockBinding",
     c"glBindBufferBase",
@@ -3730,6 +3738,10 @@ real_functions! {
     glDeleteShader(shader: u32);
     glDeleteProgram(program: u32);
     glGetUniformLocation(program: u32, name: Ptr) -> i32 = 0;
+    glFenceSync(condition: u32, flags: u32) -> Ptr = core::ptr::null_mut();
+    glClientWaitSync(sync: Ptr, flags: u32, timeout: u64) -> u32 = 0;
+    glDeleteSync(sync: Ptr);
+    glGetBufferSubData(target: u32, offset: isize, size: isize, data: Ptr);
     glGetUniformBlockIndex(program: u32, uniformBlockName: Ptr) -> u32 = 0;
     glUniformBlockBinding(program: u32, uniformBlockIndex: u32, uniformBlockBinding: u32);
     glBindBufferBase(target: u32, index: u32, buffer: u32);

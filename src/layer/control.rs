@@ -33,6 +33,9 @@ impl Layer {
 
     /// Other values from the next draw on; to be called between frames, so that none is drawn with both.
     pub fn adopt(&mut self, live: Live) {
+        if live.camera != self.live.camera {
+            self.comfort.change(live.camera);
+        }
         self.live = live;
         self.rig.change(live.camera, live.flat);
         self.classifier.change_hud_depth(live.hud_depth);
@@ -86,6 +89,8 @@ impl Layer {
         };
         put(OptionId::Output, self.live.output.to_string().into());
         put(OptionId::HudDepth, self.live.hud_depth.into());
+        let measured = matches!(self.live.camera, Camera::Measured(_));
+        put(OptionId::AutoDepth, u8::from(measured).into());
         let cameras = self.live.cameras(self.rig.latched());
         for (id, value) in cameras.into_iter().flatten() {
             put(id, value.into());
@@ -100,13 +105,13 @@ impl Layer {
         ControlError::NotInForce {
             name,
             reason: match self.live.camera {
-                Camera::Auto if self.rig.latched().is_none() => {
+                Camera::Auto | Camera::Measured(_) if self.rig.latched().is_none() => {
                     "the program has drawn nothing in perspective yet, so the cameras are not chosen"
                 }
                 Camera::Eye { .. } => {
                     "the cameras are placed by eye-spacing and focal-depth; ask for those"
                 }
-                Camera::Auto | Camera::Clip { .. } => {
+                Camera::Auto | Camera::Measured(_) | Camera::Clip { .. } => {
                     "the cameras are placed by separation and convergence; ask for those"
                 }
             },

@@ -186,6 +186,7 @@ impl Layer {
         if classed.class == Class::Scene {
             self.rig.latch(&self.state.projection);
         }
+        self.watch_depths(gl, kind, &classed);
         let plan = plan(kind, &self.state, &self.rig, &self.means, &classed);
         let plan = self.uncopied(gl, self.uncounted(plan));
         self.explain_this(&facts, &classed);

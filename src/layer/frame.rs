@@ -76,6 +76,7 @@ impl Layer {
             self.report.note(e);
         }
         self.capture(gl, &source);
+        self.follow_depths(gl);
     }
 
     /// The framebuffers that the program has bound, after others were.

@@ -3,6 +3,7 @@
 
 mod accumulate;
 mod classing;
+mod comfort;
 mod control;
 mod copies;
 mod drawing;
@@ -83,6 +84,7 @@ pub struct Layer {
     frame: classing::Frame,
     explained: Option<explain::Explained>,
     live: Live,
+    comfort: comfort::Comfort,
     picture: control::Picture,
     made: Count,
     on_screen: Option<OnScreen>,
@@ -165,6 +167,7 @@ impl Layer {
             frame: classing::Frame::default(),
             explained: None,
             live,
+            comfort: comfort::Comfort::new(config, live.camera),
             picture: control::Picture::None,
             made: Count::default(),
             report,
@@ -320,13 +323,16 @@ impl Layer {
     }
 
     /// The context is destroyed: what its share group keeps is left to the others.
-    pub fn leave(self) {
+    pub fn leave(mut self) {
         let mut lists = self.lists.lock().unwrap_or_else(PoisonError::into_inner);
         let mask = Some(self.interleaver.texture()).filter(|&t| t != 0);
         lists.left.framebuffers.extend(self.atlas.framebuffers());
         let textures = self.atlas.textures().iter().copied();
         let textures = textures.chain(mask).chain(self.copies.ours());
         lists.left.textures.extend(textures);
+        let (buffer, fence) = self.atlas.give_buffer();
+        lists.left.buffers.extend(buffer);
+        lists.left.fences.extend(fence);
         let programs = self.interleaver.programs().chain(self.programs.names());
         lists.left.programs.extend(programs);
         if let Some(accumulation) = &self.accumulated.buffer {
@@ -381,6 +387,11 @@ fn sweep(gl: &Gl, lists: &SharedLists) {
         Held::Texture.count(1);
         gl.delete_texture(texture);
     }
+    for buffer in left.buffers {
+        Held::Buffer.count(1);
+        gl.delete_buffer(buffer);
+    }
+    left.fences.into_iter().for_each(|f| gl.delete_fence(f));
     for program in left.programs {
         Held::Shader.count(1);
         gl.delete_program(program);

@@ -2,12 +2,15 @@
 #![forbid(unsafe_code)]
 
 pub mod class;
+pub mod comfort;
+pub mod depths;
 pub mod parallax;
 
-use crate::config::profile::FARTHEST;
 use crate::config::{Class, Strategy, Viewport};
 use crate::state::State;
 pub use class::{Classed, Classifier, Facts};
+pub use comfort::Comfort;
+pub use depths::{Ramp, Ways};
 pub use parallax::{Rig, Shear};
 
 /// What the program draws with.
@@ -115,7 +118,7 @@ pub fn plan(kind: Kind, state: &State, rig: &Rig, means: &Means, classed: &Class
                 None => rig.shear(p),
                 Some(focal) => rig.shear_about(p, focal),
             },
-            Class::Sky => rig.at_depth(p, FARTHEST),
+            Class::Sky => rig.sky(p),
             Class::Flat => rig.at_depth(p, classed.depth * magnified(state)),
             Class::OffScreen => None,
         }

@@ -6,6 +6,7 @@
 //! row0(P_i) = row0(P) + sep_i·row3(P) − sep_i·conv·(0,0,0,1), sep_i = A·e_i/ξ, conv = ξ, e_i = (i − (N−1)/2)·κ.
 
 use crate::config::Camera;
+use crate::config::profile::FARTHEST;
 
 /// The cameras of all views.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -18,6 +19,8 @@ pub struct Rig {
     latched: Option<(f64, f64)>,
     /// A per unit of row 3, of the last perspective projection that was drawn with.
     a: Option<f64>,
+    /// Where a sky stands: 1 infinitely far, or the end of what the display can show.
+    farthest: f64,
     /// All cameras stand where the program's own does.
     flat: bool,
 }
@@ -48,6 +51,7 @@ impl Rig {
             focal,
             latched: None,
             a: None,
+            farthest: FARTHEST,
             flat: false,
         }
     }
@@ -55,6 +59,19 @@ impl Rig {
     /// Other cameras from now on; `flat`: all of them stand where the program's own does.
     pub fn change(&mut self, camera: Camera, flat: bool) {
         (self.camera, self.flat) = (camera, flat);
+        self.farthest = FARTHEST;
+    }
+
+    /// Separation and convergence for [`Camera::Measured`], as [`super::Comfort`] finds them; nothing is shifted before.
+    /// `farthest` is where a sky stands, as for [`Rig::at_depth`].
+    pub fn place_by(&mut self, cameras: (f64, f64), farthest: f64) {
+        self.latched = Some(cameras);
+        self.farthest = farthest;
+    }
+
+    /// The shift of a sky.
+    pub fn sky(&self, p: &[f32; 16]) -> Option<Shear> {
+        self.at_depth(p, self.farthest)
     }
 
     /// Position of a view in units of the spacing: −(N−1)/2 … (N−1)/2; 0 is the program's own camera.
@@ -72,22 +89,15 @@ impl Rig {
             return;
         }
         if let Camera::Eye { .. } = self.camera {
-            let (a, scale) = focal_length(p);
-            self.a = Some(a / scale);
+            self.a = Some(lens(p).0);
         }
         if self.camera != Camera::Auto || self.latched.is_some() {
             return;
         }
-        let [a, b, c, d] = [p[10], p[14], p[11], p[15]].map(f64::from);
-        // Depth 0 and 1 of the clip range: z = ∓w along the axis, with z = a·z_e + b and w = c·z_e + d.
-        let at = |sign: f64| ((sign * d - b) / (a - sign * c)).abs();
-        let (z1, z2) = (at(-1.0), at(1.0));
-        let (near, far) = if z1 < z2 { (z1, z2) } else { (z2, z1) };
+        let [near, far] = planes(p);
         if near.is_finite() && near > 0.0 {
-            let scale = c.hypot(f64::from(p[3])).hypot(f64::from(p[7]));
-            let focal = self
-                .focal
-                .unwrap_or_else(|| (near * far.min(1000.0 * near)).sqrt());
+            let (_, scale) = lens(p);
+            let focal = self.focal.unwrap_or_else(|| (near * far).sqrt());
             self.latched = Some((self.auto_step(), focal * scale));
         }
     }
@@ -97,7 +107,7 @@ impl Rig {
         AUTO_TOTAL_SEPARATION / f64::from(self.views.max(2) - 1)
     }
 
-    /// Separation and convergence in use, once known: of neighbouring views in clip space, and in units of clip-space w.
+    /// Separation and convergence that were found, once known: of neighbouring views in clip space, and in units of clip-space w.
     pub fn latched(&self) -> Option<(f64, f64)> {
         self.latched
     }
@@ -111,6 +121,7 @@ impl Rig {
         let far = match self.camera {
             Camera::Clip { separation, .. } => Shear::in_clip_space(separation, 0.0),
             Camera::Auto => Shear::in_clip_space(self.auto_step(), 0.0),
+            Camera::Measured(_) => Shear::in_clip_space(self.latched?.0, 0.0),
             Camera::Eye { .. } if !flat(p) => self.shear(p)?,
             Camera::Eye {
                 spacing,
@@ -139,16 +150,16 @@ impl Rig {
                 separation,
                 convergence,
             } => Some(Shear::in_clip_space(separation, convergence)),
-            Camera::Auto => self
+            Camera::Auto | Camera::Measured(_) => self
                 .latched
                 .map(|(separation, conv)| Shear::in_clip_space(separation, conv)),
             Camera::Eye {
                 spacing,
                 focal_depth,
             } => {
-                let (a, scale) = focal_length(p);
+                let (a, scale) = lens(p);
                 Some(Shear {
-                    a: a / scale,
+                    a,
                     spacing,
                     focal: focal_depth,
                     conv: focal_depth * scale,
@@ -160,7 +171,7 @@ impl Rig {
     /// The shift for a draw that has zero parallax at a depth of its own, with the separation at infinity of the others: it looks
     /// ξ/`focal` times as far and as large as it is.
     pub fn shear_about(&self, p: &[f32; 16], focal: f64) -> Option<Shear> {
-        let (_, scale) = focal_length(p);
+        let (_, scale) = lens(p);
         Some(Shear {
             conv: focal * scale,
             ..self.shear(p)?
@@ -184,6 +195,23 @@ fn focal_length(p: &[f32; 16]) -> (f64, f64) {
     let row0 = glam::DVec3::new(p[0].into(), p[4].into(), p[8].into());
     let row3 = glam::DVec3::new(p[3].into(), p[7].into(), p[11].into());
     (row0.reject_from(row3).length(), row3.length())
+}
+
+/// Distances of the near and the far plane of a perspective projection, in eye-space units; the far one at most 1000 near
+/// distances away.
+pub fn planes(p: &[f32; 16]) -> [f64; 2] {
+    let [a, b, c, d] = [p[10], p[14], p[11], p[15]].map(f64::from);
+    // Depth 0 and 1 of the clip range: z = ∓w along the axis, with z = a·z_e + b and w = c·z_e + d.
+    let at = |sign: f64| ((sign * d - b) / (a - sign * c)).abs();
+    let (z1, z2) = (at(-1.0), at(1.0));
+    let (near, far) = if z1 < z2 { (z1, z2) } else { (z2, z1) };
+    [near, far.min(1000.0 * near)]
+}
+
+/// A per unit of row 3 of a perspective projection, and the length of row 3.
+pub fn lens(p: &[f32; 16]) -> (f64, f64) {
+    let (a, scale) = focal_length(p);
+    (a / scale, scale)
 }
 
 impl Shear {

@@ -5,7 +5,7 @@
 //! itself (another list, a context without a layer, selection) gets all of it.
 
 use super::{Effect, Immediate, Touch};
-use crate::gl::consts as c;
+use crate::gl::{Fence, consts as c};
 use std::collections::HashMap;
 use std::sync::Arc;
 
@@ -118,6 +118,10 @@ pub struct Left {
     pub textures: Vec<u32>,
     /// Programs.
     pub programs: Vec<u32>,
+    /// Buffer objects.
+    pub buffers: Vec<u32>,
+    /// Sync objects.
+    pub fences: Vec<Fence>,
 }
 
 /// The display lists of one share group, and what is left of its destroyed contexts.

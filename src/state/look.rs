@@ -11,6 +11,8 @@ pub struct Look {
     pub depth: DepthState,
     /// Which part of the depth buffer is drawn to.
     pub range: DepthRange,
+    /// GL_DEPTH_RANGE, as it is.
+    pub depths: [f32; 2],
     /// The 2D texture that the active unit samples; 0 for none.
     pub texture: u32,
     /// GL_MODELVIEW_MATRIX.
@@ -22,6 +24,7 @@ impl Default for Look {
         Look {
             depth: DepthState::Off,
             range: DepthRange::Whole,
+            depths: [0.0, 1.0],
             texture: 0,
             modelview: glam::Mat4::IDENTITY.to_cols_array(),
         }
@@ -43,7 +46,8 @@ impl State {
             };
         }
         if stale(Touch::RANGE) {
-            self.look.range = depth_range(gl.get_floats(c::DEPTH_RANGE));
+            self.look.depths = gl.get_floats(c::DEPTH_RANGE);
+            self.look.range = depth_range(self.look.depths);
         }
         if stale(Touch::TEXTURE) {
             // Programs sample without it being enabled.

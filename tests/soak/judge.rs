@@ -1,11 +1,12 @@
 //! Whether memory grows: a line through what was measured after the start, and how sure it is.
 
 /// Kinds of names in a sample, in the order of its numbers; as in the report.
-pub(crate) const NAMES: [&str; 6] = [
+pub(crate) const NAMES: [&str; 7] = [
     "textures",
     "framebuffers",
     "queries",
     "vertex_arrays",
+    "buffers",
     "shaders",
     "lists",
 ];
@@ -137,7 +138,7 @@ fn made_up(leak: f64, textures: f64) -> Vec<Sample> {
             Sample {
                 hours,
                 memory: 100.0 + warm + 30.0 * (hours * 12.0).fract() + leak * hours,
-                names: [5 + (textures * hours) as u64, 8, 0, 1, 2, 0],
+                names: [5 + (textures * hours) as u64, 8, 0, 1, 0, 2, 0],
                 ..Sample::default()
             }
         })

@@ -1,7 +1,12 @@
 //! What the layer did, for `--report`.
 #![forbid(unsafe_code)]
 
+mod disparity;
+
+pub use disparity::Disparity;
+
 use crate::gl::Count;
+use disparity::Disparities;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::time::{Duration, Instant};
@@ -17,6 +22,7 @@ pub struct Report {
     notes: Vec<String>,
     errors: u64,
     shaders: u64,
+    disparities: Disparities,
     names: Names,
     last_swap: Option<Instant>,
     last_write: Option<Instant>,
@@ -39,6 +45,8 @@ struct Json<'a> {
     fallbacks: &'a BTreeMap<String, u64>,
     generated_shaders: u64,
     gl_errors: u64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    disparity: Option<disparity::Json<'a>>,
     names: Names,
     notes: &'a [String],
 }
@@ -85,6 +93,11 @@ impl Report {
     /// Names that the layer holds in this context; `lists` are those of its share group.
     pub fn names(&mut self, made: Count, lists: u32) {
         self.names = Names { made, lists };
+    }
+
+    /// What disparities a frame has.
+    pub fn disparity(&mut self, disparity: Disparity) {
+        self.disparities.add(disparity);
     }
 
     /// Frames shown so far.
@@ -168,6 +181,7 @@ impl Report {
             fallbacks: &self.fallbacks,
             generated_shaders: self.shaders,
             gl_errors: self.errors,
+            disparity: self.disparities.json(),
             names: self.names,
             notes: &self.notes,
         };

@@ -1,0 +1,121 @@
+//! Small copies of the depths of the program's own view, read when they are there so that nobody waits for them.
+
+use super::{Atlas, Names, single::Single};
+use crate::gl::{Fence, Gl, consts as c};
+use crate::state::Window;
+
+/// Pictures of one frame that are kept.
+const PICTURES: usize = 3;
+
+/// The longer side of a copy, in samples. A frame of 1920 x 1080 has one of every 15 pixels of a row.
+const SAMPLES: u32 = 128;
+
+/// Where the samples are.
+#[derive(Debug)]
+pub(super) struct Depths {
+    small: Single,
+    buffer: u32,
+    /// Pictures in the buffer.
+    taken: usize,
+    /// Passed when the last of them is there.
+    fence: Option<Fence>,
+}
+
+impl Depths {
+    pub(super) fn framebuffer(&self) -> u32 {
+        self.small.framebuffer()
+    }
+}
+
+impl Atlas {
+    /// Makes what [`Atlas::take_depths`] copies to. The caller saves and restores bindings as for [`Atlas::new`], and the pack
+    /// buffer.
+    pub fn make_depths(&mut self, gl: &Gl, names: &mut Names, window: &Window) {
+        let longer = window.width.max(window.height).max(1);
+        let side = |pixels: u32| (pixels * SAMPLES.min(longer) / longer).max(1) as i32;
+        let size = [side(window.width), side(window.height)];
+        let small = Single::new(gl, names, window, size, self.flipped, &mut self.textures);
+        let buffer = gl.gen_buffer();
+        gl.bind_buffer(c::PIXEL_PACK_BUFFER, buffer);
+        gl.buffer_data_empty(c::PIXEL_PACK_BUFFER, PICTURES * bytes(size));
+        gl.bind_buffer(c::PIXEL_PACK_BUFFER, 0);
+        self.depths = Some(Depths {
+            small,
+            buffer,
+            taken: 0,
+            fence: None,
+        });
+    }
+
+    /// Whether [`Atlas::make_depths`] has nothing to do.
+    pub fn has_depths(&self) -> bool {
+        self.depths.is_some()
+    }
+
+    /// Takes a picture of the depths as they are now; false where there is room for no more. Changes the framebuffer bindings;
+    /// state must be as [`crate::present::Saved::take`] leaves it.
+    pub fn take_depths(&mut self, gl: &Gl) -> bool {
+        self.resolve(gl, true, c::DEPTH_BUFFER_BIT);
+        let (from, x) = self.readable(self.tiles.own());
+        let window = [self.tiles.width, self.tiles.height].map(|n| n as i32);
+        let Some(depths) = self.depths.as_mut().filter(|d| d.taken < PICTURES) else {
+            return false;
+        };
+        depths.small.shrink(gl, from, x, window);
+        let size = depths.small.size();
+        gl.bind_framebuffer(c::READ_FRAMEBUFFER, depths.small.framebuffer());
+        gl.bind_buffer(c::PIXEL_PACK_BUFFER, depths.buffer);
+        gl.read_depth_to_buffer(size[0], size[1], depths.taken * bytes(size));
+        gl.bind_buffer(c::PIXEL_PACK_BUFFER, 0);
+        depths.taken += 1;
+        self.bound_row = u32::MAX;
+        true
+    }
+
+    /// No more pictures are taken in this frame.
+    pub fn send_depths(&mut self, gl: &Gl) {
+        if let Some(depths) = self.depths.as_mut().filter(|d| d.taken > 0) {
+            depths.fence = gl.fence();
+        }
+    }
+
+    /// Whether [`Atlas::read_depths`] would not wait for what was sent; the driver may not know to say.
+    pub fn depths_are_there(&self, gl: &Gl) -> bool {
+        let fence = self.depths.as_ref().and_then(|d| d.fence.as_ref());
+        fence.is_some_and(|fence| gl.passed(fence))
+    }
+
+    /// The pictures that were taken since the last time, in their order: depths of the window, in no order. The pack buffer must be
+    /// none.
+    pub fn read_depths(&mut self, gl: &Gl) -> Vec<Vec<f32>> {
+        let Some(depths) = &mut self.depths else {
+            return Vec::new();
+        };
+        let size = depths.small.size();
+        depths
+            .fence
+            .take()
+            .into_iter()
+            .for_each(|f| gl.delete_fence(f));
+        gl.bind_buffer(c::PIXEL_PACK_BUFFER, depths.buffer);
+        let pictures = (0..std::mem::take(&mut depths.taken)).map(|picture| {
+            let mut samples = vec![0.0; bytes(size) / size_of::<f32>()];
+            gl.get_buffer_floats(c::PIXEL_PACK_BUFFER, picture * bytes(size), &mut samples);
+            samples
+        });
+        let pictures = pictures.collect();
+        gl.bind_buffer(c::PIXEL_PACK_BUFFER, 0);
+        pictures
+    }
+
+    /// Its buffer object and its fence, where there are some.
+    pub fn give_buffer(&mut self) -> (Option<u32>, Option<Fence>) {
+        let fence = self.depths.as_mut().and_then(|d| d.fence.take());
+        (self.depths.as_ref().map(|d| d.buffer), fence)
+    }
+}
+
+/// Of one picture.
+fn bytes([width, height]: [i32; 2]) -> usize {
+    width as usize * height as usize * size_of::<f32>()
+}

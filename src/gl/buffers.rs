@@ -1,0 +1,78 @@
+//! Buffer objects that pixels are read into.
+
+use super::Gl;
+use super::consts as c;
+use super::held::Held;
+use super::real::Ptr;
+
+/// A sync object of the share group in which it was made: passed when all calls before it are done.
+#[derive(Debug)]
+pub struct Fence(usize);
+
+impl Gl {
+    /// glFenceSync; none where the context has no sync objects.
+    pub fn fence(&self) -> Option<Fence> {
+        if self.version() < (3, 2) {
+            return None;
+        }
+        // SAFETY: a context is current; the condition and the flags are the only ones there are.
+        let sync = unsafe { self.real.glFenceSync(c::SYNC_GPU_COMMANDS_COMPLETE, 0) };
+        (!sync.is_null()).then_some(Fence(sync as usize))
+    }
+
+    /// Whether a fence of this share group has passed; does not wait.
+    pub fn passed(&self, fence: &Fence) -> bool {
+        // SAFETY: the sync object is deleted with its `Fence` only.
+        let answer = unsafe { self.real.glClientWaitSync(fence.0 as Ptr, 0, 0) };
+        [c::ALREADY_SIGNALED, c::CONDITION_SATISFIED].contains(&answer)
+    }
+
+    /// glDeleteSync
+    pub fn delete_fence(&self, fence: Fence) {
+        // SAFETY: as above.
+        unsafe { self.real.glDeleteSync(fence.0 as Ptr) };
+    }
+
+    /// glBufferData without contents, for pixels to be read into.
+    pub fn buffer_data_empty(&self, target: u32, bytes: usize) {
+        // SAFETY: a context is current; no data is read.
+        unsafe {
+            self.real.glBufferData(
+                target,
+                bytes as isize,
+                core::ptr::null_mut(),
+                c::STREAM_READ,
+            )
+        };
+    }
+
+    /// glReadPixels of depth as floats into the bound pack buffer, from a byte on; pack state must be as
+    /// [`crate::present::Saved::take`] leaves it. The driver refuses what does not fit.
+    pub fn read_depth_to_buffer(&self, w: i32, h: i32, at: usize) {
+        if self.get_integer(c::PIXEL_PACK_BUFFER_BINDING) == 0 {
+            return;
+        }
+        // SAFETY: a pack buffer is bound (asked above), so the pointer is an offset into it, which the driver checks.
+        unsafe {
+            self.real
+                .glReadPixels(0, 0, w, h, c::DEPTH_COMPONENT, c::FLOAT, at as Ptr)
+        };
+    }
+
+    /// glGetBufferSubData of floats.
+    pub fn get_buffer_floats(&self, target: u32, at: usize, out: &mut [f32]) {
+        let bytes = core::mem::size_of_val(out) as isize;
+        // SAFETY: room for that many bytes.
+        unsafe {
+            self.real
+                .glGetBufferSubData(target, at as isize, bytes, out.as_mut_ptr().cast())
+        };
+    }
+
+    /// glDeleteBuffers of one name.
+    pub fn delete_buffer(&self, name: u32) {
+        // SAFETY: one name.
+        unsafe { self.real.glDeleteBuffers(1, (&raw const name) as Ptr) };
+        Held::Buffer.count(-1);
+    }
+}

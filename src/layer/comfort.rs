@@ -1,0 +1,333 @@
+//! Cameras by what is in the depth buffer, and what disparities there are: which depths are looked at, and when.
+
+use super::{Layer, keep_bindings};
+use crate::config::{Camera, Class, Config, DepthState};
+use crate::display::Budget;
+use crate::gl::{Gl, consts as c};
+use crate::plan::depths::{Distances, Way};
+use crate::plan::{Classed, Kind, Ramp, Ways, comfort, parallax};
+use crate::present::Saved;
+use crate::report::Disparity;
+use crate::state::Touch;
+
+/// What is known of the frame's depths.
+#[derive(Debug)]
+pub(super) struct Comfort {
+    /// Depths are looked at: the cameras go by them, or the report tells of them.
+    on: bool,
+    reported: bool,
+    /// Whether the driver has glClipControl, once it was asked.
+    clip_control: Option<bool>,
+    cameras: comfort::Comfort,
+    /// Found, and in force from the next frame on.
+    next: Option<(f64, f64)>,
+    ways: Ways,
+    /// Something of the frame has been drawn.
+    begun: bool,
+    /// The scene has been drawn since the last picture was taken.
+    pending: bool,
+    /// The last projection of the frame's scene.
+    projection: Option<[f32; 16]>,
+    /// Something flat has written depths since the scene.
+    spoilt: bool,
+    /// Pictures of this frame, and those of the one before that were not read yet.
+    taken: Vec<Taken>,
+    sent: Vec<Taken>,
+}
+
+/// What belongs to one picture of depths.
+#[derive(Clone, Debug)]
+struct Taken {
+    frame: u64,
+    ways: Ways,
+    clear: f32,
+    /// Separation and convergence that the frame is drawn with.
+    cameras: Option<(f64, f64)>,
+    /// Disparity of a sky, in pixels of the window.
+    sky: f64,
+}
+
+impl Comfort {
+    pub(super) fn new(config: &Config, camera: Camera) -> Self {
+        let mut comfort = Comfort {
+            on: false,
+            reported: config.report.is_some(),
+            clip_control: None,
+            cameras: comfort::Comfort::new(None),
+            next: None,
+            ways: Ways::default(),
+            begun: false,
+            pending: false,
+            projection: None,
+            spoilt: false,
+            taken: Vec::new(),
+            sent: Vec::new(),
+        };
+        comfort.change(camera);
+        comfort
+    }
+
+    /// Other cameras are asked for.
+    pub(super) fn change(&mut self, camera: Camera) {
+        let measured = match camera {
+            Camera::Measured(kept) => {
+                self.cameras = comfort::Comfort::new(kept);
+                true
+            }
+            _ => false,
+        };
+        self.on = measured || self.reported;
+    }
+}
+
+impl Layer {
+    /// Takes note of a draw that is about to be made, and a picture of the depths where it would spoil them.
+    pub(super) fn watch_depths(&mut self, gl: &Gl, kind: Kind, classed: &Classed) {
+        if !self.comfort.on || self.live.flat || self.state.list.is_some() {
+            return;
+        }
+        if !std::mem::replace(&mut self.comfort.begun, true) {
+            self.begin_frame(gl);
+        }
+        match (kind, classed.class) {
+            (Kind::Accum, _) | (_, Class::OffScreen) => {}
+            (Kind::Clear, _) => {
+                self.save_depths(gl);
+                // A part of the window that is cleared has a picture of its own.
+                if !self.state.scissor_test {
+                    self.comfort.ways.clear();
+                    self.comfort.spoilt = false;
+                }
+            }
+            (_, Class::Sky) => self.comfort.ways.sky = true,
+            (_, Class::Flat) => {
+                if self.comfort.pending {
+                    self.state.look(gl, Touch::DEPTH);
+                    if self.state.look.depth == DepthState::On {
+                        self.save_depths(gl);
+                        self.comfort.spoilt = true;
+                    }
+                }
+            }
+            (_, Class::Scene) => {
+                self.state.look(gl, Touch::RANGE | Touch::DEPTH);
+                self.comfort.projection = Some(self.state.projection);
+                if self.state.look.depth != DepthState::On {
+                    return;
+                }
+                let zero_to_one = self.zero_to_one(gl);
+                let p = &self.state.projection;
+                if let Some(ramp) = Ramp::of(p, self.state.look.depths, zero_to_one) {
+                    let viewport = self.state.viewport_kind();
+                    self.comfort.pending |= viewport == crate::config::Viewport::Main;
+                    self.comfort.ways.drawn(ramp, p, classed.focal, viewport);
+                }
+            }
+        }
+    }
+
+    /// Looks at the depths of the frame before, if they are there already: with a driver that is a frame behind they are not, and
+    /// wait until the end of this frame.
+    fn begin_frame(&mut self, gl: &Gl) {
+        if self.comfort.sent.is_empty() || !self.atlas.depths_are_there(gl) {
+            return;
+        }
+        let pack = gl.get_integer(c::PIXEL_PACK_BUFFER_BINDING) as u32;
+        self.read_depths(gl);
+        gl.bind_buffer(c::PIXEL_PACK_BUFFER, pack);
+        self.place_cameras();
+    }
+
+    fn place_cameras(&mut self) {
+        if let Camera::Measured(_) = self.live.camera {
+            let budget = self.budget().px / self.half_width();
+            if let Some(cameras) = self.comfort.next {
+                let farthest = self.comfort.cameras.farthest(cameras, budget);
+                self.rig.place_by(cameras, farthest);
+            }
+        }
+    }
+
+    fn zero_to_one(&mut self, gl: &Gl) -> bool {
+        let there = self.comfort.clip_control.get_or_insert_with(|| {
+            gl.version() >= (4, 5) || gl.has_extension("GL_ARB_clip_control")
+        });
+        *there && gl.get_integer(c::CLIP_DEPTH_MODE) as u32 == c::ZERO_TO_ONE
+    }
+
+    /// Within a frame, before what is about to be drawn or cleared.
+    fn save_depths(&mut self, gl: &Gl) {
+        if !self.comfort.pending || self.comfort.spoilt {
+            return;
+        }
+        self.queries.pause(gl);
+        self.queries.lift_condition(gl);
+        let saved = Saved::take(gl, self.state.compatibility);
+        self.take_depths(gl);
+        saved.restore(gl);
+        self.rebind(gl);
+        self.queries.put_condition(gl);
+        self.queries.resume(gl);
+    }
+
+    /// The state is as [`Saved::take`] leaves it.
+    fn take_depths(&mut self, gl: &Gl) {
+        self.comfort.pending = false;
+        if self.state.window.bits[4] == 0 || self.comfort.ways.is_empty() {
+            return;
+        }
+        // The buffer holds the pictures of one frame.
+        if self.comfort.taken.is_empty() {
+            self.read_depths(gl);
+        }
+        if !self.atlas.has_depths() {
+            let (names, window) = (&mut self.names, &self.state.window);
+            keep_bindings(gl, || self.atlas.make_depths(gl, names, window));
+        }
+        let clear = gl.get_floats::<1>(c::DEPTH_CLEAR_VALUE)[0];
+        if self.atlas.take_depths(gl) {
+            let ways = self.comfort.ways.clone();
+            let way = ways.most().map(|way| way.projection);
+            self.comfort.taken.push(Taken {
+                frame: self.report.frames() + 1,
+                cameras: way.and_then(|p| self.cameras(&p)),
+                sky: way
+                    .and_then(|p| self.rig.sky(&p))
+                    .map_or(0.0, |shear| shear.separation(1.0) * self.half_width()),
+                ways,
+                clear,
+            });
+        }
+    }
+
+    /// At the end of a frame: looks at the depths of the one before, and takes this one's. The state is as [`Saved::take`] leaves it;
+    /// changes the framebuffer bindings.
+    pub(super) fn follow_depths(&mut self, gl: &Gl) {
+        if !self.comfort.on {
+            return;
+        }
+        if self.comfort.pending && !self.comfort.spoilt {
+            self.take_depths(gl);
+        }
+        if self.comfort.taken.is_empty() {
+            self.read_depths(gl);
+        }
+        self.comfort.sent = std::mem::take(&mut self.comfort.taken);
+        self.atlas.send_depths(gl);
+        let measured = matches!(self.live.camera, Camera::Measured(_));
+        if measured && self.comfort.next.is_none() {
+            // Nothing has depth yet: better to wait once than to show another flat frame.
+            self.read_depths(gl);
+        }
+        if measured
+            && self.comfort.next.is_none()
+            && let Some(p) = self.comfort.projection
+        {
+            let (_, scale) = parallax::lens(&p);
+            let planes = parallax::planes(&p).map(|distance| distance * scale);
+            let seen = comfort::Seen::by_planes(planes);
+            self.find_cameras(&p, &seen);
+        }
+        self.place_cameras();
+        self.comfort.begun = false;
+        self.comfort.ways = Ways::default();
+        self.comfort.projection = None;
+        self.comfort.pending = false;
+        self.comfort.spoilt = false;
+    }
+
+    fn read_depths(&mut self, gl: &Gl) {
+        let sent = std::mem::take(&mut self.comfort.sent);
+        if sent.is_empty() {
+            return;
+        }
+        let pictures = self.atlas.read_depths(gl);
+        // The atlas is another one since the window has another size.
+        if pictures.len() != sent.len() {
+            return;
+        }
+        let mut all = Distances::default();
+        for (picture, taken) in pictures.iter().zip(&sent) {
+            all.join(taken.ways.distances(picture, taken.clear));
+        }
+        let most = |taken: &&Taken| taken.ways.most().map(Way::draws);
+        if let Some(taken) = sent.iter().max_by_key(most)
+            && let (Some(way), Some(scene)) = (taken.ways.most(), all.scene())
+        {
+            self.judge(taken, &way.projection, scene, &all);
+        }
+    }
+
+    /// Separation and convergence that a projection is drawn with.
+    fn cameras(&self, p: &[f32; 16]) -> Option<(f64, f64)> {
+        self.rig.shear(p).map(|s| (s.separation(1.0), s.conv))
+    }
+
+    /// What the display can show between neighbouring views.
+    fn budget(&self) -> Budget {
+        let (width, views) = (self.size().0, self.config.views);
+        match self.output().is_stereo() {
+            true => self.config.display.budget_of_eyes(views, width),
+            false => self.config.display.budget(views, width),
+        }
+    }
+
+    /// Pixels per unit of normalised device coordinates.
+    fn half_width(&self) -> f64 {
+        f64::from(self.size().0) / 2.0
+    }
+
+    /// The cameras for a frame of which this was seen, with the projection of its scene.
+    fn find_cameras(&mut self, p: &[f32; 16], seen: &comfort::Seen) {
+        if let Camera::Measured(_) = self.live.camera {
+            let (budget, lens) = (self.budget(), parallax::lens(p));
+            let limits = comfort::Limits {
+                budget: budget.px / self.half_width(),
+                orthoscopic: lens.0 * budget.angle,
+                lens,
+            };
+            self.comfort.next = self.comfort.cameras.follow(seen, &limits);
+        }
+    }
+
+    /// Finds the cameras for a frame with these distances, and tells the report of its disparities.
+    fn judge(
+        &mut self,
+        taken: &Taken,
+        p: &[f32; 16],
+        [far, middle, near]: [f64; 3],
+        all: &Distances,
+    ) {
+        let (_, scale) = parallax::lens(p);
+        let ratios = all.others.iter();
+        let ratios = ratios.map(|(inverse, focal)| inverse * focal * scale);
+        let range = |r: Option<[f64; 2]>, v: f64| r.map_or([v; 2], |[a, b]| [a.min(v), b.max(v)]);
+        let seen = comfort::Seen {
+            scene: Some([far, near]),
+            others: ratios.fold(None, |r, v| Some(range(r, v))),
+            sky: all.sky,
+        };
+        self.find_cameras(p, &seen);
+        if !self.comfort.reported {
+            return;
+        }
+        let (budget, px) = (self.budget(), self.half_width());
+        let (separation, convergence) = taken.cameras.unwrap_or_default();
+        let at = |ratio: f64| separation * (1.0 - ratio) * px;
+        let ends = [near, far].map(|inverse| at(convergence * inverse));
+        let own = seen.others.into_iter().flatten().map(at);
+        let sky = all.sky.then_some(taken.sky);
+        let all = ends.into_iter().chain(own).chain(sky);
+        self.report.disparity(Disparity {
+            frame: taken.frame,
+            cameras: (separation, convergence),
+            least: all.clone().fold(f64::INFINITY, f64::min),
+            middle: at(convergence * middle),
+            most: all.fold(f64::NEG_INFINITY, f64::max),
+            budget: budget.px,
+            mm_per_px: budget.mm_per_px,
+            ends: [near, far],
+            px,
+        });
+    }
+}

@@ -1,0 +1,316 @@
+//! What is in a depth buffer: from window depths back to distances, as 1/w of clip space.
+//!
+//! A disparity is sep·(1 − conv/w) (see [`super::parallax`]), so it goes with 1/w, and so does the depth of a perspective
+//! projection: the one is a straight line over the other, whatever the direction of the depth and wherever its far plane.
+
+use crate::config::Viewport;
+
+/// One sample in so many, at the far and at the near end, does not count: a spark that flies by moves no cameras.
+const SPECKS: usize = 200;
+
+/// How many ways of drawing depth are told apart in one picture.
+const MOST: usize = 8;
+
+/// How one projection and depth range turn 1/w into depths: `1/w = slope·depth + offset`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ramp {
+    /// glDepthRange.
+    range: [f64; 2],
+    slope: f64,
+    offset: f64,
+}
+
+impl Ramp {
+    /// For a projection (column-major) and a depth range; `zero_to_one`: glClipControl says that normalised depth begins at 0.
+    /// `None` where depth does not go with 1/w: without perspective, or with an oblique near plane.
+    pub fn of(p: &[f32; 16], range: [f32; 2], zero_to_one: bool) -> Option<Ramp> {
+        let row = |r: usize| {
+            let [x, y, z] = [p[r], p[r + 4], p[r + 8]].map(f64::from);
+            (glam::DVec3::new(x, y, z), f64::from(p[r + 12]))
+        };
+        let ((z, z_constant), (w, w_constant)) = (row(2), row(3));
+        // z_ndc = a + b/w, where z's row is a times w's and a constant.
+        let a = z.dot(w) / w.length_squared();
+        let b = z_constant - a * w_constant;
+        let [near, far] = range.map(f64::from);
+        let depth = if zero_to_one { 1.0 } else { 2.0 } / (far - near);
+        let ramp = Ramp {
+            range: [near.min(far), near.max(far)],
+            slope: depth / b,
+            offset: (-near * depth - if zero_to_one { 0.0 } else { 1.0 } - a) / b,
+        };
+        let oblique = (z - a * w).length() > 1e-4 * z.length();
+        let found = ramp.slope.is_finite() && ramp.offset.is_finite() && ramp.slope != 0.0;
+        (found && !oblique).then_some(ramp)
+    }
+
+    fn holds(&self, depth: f64) -> bool {
+        (self.range[0]..=self.range[1]).contains(&depth)
+    }
+
+    /// 1/w at a depth; nothing is farther than infinitely far.
+    fn inverse(&self, depth: f64) -> f64 {
+        (self.slope * depth + self.offset).max(0.0)
+    }
+}
+
+/// What a scene has been drawn with.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Way {
+    ramp: Ramp,
+    /// Its projection.
+    pub projection: [f32; 16],
+    /// The zero parallax of its own that a profile gives it, in eye-space units.
+    pub focal: Option<f64>,
+    draws: u32,
+}
+
+impl Way {
+    /// Draws that were made this way.
+    pub fn draws(&self) -> u32 {
+        self.draws
+    }
+}
+
+/// What a picture's scene has been drawn with so far.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Ways {
+    ways: Vec<Way>,
+    /// A sky has been drawn: what has no depth is infinitely far.
+    pub sky: bool,
+}
+
+impl Ways {
+    /// A draw of the scene, in a viewport that is no picture in the picture.
+    pub fn drawn(&mut self, ramp: Ramp, p: &[f32; 16], focal: Option<f64>, viewport: Viewport) {
+        if viewport == Viewport::Inset {
+            return;
+        }
+        let same = |w: &&mut Way| w.ramp == ramp && w.focal == focal;
+        if let Some(way) = self.ways.iter_mut().rev().find(same) {
+            way.draws = way.draws.saturating_add(1);
+        } else if self.ways.len() < MOST {
+            self.ways.push(Way {
+                ramp,
+                projection: *p,
+                focal,
+                draws: 1,
+            });
+        }
+    }
+
+    /// The depths are cleared; a sky stays.
+    pub fn clear(&mut self) {
+        self.ways.clear();
+    }
+
+    /// Whether there is anything to measure.
+    pub fn is_empty(&self) -> bool {
+        self.ways.is_empty()
+    }
+
+    /// What most of the scene has been drawn with.
+    pub fn most(&self) -> Option<&Way> {
+        self.ways
+            .iter()
+            .filter(|w| w.focal.is_none())
+            .max_by_key(|w| w.draws)
+    }
+
+    /// What a depth was drawn with: a weapon in the hand has a narrow range to itself, which the scene's holds too.
+    fn way(&self, depth: f64) -> Option<&Way> {
+        let width = |w: &Way| w.ramp.range[1] - w.ramp.range[0];
+        let within = self.ways.iter().filter(|w| w.ramp.holds(depth));
+        within.min_by(|a, b| {
+            width(a)
+                .total_cmp(&width(b))
+                .then_with(|| b.draws.cmp(&a.draws))
+        })
+    }
+
+    /// The distances in a picture of depths; `clear` is the depth of what nothing was drawn on.
+    pub fn distances(&self, depths: &[f32], clear: f32) -> Distances {
+        let mut found = Distances::default();
+        for &depth in depths {
+            // Depths of 24 bits come back with the error of one step.
+            if (depth - clear).abs() < 1e-7 {
+                found.sky |= self.sky;
+            } else if let Some(way) = self.way(depth.into()) {
+                let inverse = way.ramp.inverse(depth.into());
+                match way.focal {
+                    None => found.scene.push(inverse),
+                    Some(focal) => found.others.push((inverse, focal)),
+                }
+            }
+        }
+        found.scene.sort_unstable_by(f64::total_cmp);
+        found
+    }
+}
+
+/// Distances of a picture's samples, as 1/w.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Distances {
+    /// From far to near.
+    pub scene: Vec<f64>,
+    /// With zero parallax at a depth of their own, in eye-space units.
+    pub others: Vec<(f64, f64)>,
+    /// A sky is seen.
+    pub sky: bool,
+}
+
+impl Distances {
+    /// Takes those of another picture of the same frame in.
+    pub fn join(&mut self, other: Distances) {
+        self.scene.extend(other.scene);
+        self.scene.sort_unstable_by(f64::total_cmp);
+        self.others.extend(other.others);
+        self.sky |= other.sky;
+    }
+
+    /// Farthest, middle and nearest of the scene, but for [`SPECKS`] at either end.
+    pub fn scene(&self) -> Option<[f64; 3]> {
+        let (count, specks) = (self.scene.len(), self.scene.len() / SPECKS);
+        let at = |index: usize| self.scene.get(index).copied();
+        Some([
+            at(specks)?,
+            at(count / 2)?,
+            at(count.checked_sub(specks + 1)?)?,
+        ])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::{Mat4, Vec4};
+
+    fn near(a: f64, b: f64) -> bool {
+        (a - b).abs() < 1e-4 * b.abs().max(1e-3)
+    }
+
+    /// A perspective projection, of cameras that look along −z (`w` = −1) or z, with normalised depths of its near and far planes.
+    fn perspective(w: f32, [near, far]: [f32; 2], [at_near, at_far]: [f32; 2]) -> Mat4 {
+        let b = (at_near - at_far) / (1.0 / near - 1.0 / far);
+        let a = at_near - b / near;
+        Mat4::from_cols_array(&[
+            1.4,
+            0.0,
+            0.0,
+            0.0,
+            0.0,
+            1.8,
+            0.0,
+            0.0,
+            0.1,
+            0.0,
+            a * w,
+            w,
+            0.0,
+            0.0,
+            b,
+            0.0,
+        ])
+    }
+
+    const GL: [f32; 2] = [-1.0, 1.0];
+    const PLANES: [f32; 2] = [0.5, 90.0];
+
+    /// Depth of a point as a window has it.
+    fn depth(p: Mat4, at: Vec4, range: [f32; 2], zero_to_one: bool) -> (f32, f64) {
+        let clip = p * at;
+        let ndc = clip.z / clip.w;
+        let unit = if zero_to_one { ndc } else { ndc * 0.5 + 0.5 };
+        (
+            range[0] + (range[1] - range[0]) * unit,
+            1.0 / f64::from(clip.w),
+        )
+    }
+
+    #[test]
+    fn distances_come_back_from_every_kind_of_depth() {
+        let camera = Mat4::from_rotation_y(0.4) * Mat4::from_rotation_x(-0.3);
+        let plain = perspective(-1.0, PLANES, GL);
+        let reversed = perspective(-1.0, [0.5, f32::INFINITY], [1.0, 0.0]);
+        let cases = [
+            (plain, [0.0, 1.0], false),
+            (plain, [0.0, 0.3], false),
+            (plain, [1.0, 0.0], false),
+            (plain * camera, [0.0, 1.0], false),
+            (perspective(-1.0, PLANES, [0.0, 1.0]), [0.0, 1.0], true),
+            (reversed, [0.0, 1.0], true),
+            (reversed * camera, [0.0, 1.0], true),
+            (perspective(1.0, PLANES, [0.0, 1.0]), [0.25, 0.75], true),
+        ];
+        for (p, range, zero_to_one) in cases {
+            let ramp = Ramp::of(&p.to_cols_array(), range, zero_to_one).expect("a ramp");
+            for z in [-1.0_f32, -3.0, -20.0, 1.0, 3.0, 20.0] {
+                let at = Vec4::new(0.3, -0.2, z, 1.0);
+                let (depth, inverse) = depth(p, at, range, zero_to_one);
+                if inverse > 0.0 && (0.0..=1.0).contains(&depth) {
+                    assert!(
+                        near(ramp.inverse(depth.into()), inverse),
+                        "{p} {z}: {} {inverse}",
+                        ramp.inverse(depth.into())
+                    );
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn what_has_no_distance_has_no_ramp() {
+        let whole = [0.0, 1.0];
+        let flat = Mat4::from_scale(glam::Vec3::new(2.0 / 64.0, 2.0 / 48.0, -1.0));
+        assert_eq!(Ramp::of(&flat.to_cols_array(), whole, false), None);
+        let mut oblique = perspective(-1.0, PLANES, GL);
+        oblique.x_axis.z = 0.7;
+        assert_eq!(Ramp::of(&oblique.to_cols_array(), whole, false), None);
+        let plain = perspective(-1.0, PLANES, GL).to_cols_array();
+        assert_eq!(Ramp::of(&plain, [0.5, 0.5], false), None);
+    }
+
+    #[test]
+    fn specks_do_not_count() {
+        let mut scene = vec![0.1; 1000];
+        scene[..5].fill(0.0);
+        scene[995..].fill(3.0);
+        let distances = |scene: &[f64]| Distances {
+            scene: scene.to_vec(),
+            ..Distances::default()
+        };
+        assert_eq!(distances(&scene).scene(), Some([0.1; 3]));
+        scene[994] = 3.0;
+        assert_eq!(distances(&scene).scene(), Some([0.1, 0.1, 3.0]));
+        assert_eq!(distances(&[0.5]).scene(), Some([0.5; 3]));
+        assert_eq!(distances(&[]).scene(), None);
+    }
+
+    #[test]
+    fn a_weapon_keeps_its_range_and_the_background_its_distance() {
+        let scene = perspective(-1.0, [1.0, 100.0], GL);
+        let p = scene.to_cols_array();
+        let whole = Ramp::of(&p, [0.0, 1.0], false).expect("a ramp");
+        let narrow = Ramp::of(&p, [0.0, 0.3], false).expect("a ramp");
+        let mut ways = Ways::default();
+        for _ in 0..5 {
+            ways.drawn(whole, &p, None, Viewport::Main);
+        }
+        ways.drawn(narrow, &p, Some(2.0), Viewport::Main);
+        ways.drawn(narrow, &p, None, Viewport::Inset);
+        let at = |z: f32, range| depth(scene, Vec4::new(0.0, 0.0, z, 1.0), range, false).0;
+        let depths = [
+            at(-50.0, [0.0, 1.0]),
+            at(-10.0, [0.0, 1.0]),
+            1.0,
+            at(-2.5, [0.0, 0.3]),
+        ];
+        let found = ways.distances(&depths, 1.0);
+        let [far, middle, nearest] = found.scene().expect("a scene");
+        assert!(near(far, 0.02) && near(nearest, 0.1) && middle == nearest);
+        assert!(matches!(found.others[..], [(inverse, 2.0)] if near(inverse, 0.4)));
+        assert!(!found.sky);
+        ways.sky = true;
+        assert!(ways.distances(&depths, 1.0).sky);
+    }
+}

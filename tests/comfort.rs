@@ -1,0 +1,251 @@
+//! Cameras by depth: what `--auto-depth` keeps to and what `--report` tells, against distances that the test knows by itself: those of
+//! the walls of tests/support/c/depths.c, and for the demos every pixel of the captured depths with the planes of their projections.
+#![forbid(unsafe_code)]
+
+mod support;
+
+use serde_json::Value;
+use std::path::Path;
+use support::{Compiled, compiled, demo, layered, manyview, screen, succeed};
+
+/// Of tests/support/c/depths.c.
+const WIDTH: f64 = 64.0;
+/// The last one is looked at by the next, which does not come.
+const FRAMES: u64 = 10 - 1;
+/// Of 8 views, in pixels: √(8/3) (docs/displays.md).
+const BUDGET: f64 = 1.632_993;
+
+/// One frame of the report.
+#[derive(Debug)]
+struct Frame {
+    frame: u64,
+    separation: f64,
+    convergence: f64,
+    /// Nearest, middle, farthest; pixels.
+    px: [f64; 3],
+}
+
+impl Frame {
+    /// Of a point at a distance between neighbouring views, in pixels of a width.
+    fn disparity(&self, distance: f64, width: f64) -> f64 {
+        self.separation * (1.0 - self.convergence / distance) * width / 2.0
+    }
+}
+
+fn report(path: &Path) -> Value {
+    let text = std::fs::read_to_string(path).expect("a report");
+    serde_json::from_str(&text).expect("JSON")
+}
+
+fn frames(report: &Value) -> Vec<Frame> {
+    let number = |value: &Value| value.as_f64().expect("a number");
+    let listed = report["disparity"]["last_frames"].as_array();
+    let listed = listed.unwrap_or_else(|| panic!("no disparities in {report}"));
+    listed
+        .iter()
+        .map(|frame| Frame {
+            frame: frame["frame"].as_u64().expect("a frame"),
+            separation: number(&frame["separation"]),
+            convergence: number(&frame["convergence"]),
+            px: [0, 1, 2].map(|i| number(&frame["px"][i])),
+        })
+        .collect()
+}
+
+/// The report of the walls, drawn in one of their ways.
+fn walls(how: &str, options: &[(&str, &str)]) -> Value {
+    let program = compiled("depths", Compiled::Program, &["-lEGL", "-lGL"]);
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("report.json");
+    let mut all = vec![("VIEWS", "8"), ("REPORT", path.to_str().expect("UTF-8"))];
+    all.extend(options);
+    succeed(layered(program, &all).arg(how));
+    report(&path)
+}
+
+const AUTO: [(&str, &str); 1] = [("AUTO_DEPTH", "1")];
+
+/// The report tells the distances that the program draws, whatever its depths are like.
+#[test]
+fn distances_are_those_that_are_drawn() {
+    // What the nearest thing is, beside the wall that moves; the last two draw it after the scene.
+    let cases = [
+        ("plain", f64::INFINITY),
+        ("reversed", f64::INFINITY),
+        ("inverted", f64::INFINITY),
+        ("overlay", f64::INFINITY),
+        ("weapon", 1.5),
+        ("cleared", 1.5),
+    ];
+    for (how, other) in cases {
+        let frames = frames(&walls(how, &AUTO));
+        assert_eq!(frames.len() as u64, FRAMES, "{how}");
+        for frame in &frames[1..] {
+            let near = (4.0 + frame.frame as f64 * 0.5).min(10.0).min(other);
+            let wanted = [near, 40.0].map(|distance| frame.disparity(distance, WIDTH));
+            for (wanted, got) in wanted.iter().zip([frame.px[0], frame.px[2]]) {
+                assert!((wanted - got).abs() < 2e-3, "{how}: {wanted} in {frame:?}");
+            }
+            assert!(
+                frame.px.iter().all(|px| px.abs() <= BUDGET) && frame.px[2] > 0.2 * BUDGET,
+                "{how}: {frame:?}"
+            );
+        }
+        assert_eq!(
+            frames[0].px, [0.0; 3],
+            "{how}: nothing is known of the first frame"
+        );
+    }
+}
+
+/// A program that draws in perspective without depths has cameras, too.
+#[test]
+fn a_scene_without_depths_is_in_the_budget_at_infinity() {
+    let report = walls("nodepth", &AUTO);
+    assert_eq!(report["disparity"], Value::Null, "{report}");
+    let folder = tempfile::tempdir().expect("a folder");
+    let program = compiled("depths", Compiled::Program, &["-lEGL", "-lGL"]);
+    let view = |view: &str, options: &[(&str, &str)]| {
+        let out = folder.path().join("view.png");
+        let mut all = vec![
+            ("VIEWS", "8"),
+            ("CAPTURE_OUT", out.to_str().expect("UTF-8")),
+            ("CAPTURE_FRAMES", "6"),
+            ("CAPTURE_WHAT", view),
+        ];
+        all.extend(options);
+        succeed(layered(&program, &all).arg("nodepth"));
+        support::rgb(&out)
+    };
+    assert_ne!(view("view:0", &AUTO), view("view:7", &AUTO), "flat");
+    // 0.6 of the budget at infinity, and zero parallax at √(1·100).
+    let separation = (0.6 * BUDGET / (WIDTH / 2.0)).to_string();
+    let placed = [("SEPARATION", separation.as_str()), ("CONVERGENCE", "10")];
+    assert_eq!(view("view:0", &AUTO), view("view:0", &placed));
+}
+
+/// What the user gives is not found, but kept; where both values are given there is nothing to find.
+#[test]
+fn what_is_given_is_kept() {
+    let one = |name, value| frames(&walls("plain", &[AUTO[0], (name, value)]));
+    let last = |frames: Vec<Frame>| frames.into_iter().last().expect("frames");
+    assert_eq!(last(one("SEPARATION", "0.01")).separation, 0.01);
+    assert_eq!(last(one("CONVERGENCE", "7")).convergence, 7.0);
+    assert_eq!(last(one("FOCAL_DEPTH", "7")).convergence, 7.0);
+    let spaced = last(one("EYE_SPACING", "0.1"));
+    assert!((spaced.separation * spaced.convergence - 0.1).abs() < 1e-9);
+    let both = [AUTO[0], ("SEPARATION", "0.5"), ("CONVERGENCE", "7")];
+    for frame in frames(&walls("plain", &both)) {
+        assert_eq!((frame.separation, frame.convergence), (0.5, 7.0));
+    }
+}
+
+/// The report has both units where the display says how large its pixels are, and does without `--auto-depth`.
+#[test]
+fn disparities_are_told_in_pixels_and_in_millimetres() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = folder.path().join("panel.toml");
+    let text = "kind = \"huebner\"\ndpi = 127\nbudget-mm = 0.1\n";
+    std::fs::write(&file, text).expect("written");
+    let options = [
+        ("DISPLAY", file.to_str().expect("UTF-8")),
+        ("SEPARATION", "0.05"),
+        ("CONVERGENCE", "8"),
+    ];
+    let report = walls("plain", &options);
+    let about = &report["disparity"];
+    let number = |value: &Value| value.as_f64().expect("a number");
+    let near = |a: f64, b: f64| (a - b).abs() < 2e-3;
+    // 127 pixels an inch are 0.2 mm each.
+    assert!(near(number(&about["budget_px"]), 0.5) && near(number(&about["budget_mm"]), 0.1));
+    let px = |distance: f64| 0.05 * (1.0 - 8.0 / distance) * WIDTH / 2.0;
+    for (name, wanted) in [("min", px(4.5)), ("max", px(40.0))] {
+        let (px, mm) = (number(&about["px"][name]), number(&about["mm"][name]));
+        assert!(
+            near(px, wanted) && near(mm, wanted * 0.2),
+            "{name}: {about}"
+        );
+    }
+    assert_eq!(about["frames_over_budget"], FRAMES);
+    assert_eq!(about["change_px"]["max"], 0.0);
+}
+
+/// A demo and the planes of its projection, in units.
+struct Planes(&'static str, f64, f64);
+
+const DEMOS: [Planes; 11] = [
+    Planes("arrays", 1.0, 60.0),
+    Planes("clip", 1.5, 40.0),
+    Planes("echo", 1.5, 40.0),
+    Planes("fogtexgen", 1.5, 60.0),
+    Planes("gears", 2.0, 40.0),
+    Planes("immediate", 1.0, 60.0),
+    Planes("lists", 1.5, 40.0),
+    Planes("mesh", 1.0, 40.0),
+    Planes("mirror", 1.5, 50.0),
+    Planes("points", 1.5, 40.0),
+    Planes("teapot", 1.5, 40.0),
+];
+
+/// Draws frames of a demo in 8 views and looks at every pixel of the depths of each. As in the report, one in 200 does not count.
+fn check(Planes(name, near, far): &Planes, count: u64) {
+    const SIZE: (u32, u32) = (320, 240);
+    let screen = screen();
+    let folder = tempfile::tempdir().expect("a folder");
+    let (out, path) = (folder.path().join("%d.png"), folder.path().join("r.json"));
+    let mut command = manyview();
+    command
+        .args(["capture", "--auto-depth", "--views", "8", "--what", "depth"])
+        .args(["--frames", &format!("1..{count}"), "--report"])
+        .arg(&path)
+        .arg("--out")
+        .arg(&out)
+        .arg("--")
+        .arg(demo(name))
+        .args(["--size", &format!("{}x{}", SIZE.0, SIZE.1)]);
+    succeed(screen.give(&mut command));
+    let report = report(&path);
+    let frames = frames(&report);
+    // The last picture ends the program before its frame is looked at.
+    assert!(frames.len() as u64 >= count - 1, "{name}: {}", frames.len());
+    let mut largest = 0.0f64;
+    for frame in frames.iter().filter(|f| f.frame <= count) {
+        let picture = folder.path().join(format!("{}.png", frame.frame));
+        let depths = image::open(&picture).expect("a picture").into_luma16();
+        let mut depths: Vec<u16> = depths.pixels().map(|pixel| pixel.0[0]).collect();
+        depths.retain(|&depth| depth < u16::MAX);
+        depths.sort_unstable();
+        let specks = depths.len() / 200;
+        for &depth in &depths[specks..depths.len() - specks] {
+            let depth = 2.0 * f64::from(depth) / 65535.0 - 1.0;
+            let distance = 2.0 * far * near / (far + near - depth * (far - near));
+            largest = largest.max(frame.disparity(distance, SIZE.0.into()).abs());
+        }
+    }
+    let about = &report["disparity"];
+    eprintln!(
+        "{name}: {count} frames, largest disparity {largest:.2} of {BUDGET:.2} px, change from frame to frame {}",
+        about["change_px"]
+    );
+    assert!(largest <= BUDGET, "{name}: {largest} px");
+    assert!(largest >= 0.3 * BUDGET, "{name}: flat, {largest} px");
+    assert_eq!(about["frames_over_budget"], 0, "{name}");
+    // Nobody sees a point move by a tenth of a pixel from view to view.
+    let pumping = about["change_px"]["p95"].as_f64().expect("a number");
+    assert!(pumping <= 0.1, "{name}: {pumping} px in one frame");
+}
+
+#[test]
+fn every_pixel_of_demos_stays_within_the_budget() {
+    for planes in DEMOS.iter().filter(|p| ["lists", "mirror"].contains(&p.0)) {
+        check(planes, 40);
+    }
+}
+
+#[test]
+#[ignore = "minutes: make test-long"]
+fn every_pixel_of_300_frames_of_all_demos_stays_within_the_budget() {
+    for planes in &DEMOS {
+        check(planes, 300);
+    }
+}
