@@ -26,6 +26,7 @@ mod looking_glass;
 mod mask;
 mod number;
 mod pattern;
+mod quilt;
 mod rotation;
 mod slanted;
 #[cfg(test)]
@@ -40,6 +41,7 @@ pub use looking_glass::{CellPattern, LookingGlass};
 pub use mask::{GUARD, Mask};
 pub use number::Number;
 pub use pattern::Pattern;
+pub use quilt::{QuiltError, QuiltName};
 pub use rotation::Rotation;
 pub use slanted::Slanted;
 

@@ -8,6 +8,8 @@ mod anaglyph;
 mod gpu;
 mod layout;
 mod program;
+#[cfg(feature = "cli")]
+pub mod quilt;
 pub mod reference;
 pub mod shader;
 #[cfg(test)]

@@ -2,12 +2,13 @@
 
 use super::{Layer, OnScreen};
 use crate::config::{Capture, CaptureWhat};
-use crate::display::Placement;
+use crate::display::{Placement, QuiltName};
 use crate::gl::{Gl, consts as c};
 use crate::interleave::{Form, Layout, Source, reference};
 use crate::present::{Saved, capture};
 use crate::state::{BACK, FRONT};
 use image::RgbImage;
+use std::path::PathBuf;
 
 impl Layer {
     /// Shows the frame in the true framebuffer 0. The caller swaps or flushes after it; nothing of the program's state
@@ -156,15 +157,23 @@ impl Layer {
         self.take_picture(gl, source, frame);
     }
 
-    /// Writes what is wanted of the frame. Changes the framebuffers that are bound.
+    /// Writes what is wanted of the frame and answers the file's name. Changes the framebuffers that are bound.
     pub(super) fn write(
         &mut self,
         gl: &Gl,
         source: &Source,
         wanted: &Capture,
         frame: u64,
-    ) -> Result<(), String> {
+    ) -> Result<PathBuf, String> {
         let (width, height) = self.size();
+        let form = Form::of(self.config, self.output());
+        let path = match (wanted.what, form) {
+            (CaptureWhat::Output, Form::Layout(Layout::Quilt { columns, rows })) => {
+                let name = QuiltName::new((columns, rows), (width, height));
+                wanted.path_with(frame, &name.to_string())
+            }
+            _ => wanted.path_for(frame),
+        };
         let views = || -> Vec<RgbImage> {
             (0..self.config.views)
                 .map(|v| tile(gl, &self.atlas, v))
@@ -178,27 +187,27 @@ impl Layer {
             );
             reference::arrange(&views(), layout, size)
                 .map_err(|e| e.to_string())
-                .and_then(|i| capture::write(&i, wanted, frame))
+                .and_then(|i| capture::write(&i, &path))
         };
         let written = match wanted.what {
-            CaptureWhat::Output => match Form::of(self.config, self.output()) {
+            CaptureWhat::Output => match form {
                 Form::Layout(layout) => whole(layout),
                 _ => {
                     gl.bind_framebuffer(c::READ_FRAMEBUFFER, 0);
-                    capture::write(&capture::read_rgb(gl, 0, 0, width, height), wanted, frame)
+                    capture::write(&capture::read_rgb(gl, 0, 0, width, height), &path)
                 }
             },
             CaptureWhat::Atlas => whole(Layout::SideBySide { half: false }),
-            CaptureWhat::View(v) => capture::write(&tile(gl, &self.atlas, v), wanted, frame),
+            CaptureWhat::View(v) => capture::write(&tile(gl, &self.atlas, v), &path),
             CaptureWhat::Depth => {
                 self.atlas.resolve(gl, true, c::DEPTH_BUFFER_BIT);
                 let (from, x) = self.atlas.readable(source.tiles.own());
                 gl.bind_framebuffer(c::READ_FRAMEBUFFER, from);
-                capture::write(&capture::read_depth(gl, x, 0, width, height), wanted, frame)
+                capture::write(&capture::read_depth(gl, x, 0, width, height), &path)
             }
         };
         gl.bind_framebuffer(c::FRAMEBUFFER, 0);
-        written
+        written.map(|()| path)
     }
 }
 
