@@ -193,6 +193,7 @@ impl Model {
             dpi: Some(self.dpi),
             cone: Some(CONE),
             quilt: Some(self.quilt),
+            spacing: None,
         }
     }
 }

@@ -24,6 +24,7 @@ pub(super) fn read(file: &str, name: String, text: &str) -> Result<Display, Disp
         dpi: Some(device.dpi),
         cone: Some(device.view_cone),
         quilt,
+        spacing: None,
     };
     let views = quilt.map_or(VIEWS, |(columns, rows)| columns * rows);
     Ok(Display {

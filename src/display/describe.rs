@@ -1,7 +1,7 @@
 //! A panel in words and numbers, as `manyview displays show` prints it.
 #![forbid(unsafe_code)]
 
-use super::{Display, Kind, Number, Slanted, SubpixelOrder};
+use super::{Display, Kind, Number, Slanted, Spacing, SubpixelOrder};
 
 impl Display {
     /// Labels and values, in the order in which people read them.
@@ -35,6 +35,20 @@ impl Display {
         }
         if let Some(cone) = facts.cone {
             lines.push(("view cone", format!("{cone}°")));
+        }
+        if let Some(cameras) = self.cameras() {
+            let spacing = self.spacing();
+            let named = Spacing::ALL.iter().find(|(_, known)| *known == spacing);
+            lines.push(("camera spacing", named.map_or("", |(name, _)| name).into()));
+            lines.push((
+                "outer cameras",
+                format!("{:.4}° to either side", cameras.outer),
+            ));
+            let apart = cameras.neighbours;
+            lines.push((
+                "neighbouring cameras",
+                format!("{apart:.6} of the focal depth apart"),
+            ));
         }
         if let Some((columns, rows)) = facts.quilt {
             lines.push(("quilt", format!("{columns}x{rows}")));

@@ -44,8 +44,8 @@ const CONE: &str = "give the angle of the views in degrees, for example cone = 4
 const ROTATION: &str = "give how far the glass is turned clockwise, for example rotation = 90";
 const QUILT: &str = "give columns and rows, for example quilt = \"8x6\"";
 
-const COMMON: [&str; 9] = [
-    "version", "name", "kind", "views", "screen", "dpi", "cone", "rotation", "quilt",
+const COMMON: [&str; 10] = [
+    "version", "name", "kind", "views", "screen", "dpi", "cone", "spacing", "rotation", "quilt",
 ];
 const LENS: [&str; 7] = [
     "pitch",
@@ -264,6 +264,7 @@ impl Reader<'_> {
         facts.screen = f.pair("screen", 32_768, SCREEN)?.or(facts.screen);
         facts.dpi = f.float("dpi", (1.0, 10_000.0), DPI)?.or(facts.dpi);
         facts.cone = f.float("cone", (0.1, 170.0), CONE)?.or(facts.cone);
+        facts.spacing = f.spacing()?.or(facts.spacing);
         facts.quilt = f.pair("quilt", 256, QUILT)?.or(facts.quilt);
         Ok(())
     }

@@ -14,6 +14,7 @@
 mod bias;
 mod builtin;
 mod calibration;
+mod cameras;
 mod describe;
 mod error;
 mod fields;
@@ -34,6 +35,7 @@ mod tests;
 
 pub use bias::Bias;
 pub use builtin::{Builtin, builtins};
+pub use cameras::{Cameras, Spacing};
 pub use error::{DisplayError, MaskError};
 pub use integer::Integer;
 pub use leia::Leia;
@@ -83,6 +85,8 @@ pub struct Facts {
     pub cone: Option<f64>,
     /// Columns and rows of its quilt.
     pub quilt: Option<(u32, u32)>,
+    /// Where in that angle the cameras stand, if the description says it; see [`Display::spacing`].
+    pub spacing: Option<Spacing>,
 }
 
 /// How a panel's mask is made.
