@@ -244,6 +244,7 @@ mod tests {
             "rows",
             "columns",
             "checker",
+            "rgbd",
             "anaglyph:red-cyan",
             "anaglyph:green-magenta-half",
             "anaglyph:amber-blue-grey",

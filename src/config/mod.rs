@@ -124,6 +124,8 @@ pub enum Output {
     Interlaced(Interlace),
     /// Two eyes, through coloured glasses.
     Anaglyph(Anaglyph),
+    /// The program's own view on the left, how near it is as grey on the right.
+    Rgbd,
     /// One view.
     View(u32),
 }
@@ -135,7 +137,7 @@ impl Output {
         match self {
             Self::Interlaced(_) | Self::Anaglyph(_) | Self::TopBottom { .. } => true,
             Self::SideBySide { half } => half,
-            Self::Panel | Self::Quilt | Self::View(_) => false,
+            Self::Panel | Self::Quilt | Self::Rgbd | Self::View(_) => false,
         }
     }
 }

@@ -8,7 +8,7 @@ use crate::config::profile::FARTHEST;
 use crate::config::{Class, Strategy, Viewport};
 use crate::state::State;
 pub use class::{Classed, Classifier, Facts};
-pub use parallax::{Rig, Shear};
+pub use parallax::{Rig, Shear, nearer_is_larger};
 
 /// What the program draws with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

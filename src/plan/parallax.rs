@@ -173,6 +173,22 @@ pub fn flat(p: &[f32; 16]) -> bool {
     p[3] == 0.0 && p[7] == 0.0 && p[11] == 0.0
 }
 
+/// Whether nearer things have larger values in the depth buffer, under a projection and glDepthRange: reversed depth.
+///
+/// With `z = a·z_e + b`, `w = c·z_e + e`: `z/w = a/c + (b − a·e/c)/w`, so values are linear in 1/w, and the sign of its factor says which
+/// way. `None` without perspective.
+pub fn nearer_is_larger(p: &[f32; 16], [near, far]: [f32; 2]) -> Option<bool> {
+    // A camera's rotation inside the projection turns rows 2 and 3 alike: what is left of row 2 without its part along row 3.
+    let row = |i: usize| glam::DVec3::new(p[i].into(), p[4 + i].into(), p[8 + i].into());
+    let (depth, view) = (row(2), row(3));
+    let length = view.length_squared();
+    if length == 0.0 {
+        return None;
+    }
+    let factor = f64::from(p[14]) - depth.dot(view) / length * f64::from(p[15]);
+    Some((factor > 0.0) != (far < near))
+}
+
 /// A = P[0][0] = 2·Zn/(r − l), and the length of row 3 (1 for glFrustum), which is what clip-space w has per unit of depth.
 ///
 /// A projection that includes the camera's rotation has A spread over row 0; what of it is at a right angle to the viewing
@@ -307,6 +323,30 @@ mod tests {
             (plain.separation(1.0) - both.separation(1.0)).abs() < 1e-6
                 && (plain.conv - both.conv).abs() < 1e-5,
             "{plain:?} {both:?}"
+        );
+    }
+
+    #[test]
+    fn depth_goes_the_way_that_projection_and_range_say() {
+        let usual = frustum(-1.0, 1.0, -1.0, 1.0, 1.0, 60.0);
+        // z becomes w − z: near and far change places, as programs with glClipControl have it.
+        let flip = Mat4::from_cols_array(&[
+            1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, -1.0, 0.0, 0.0, 0.0, 0.0, 1.0,
+        ]);
+        let camera = Mat4::from_rotation_y(0.7) * Mat4::from_translation(Vec3::new(1.0, 2.0, -3.0));
+        for (p, larger) in [
+            (usual, false),
+            (usual * camera, false),
+            (flip * usual, true),
+            (flip * usual * camera, true),
+        ] {
+            let p = p.to_cols_array();
+            assert_eq!(nearer_is_larger(&p, [0.0, 1.0]), Some(larger));
+            assert_eq!(nearer_is_larger(&p, [1.0, 0.0]), Some(!larger));
+        }
+        assert_eq!(
+            nearer_is_larger(&Mat4::IDENTITY.to_cols_array(), [0.0, 1.0]),
+            None
         );
     }
 
