@@ -129,6 +129,24 @@ fn drawables_of_windows_follow_them() {
     assert_ne!(plain[1], plain[3], "the phase moved");
 }
 
+/// The same under EGL, where the window is given as such or by its address.
+#[test]
+fn surfaces_of_egl_follow_their_windows() {
+    let screen = own_screen();
+    for views in [2, 3] {
+        let options = [("OUTPUT", "checker")];
+        let plain = frames(&screen, views, &options, "output");
+        assert_ne!(plain[1], plain[3], "the phase moved");
+        for words in [&["egl"][..], &["egl", "platform"]] {
+            let surface = frames_of(&screen, views, &options, "output", words);
+            for (x, y, frame) in PLACES {
+                let what = format!("{words:?} at {x},{y}");
+                same(&plain[frame - 1], &surface[frame - 1], 0, &what);
+            }
+        }
+    }
+}
+
 #[test]
 fn masks_follow_the_window() {
     let screen = own_screen();
