@@ -51,11 +51,11 @@ demo: packages build demos ## show glxgears and a demo in 8 views; writes PNGs
 pictures: packages build demos ## make the picture of the README
 	@sh scripts/packages.sh $(PICTURE_PACKAGES)
 	@mkdir -p $(PICTURES) docs
-	env -u DISPLAY $(BIN)/manyview capture $(README_SCENE) --output quilt --out $(PICTURES)/quilt.png -- \
+	env -u DISPLAY $(BIN)/manyview capture $(README_SCENE) --output quilt --out $(PICTURES)/views_qs4x2.png -- \
 		$(DEMOS)/mirror --size 168x126
 	env -u DISPLAY $(BIN)/manyview capture $(README_SCENE) --output panel --out $(PICTURES)/panel.png -- \
 		$(DEMOS)/mirror --size 672x336
-	pngtopnm $(PICTURES)/quilt.png >$(PICTURES)/quilt.ppm
+	pngtopnm $(PICTURES)/views_qs4x2.png >$(PICTURES)/quilt.ppm
 	pngtopnm $(PICTURES)/panel.png | pnmcat -topbottom $(PICTURES)/quilt.ppm - | pnmtopng -compression 9 >docs/mirror.png
 
 gallery: packages build demos ## make the pictures of docs/gallery.md

@@ -18,6 +18,7 @@ shot quilt 168x126 --views 8 --output quilt
 shot sbs 252x189 --views 2 --output sbs
 shot half-sbs 252x189 --views 2 --output half-sbs
 shot tb 252x189 --views 2 --output tb
+shot rgbd 252x189 --output rgbd
 shot rows 252x189 --output rows
 shot columns 252x189 --output columns
 shot checker 252x189 --output checker

@@ -57,10 +57,12 @@ if [ "$what" = pictures ]; then
     cut_to 0
     for output in quilt panel; do
         mode=$([ $output = quilt ] && echo 0 || echo 3)
+        # The name of a quilt that says what it holds is kept.
+        large=$work/$output-large$([ $output = quilt ] && echo _qs2x2 || true).png
         say "$output"
-        play "$bin/manyview" capture --frame 241 --timeout 900 --output $output --out "$work/$output-large.png" --views 4 \
+        play "$bin/manyview" capture --frame 241 --timeout 900 --output $output --out "$large" --views 4 \
             --display lenticular-4 -- >"$work/$output.log" 2>&1 || { say "no picture, see $work/$output.log"; exit 1; }
-        pngtopnm "$work/$output-large.png" | pamdepth 63 | pnmtopng -compression 9 >"$work/$output.png"
+        pngtopnm "$large" | pamdepth 63 | pnmtopng -compression 9 >"$work/$output.png"
     done
     exit 0
 fi

@@ -1,5 +1,5 @@
-// What all output passes share. A pass is cover.wgsl, this file, then atlas.wgsl, then interleave.wgsl, layout.wgsl or
-// anaglyph.wgsl.
+// What all output passes share. A pass is cover.wgsl, this file, then atlas.wgsl, then interleave.wgsl, layout.wgsl,
+// anaglyph.wgsl or rgbd.wgsl.
 //
 // Spaces. naga translates without ADJUST_COORDINATE_SPACE, so nothing is flipped: clip space is OpenGL's, and
 // @builtin(position) is gl_FragCoord, whose y counts UP from the bottom of the window. Pictures and masks count rows DOWN
@@ -41,6 +41,8 @@ struct Uniforms {
     right_red: vec4<f32>,
     right_green: vec4<f32>,
     right_blue: vec4<f32>,
+    // White and black, as values of the depth buffer (rgbd only).
+    depth: vec4<f32>,
 }
 
 var<immediate> u: Uniforms;

@@ -384,6 +384,11 @@ fn displays_show_what_follows_from_a_description() {
         code == 0 && stdout.contains("8x6") && stdout.contains("1536x2048"),
         "{stdout}"
     );
+    // 2 tan 20° / 47.
+    assert!(
+        stdout.contains("edges") && stdout.contains("20.0000°") && stdout.contains("0.015488"),
+        "{stdout}"
+    );
     let (_, stdout, _) = run(manyview().args(["displays", "show", "rows", "--json"]));
     let shown: serde_json::Value = serde_json::from_str(&stdout).expect("JSON");
     assert_eq!(shown["views"], "2");

@@ -187,6 +187,13 @@ fn pictures_are_whole_files() {
         .filter(|path| path.extension().is_some_and(|e| e == "tmp"))
         .collect();
     assert!(left.is_empty(), "{left:?}");
+    running.done(&["set", "output", "quilt"]);
+    let mut command = ctl(running.folder.path());
+    command.current_dir(running.folder.path());
+    let (_, stdout, _) = run(command.args(["capture", "views.png"]));
+    let name = running.path("views_qs3x2a1.5.png");
+    assert_eq!(stdout.trim_end(), name.to_str().expect("UTF-8"));
+    assert_eq!(rgb(&name).dimensions(), (3 * 96, 2 * 64));
 }
 
 #[test]

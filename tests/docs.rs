@@ -111,6 +111,8 @@ fn the_commands_of_the_documents_are_accepted() {
     // The picture that an earlier line takes of a program.
     let panel = image::RgbImage::new(96, 54);
     panel.save(folder.path().join("panel.png")).expect("saved");
+    let quilt = folder.path().join("scene_qs4x2a1.78.png");
+    panel.save(quilt).expect("saved");
     support::library();
     let documents = [
         README,

@@ -28,7 +28,7 @@ fn frames_of(
     what: &str,
     arguments: &[&str],
 ) -> Vec<RgbImage> {
-    let program = compiled("moves", Compiled::Program, &["-lGL", "-lX11"]);
+    let program = program();
     let folder = tempfile::tempdir().expect("a folder");
     let out = folder.path().join("%d.png");
     let count = views.to_string();
@@ -45,6 +45,10 @@ fn frames_of(
     succeed(screen.give(layered(&program, &all).args(arguments)));
     let frame = |i: i32| rgb(&folder.path().join(format!("{i}.png")));
     (1..=6).map(frame).collect()
+}
+
+fn program() -> std::path::PathBuf {
+    compiled("moves", Compiled::Program, &["-lGL", "-lEGL", "-lX11"])
 }
 
 fn tiles(atlas: &RgbImage, views: u32) -> Vec<RgbImage> {
@@ -125,6 +129,24 @@ fn drawables_of_windows_follow_them() {
     assert_ne!(plain[1], plain[3], "the phase moved");
 }
 
+/// The same under EGL, where the window is given as such or by its address.
+#[test]
+fn surfaces_of_egl_follow_their_windows() {
+    let screen = own_screen();
+    for views in [2, 3] {
+        let options = [("OUTPUT", "checker")];
+        let plain = frames(&screen, views, &options, "output");
+        assert_ne!(plain[1], plain[3], "the phase moved");
+        for words in [&["egl"][..], &["egl", "platform"]] {
+            let surface = frames_of(&screen, views, &options, "output", words);
+            for (x, y, frame) in PLACES {
+                let what = format!("{words:?} at {x},{y}");
+                same(&plain[frame - 1], &surface[frame - 1], 0, &what);
+            }
+        }
+    }
+}
+
 #[test]
 fn masks_follow_the_window() {
     let screen = own_screen();
@@ -186,6 +208,94 @@ fn filtered_panels_are_the_reference() {
         // Floats of the driver may round the other way.
         same(&expected, &shown[1], 1, word);
         assert_ne!(shown[1], nearest[1], "{word} does something");
+    }
+}
+
+/// The own view, and its depth as captured, by the same rule written once more: white is the nearest, black the farthest that was
+/// drawn but for one pixel in 200, steps are even in the depth buffer.
+fn beside_depth(own: &RgbImage, depth: &[f64], size: (u32, u32)) -> RgbImage {
+    let (width, height) = own.dimensions();
+    let mut drawn: Vec<f64> = depth.iter().copied().filter(|d| *d < 1.0).collect();
+    drawn.sort_by(f64::total_cmp);
+    let outside = drawn.len() / 200;
+    let (near, far) = (drawn[outside], drawn[drawn.len() - 1 - outside]);
+    RgbImage::from_fn(size.0, size.1, |x, y| {
+        let at = |num: u32, den: u32, of: u32| {
+            ((f64::from(num) + 0.5) / f64::from(den) * f64::from(of)) as u32
+        };
+        let (column, row) = (at(x, size.0, 2 * width), at(y, size.1, height));
+        if column < width {
+            return if size.0 == width {
+                mean(own.get_pixel(2 * x, y), own.get_pixel(2 * x + 1, y))
+            } else {
+                *own.get_pixel(column, row)
+            };
+        }
+        let d = depth[(row * width + column - width) as usize];
+        let grey = ((far - d) / (far - near)).clamp(0.0, 1.0);
+        Rgb([(grey * 255.0).round() as u8; 3])
+    })
+}
+
+#[test]
+fn depth_beside_colour() {
+    let screen = own_screen();
+    let folder = tempfile::tempdir().expect("a folder");
+    let ppm = folder.path().join("window.ppm");
+    for (views, words) in [
+        (1, &[][..]),
+        (3, &[]),
+        (2, &["reversed"]),
+        (3, &["samples"]),
+        (1, &["egl"]),
+    ] {
+        let what = format!("{views} views {words:?}");
+        let pictures = |what| frames_of(&screen, views, &[("OUTPUT", "rgbd")], what, words);
+        let own = format!("view:{}", (views - 1) / 2);
+        let own = pictures(&own).swap_remove(1);
+        let written = pictures("output").swap_remove(1);
+        let out = folder.path().join("depth.png");
+        let count = views.to_string();
+        let options = [
+            ("VIEWS", count.as_str()),
+            ("OUTPUT", "rgbd"),
+            ("CAPTURE_OUT", out.to_str().expect("UTF-8")),
+            ("CAPTURE_FRAMES", "2"),
+            ("CAPTURE_WHAT", "depth"),
+            ("EYE_SPACING", "0.3"),
+            ("FOCAL_DEPTH", "8"),
+        ];
+        let mut command = layered(program(), &options);
+        command.args(words);
+        support::watch_window(&mut command, &support::window_library(), 2, &ppm);
+        succeed(screen.give(&mut command));
+        let depth = image::open(&out).expect("a picture").into_luma16();
+        let far_is_1 = |v: u16| {
+            let d = f64::from(v) / 65535.0;
+            if words.contains(&"reversed") {
+                1.0 - d
+            } else {
+                d
+            }
+        };
+        let depth: Vec<f64> = depth.iter().map(|&v| far_is_1(v)).collect();
+        let (width, height) = own.dimensions();
+        same(
+            &beside_depth(&own, &depth, (2 * width, height)),
+            &written,
+            1,
+            &what,
+        );
+        let window = support::window_picture(&ppm);
+        same(
+            &beside_depth(&own, &depth, (width, height)),
+            &window,
+            1,
+            &format!("{what}, the window"),
+        );
+        let grey = |x, y| written.get_pixel(width + x, y).0[0];
+        let greys: std::collections::BTreeSet<u8> = (0..width).map(|x| grey(x, 40)).collect();
+        assert!(greys.len() > 4 && greys.contains(&0), "{what}: {greys:?}");
     }
 }
 

@@ -2,7 +2,7 @@
 
 use crate::control;
 use crate::deep;
-use crate::geometry;
+use crate::geometry::{self, Seen};
 use crate::provider::Provider;
 use crate::shares;
 use crate::switch::{self, Mode, say, turn_off};
@@ -30,6 +30,8 @@ pub(crate) struct Context {
     provider: Provider,
     handle: Ptr,
     drawable: Drawable,
+    /// Where its window was, for outputs that follow it.
+    seen: Option<Seen>,
     layer: Option<Layer>,
     /// With one view: only frames are counted and captured.
     frames: Option<Frames>,
@@ -207,16 +209,22 @@ fn size(drawable: Drawable) -> Option<(u32, u32)> {
     }
 }
 
-/// Where a window lies on its screen.
-fn place(drawable: Drawable) -> Option<OnScreen> {
-    match drawable {
-        // SAFETY: the program shows this drawable on this thread.
-        Drawable::Glx(display, drawable) => unsafe {
-            geometry::glx_place(display, windows::behind(display, drawable))
-        },
-        // Their windows are not known here, and memory lies nowhere.
-        Drawable::Egl(..) | Drawable::Memory(..) => None,
-    }
+/// Where a window lies on its screen; `size` is that of its picture.
+fn place(drawable: Drawable, size: (u32, u32), seen: &mut Option<Seen>) -> Option<OnScreen> {
+    // SAFETY: the program shows this drawable on this thread.
+    let (connection, window) = unsafe {
+        match drawable {
+            Drawable::Glx(display, drawable) => {
+                let window = windows::behind(display, drawable);
+                (geometry::connection(display)?, window as u32)
+            }
+            Drawable::Egl(display, surface) => windows::behind_surface(display, surface)?,
+            // Memory lies nowhere.
+            Drawable::Memory(..) => return None,
+        }
+    };
+    // SAFETY: the window's own connection, which the program has open as long as it shows something in it.
+    unsafe { geometry::place(connection, window, size, seen) }
 }
 
 /// After a successful MakeCurrent of the program: takes the context over, or takes up again what it had. A null handle or no
@@ -296,6 +304,7 @@ fn take(provider: Provider, handle: Ptr, drawable: Drawable) -> *mut Context {
             provider,
             handle,
             drawable,
+            seen: None,
             layer: None,
             frames: None,
             current: false,
@@ -388,7 +397,7 @@ pub(crate) fn frame<R>(drawable: Option<Drawable>, swap: impl FnOnce() -> R) -> 
             if let Some(l) = &mut c.layer {
                 control::before(l);
                 if l.follows_window() {
-                    l.moved(place(c.drawable));
+                    l.moved(place(c.drawable, l.size(), &mut c.seen));
                 }
                 l.show(gl, drawable.is_some());
             }

@@ -7,7 +7,7 @@ use manyview_core::gl::{Ptr, slot};
 use manyview_core::state::Effect;
 
 /// Where each exported function jumps to, by slot: at first its resolver, then the driver's function or the hook.
-pub(crate) static ENTRY: [AtomicPtr<()>; 1246] = [
+pub(crate) static ENTRY: [AtomicPtr<()>; 1253] = [
     AtomicPtr::new(first_glVertex2d as *mut ()),
     AtomicPtr::new(first_glVertex2dv as *mut ()),
     AtomicPtr::new(first_glVertex2f as *mut ()),
@@ -1209,6 +1209,13 @@ pub(crate) static ENTRY: [AtomicPtr<()>; 1246] = [
     AtomicPtr::new(first_eglCreateContext as *mut ()),
     AtomicPtr::new(first_eglDestroyContext as *mut ()),
     AtomicPtr::new(first_eglReleaseThread as *mut ()),
+    AtomicPtr::new(first_eglGetDisplay as *mut ()),
+    AtomicPtr::new(first_eglGetPlatformDisplay as *mut ()),
+    AtomicPtr::new(first_eglGetPlatformDisplayEXT as *mut ()),
+    AtomicPtr::new(first_eglCreateWindowSurface as *mut ()),
+    AtomicPtr::new(first_eglCreatePlatformWindowSurface as *mut ()),
+    AtomicPtr::new(first_eglCreatePlatformWindowSurfaceEXT as *mut ()),
+    AtomicPtr::new(first_eglDestroySurface as *mut ()),
     AtomicPtr::new(first_eglGetProcAddress as *mut ()),
     AtomicPtr::new(core::ptr::null_mut()),
     AtomicPtr::new(core::ptr::null_mut()),
@@ -1257,7 +1264,7 @@ pub(crate) static ENTRY: [AtomicPtr<()>; 1246] = [
 ];
 
 /// The hook of each exported function, by slot.
-pub(crate) static HOOK: [Option<crate::Address>; 1246] = [
+pub(crate) static HOOK: [Option<crate::Address>; 1253] = [
     Some(crate::Address(hook_glVertex2d as *const ())),
     Some(crate::Address(hook_glVertex2dv as *const ())),
     Some(crate::Address(hook_glVertex2f as *const ())),
@@ -2459,6 +2466,13 @@ pub(crate) static HOOK: [Option<crate::Address>; 1246] = [
     Some(crate::Address(hook_eglCreateContext as *const ())),
     Some(crate::Address(hook_eglDestroyContext as *const ())),
     Some(crate::Address(hook_eglReleaseThread as *const ())),
+    Some(crate::Address(hook_eglGetDisplay as *const ())),
+    Some(crate::Address(hook_eglGetPlatformDisplay as *const ())),
+    Some(crate::Address(hook_eglGetPlatformDisplayEXT as *const ())),
+    Some(crate::Address(hook_eglCreateWindowSurface as *const ())),
+    Some(crate::Address(hook_eglCreatePlatformWindowSurface as *const ())),
+    Some(crate::Address(hook_eglCreatePlatformWindowSurfaceEXT as *const ())),
+    Some(crate::Address(hook_eglDestroySurface as *const ())),
     Some(crate::Address(hook_eglGetProcAddress as *const ())),
     None,
     None,
@@ -2507,16 +2521,23 @@ pub(crate) static HOOK: [Option<crate::Address>; 1246] = [
 ];
 
 /// Exported names in order, their slots and addresses: what dlsym and the GetProcAddress family hand out.
-pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1207] = [
-    (b"OSMesaCreateContext", 1207, crate::Address(OSMesaCreateContext as *const ())),
-    (b"OSMesaCreateContextAttribs", 1209, crate::Address(OSMesaCreateContextAttribs as *const ())),
-    (b"OSMesaCreateContextExt", 1208, crate::Address(OSMesaCreateContextExt as *const ())),
-    (b"OSMesaDestroyContext", 1210, crate::Address(OSMesaDestroyContext as *const ())),
-    (b"OSMesaGetProcAddress", 1211, crate::Address(OSMesaGetProcAddress as *const ())),
-    (b"OSMesaMakeCurrent", 1206, crate::Address(OSMesaMakeCurrent as *const ())),
+pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1214] = [
+    (b"OSMesaCreateContext", 1214, crate::Address(OSMesaCreateContext as *const ())),
+    (b"OSMesaCreateContextAttribs", 1216, crate::Address(OSMesaCreateContextAttribs as *const ())),
+    (b"OSMesaCreateContextExt", 1215, crate::Address(OSMesaCreateContextExt as *const ())),
+    (b"OSMesaDestroyContext", 1217, crate::Address(OSMesaDestroyContext as *const ())),
+    (b"OSMesaGetProcAddress", 1218, crate::Address(OSMesaGetProcAddress as *const ())),
+    (b"OSMesaMakeCurrent", 1213, crate::Address(OSMesaMakeCurrent as *const ())),
     (b"eglCreateContext", 1198, crate::Address(eglCreateContext as *const ())),
+    (b"eglCreatePlatformWindowSurface", 1205, crate::Address(eglCreatePlatformWindowSurface as *const ())),
+    (b"eglCreatePlatformWindowSurfaceEXT", 1206, crate::Address(eglCreatePlatformWindowSurfaceEXT as *const ())),
+    (b"eglCreateWindowSurface", 1204, crate::Address(eglCreateWindowSurface as *const ())),
     (b"eglDestroyContext", 1199, crate::Address(eglDestroyContext as *const ())),
-    (b"eglGetProcAddress", 1201, crate::Address(eglGetProcAddress as *const ())),
+    (b"eglDestroySurface", 1207, crate::Address(eglDestroySurface as *const ())),
+    (b"eglGetDisplay", 1201, crate::Address(eglGetDisplay as *const ())),
+    (b"eglGetPlatformDisplay", 1202, crate::Address(eglGetPlatformDisplay as *const ())),
+    (b"eglGetPlatformDisplayEXT", 1203, crate::Address(eglGetPlatformDisplayEXT as *const ())),
+    (b"eglGetProcAddress", 1208, crate::Address(eglGetProcAddress as *const ())),
     (b"eglMakeCurrent", 1197, crate::Address(eglMakeCurrent as *const ())),
     (b"eglReleaseThread", 1200, crate::Address(eglReleaseThread as *const ())),
     (b"eglSwapBuffers", 1194, crate::Address(eglSwapBuffers as *const ())),
@@ -12985,31 +13006,59 @@ export! { 1200, eglReleaseThread, first_eglReleaseThread, hook_eglReleaseThread,
     // SAFETY: the program's own arguments.
     unsafe { special::eglReleaseThread() }
 } }
-export! { 1201, eglGetProcAddress, first_eglGetProcAddress, hook_eglGetProcAddress, (name: Ptr) -> Ptr, {
+export! { 1201, eglGetDisplay, first_eglGetDisplay, hook_eglGetDisplay, (native: Ptr) -> Ptr, {
+    // SAFETY: the program's own arguments.
+    unsafe { special::eglGetDisplay(native) }
+} }
+export! { 1202, eglGetPlatformDisplay, first_eglGetPlatformDisplay, hook_eglGetPlatformDisplay, (platform: u32, native: Ptr, attribs: Ptr) -> Ptr, {
+    // SAFETY: the program's own arguments.
+    unsafe { special::eglGetPlatformDisplay(platform, native, attribs) }
+} }
+export! { 1203, eglGetPlatformDisplayEXT, first_eglGetPlatformDisplayEXT, hook_eglGetPlatformDisplayEXT, (platform: u32, native: Ptr, attribs: Ptr) -> Ptr, {
+    // SAFETY: the program's own arguments.
+    unsafe { special::eglGetPlatformDisplayEXT(platform, native, attribs) }
+} }
+export! { 1204, eglCreateWindowSurface, first_eglCreateWindowSurface, hook_eglCreateWindowSurface, (dpy: Ptr, config: Ptr, win: Ptr, attribs: Ptr) -> Ptr, {
+    // SAFETY: the program's own arguments.
+    unsafe { special::eglCreateWindowSurface(dpy, config, win, attribs) }
+} }
+export! { 1205, eglCreatePlatformWindowSurface, first_eglCreatePlatformWindowSurface, hook_eglCreatePlatformWindowSurface, (dpy: Ptr, config: Ptr, win: Ptr, attribs: Ptr) -> Ptr, {
+    // SAFETY: the program's own arguments.
+    unsafe { special::eglCreatePlatformWindowSurface(dpy, config, win, attribs) }
+} }
+export! { 1206, eglCreatePlatformWindowSurfaceEXT, first_eglCreatePlatformWindowSurfaceEXT, hook_eglCreatePlatformWindowSurfaceEXT, (dpy: Ptr, config: Ptr, win: Ptr, attribs: Ptr) -> Ptr, {
+    // SAFETY: the program's own arguments.
+    unsafe { special::eglCreatePlatformWindowSurfaceEXT(dpy, config, win, attribs) }
+} }
+export! { 1207, eglDestroySurface, first_eglDestroySurface, hook_eglDestroySurface, (dpy: Ptr, surface: Ptr) -> u32, {
+    // SAFETY: the program's own arguments.
+    unsafe { special::eglDestroySurface(dpy, surface) }
+} }
+export! { 1208, eglGetProcAddress, first_eglGetProcAddress, hook_eglGetProcAddress, (name: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglGetProcAddress(name) }
 } }
-export! { 1206, OSMesaMakeCurrent, first_OSMesaMakeCurrent, hook_OSMesaMakeCurrent, (ctx: Ptr, buffer: Ptr, kind: u32, width: i32, height: i32) -> u8, {
+export! { 1213, OSMesaMakeCurrent, first_OSMesaMakeCurrent, hook_OSMesaMakeCurrent, (ctx: Ptr, buffer: Ptr, kind: u32, width: i32, height: i32) -> u8, {
     // SAFETY: the program's own arguments.
     unsafe { special::OSMesaMakeCurrent(ctx, buffer, kind, width, height) }
 } }
-export! { 1207, OSMesaCreateContext, first_OSMesaCreateContext, hook_OSMesaCreateContext, (format: u32, share: Ptr) -> Ptr, {
+export! { 1214, OSMesaCreateContext, first_OSMesaCreateContext, hook_OSMesaCreateContext, (format: u32, share: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::OSMesaCreateContext(format, share) }
 } }
-export! { 1208, OSMesaCreateContextExt, first_OSMesaCreateContextExt, hook_OSMesaCreateContextExt, (format: u32, depth: i32, stencil: i32, accum: i32, share: Ptr) -> Ptr, {
+export! { 1215, OSMesaCreateContextExt, first_OSMesaCreateContextExt, hook_OSMesaCreateContextExt, (format: u32, depth: i32, stencil: i32, accum: i32, share: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::OSMesaCreateContextExt(format, depth, stencil, accum, share) }
 } }
-export! { 1209, OSMesaCreateContextAttribs, first_OSMesaCreateContextAttribs, hook_OSMesaCreateContextAttribs, (attribs: Ptr, share: Ptr) -> Ptr, {
+export! { 1216, OSMesaCreateContextAttribs, first_OSMesaCreateContextAttribs, hook_OSMesaCreateContextAttribs, (attribs: Ptr, share: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::OSMesaCreateContextAttribs(attribs, share) }
 } }
-export! { 1210, OSMesaDestroyContext, first_OSMesaDestroyContext, hook_OSMesaDestroyContext, (ctx: Ptr) -> (), {
+export! { 1217, OSMesaDestroyContext, first_OSMesaDestroyContext, hook_OSMesaDestroyContext, (ctx: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::OSMesaDestroyContext(ctx) }
 } }
-export! { 1211, OSMesaGetProcAddress, first_OSMesaGetProcAddress, hook_OSMesaGetProcAddress, (name: Ptr) -> Ptr, {
+export! { 1218, OSMesaGetProcAddress, first_OSMesaGetProcAddress, hook_OSMesaGetProcAddress, (name: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::OSMesaGetProcAddress(name) }
 } }

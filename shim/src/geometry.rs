@@ -1,4 +1,4 @@
-//! Size of a GLX drawable, and where it lies on the screen.
+//! Size of a GLX drawable, and where a window lies on the screen.
 
 use crate::provider::{Provider, symbol};
 use core::ffi::{CStr, c_ulong, c_void};
@@ -46,8 +46,11 @@ struct Monitors {
     index: i32,
 }
 
-/// A function of a library that the driver has loaded.
-fn function(library: &CStr, name: &CStr) -> Option<Ptr> {
+/// An xcb_connection_t.
+pub(crate) type Connection = Ptr;
+
+/// A function (or a variable) of a library that the driver has loaded.
+pub(crate) fn function(library: &CStr, name: &CStr) -> Option<Ptr> {
     // SAFETY: a string; NOLOAD only finds what is there.
     let handle = unsafe { libc::dlopen(library.as_ptr(), libc::RTLD_NOLOAD | libc::RTLD_LAZY) };
     if handle.is_null() {
@@ -84,8 +87,8 @@ pub(crate) unsafe fn glx_size(display: Ptr, drawable: c_ulong) -> Option<(u32, u
 /// The xcb connection of a Display.
 ///
 /// # Safety
-/// As [`glx_size`].
-unsafe fn connection(display: Ptr) -> Option<Ptr> {
+/// An open Display.
+pub(crate) unsafe fn connection(display: Ptr) -> Option<Connection> {
     let get = function(c"libX11-xcb.so.1", c"XGetXCBConnection")?;
     // SAFETY: the signature of X11/Xlib-xcb.h.
     let connection =
@@ -137,47 +140,113 @@ unsafe fn window_size(display: Ptr, drawable: c_ulong) -> Option<(u32, u32)> {
         .map(|(width, height, _)| (width, height))
 }
 
-/// Where a window lies on the monitor that has its centre. None for what is no window.
+/// Frames after which monitors are asked again, though the window stays: they may have changed.
+const ASK_AGAIN: u32 = 60;
+
+/// What is known of a window since it was last looked at closely.
+#[derive(Clone, Copy)]
+pub(crate) struct Seen {
+    connection: Connection,
+    window: u32,
+    root: u32,
+    size: (u32, u32),
+    at: (i32, i32),
+    on_screen: OnScreen,
+    /// Frames since then.
+    frames: u32,
+}
+
+/// Where a window lies on the monitor that has its centre. None for what is no window. A frame asks only where the window is, unless
+/// that, or its `size`, is another than before.
 ///
 /// # Safety
-/// As [`glx_size`].
-pub(crate) unsafe fn glx_place(display: Ptr, drawable: c_ulong) -> Option<OnScreen> {
+/// The connection is the program's and open.
+pub(crate) unsafe fn place(
+    connection: Connection,
+    number: u32,
+    size: (u32, u32),
+    seen: &mut Option<Seen>,
+) -> Option<OnScreen> {
+    let known = seen.take().filter(|known| {
+        (known.connection, known.window, known.size) == (connection, number, size)
+            && known.frames < ASK_AGAIN
+    });
+    if let Some(mut known) = known {
+        // SAFETY: forwarded.
+        let at = unsafe { translated(connection, number, known.root) }?;
+        if at == known.at {
+            known.frames += 1;
+            *seen = Some(known);
+            return Some(known.on_screen);
+        }
+    }
+    // SAFETY: forwarded.
+    unsafe {
+        let (width, height, root) = window(connection, number)?;
+        let at = translated(connection, number, root)?;
+        let on_screen = on_screen(connection, root, at, (width, height))?;
+        *seen = Some(Seen {
+            connection,
+            window: number,
+            root,
+            size,
+            at,
+            on_screen,
+            frames: 0,
+        });
+        Some(on_screen)
+    }
+}
+
+/// The left top corner of a window on its root.
+///
+/// # Safety
+/// As [`place`].
+unsafe fn translated(connection: Connection, window: u32, root: u32) -> Option<(i32, i32)> {
     let translate = function(c"libxcb.so.1", c"xcb_translate_coordinates")?;
     let reply = function(c"libxcb.so.1", c"xcb_translate_coordinates_reply")?;
+    type Translate = unsafe extern "C" fn(Ptr, u32, u32, i16, i16) -> u32;
     // SAFETY: the signatures of xcb/xproto.h; forwarded.
     unsafe {
-        let connection = connection(display)?;
-        let (width, height, root) = window(connection, drawable as u32)?;
-        type Translate = unsafe extern "C" fn(Ptr, u32, u32, i16, i16) -> u32;
-        let cookie = core::mem::transmute::<Ptr, Translate>(translate)(
-            connection,
-            drawable as u32,
-            root,
-            0,
-            0,
-        );
-        let at = answer(connection, reply, cookie, |r: &Translated| {
+        let cookie =
+            core::mem::transmute::<Ptr, Translate>(translate)(connection, window, root, 0, 0);
+        answer(connection, reply, cookie, |r: &Translated| {
             (i32::from(r.x), i32::from(r.y))
-        })?;
-        let centre = (at.0 + width as i32 / 2, at.1 + height as i32 / 2);
-        let holds = |m: &Monitor| {
-            let inside = |at: i32, start: i16, length: u16| {
-                (i32::from(start)..i32::from(start) + i32::from(length)).contains(&at)
-            };
-            inside(centre.0, m.x, m.width) && inside(centre.1, m.y, m.height)
-        };
-        if let Some(m) = monitors(connection, root).into_iter().flatten().find(holds) {
-            return Some(OnScreen {
-                screen: (m.width.into(), m.height.into()),
-                at: (at.0 - i32::from(m.x), at.1 - i32::from(m.y)),
-            });
-        }
-        let (width, height, _) = window(connection, root)?;
-        Some(OnScreen {
-            screen: (width, height),
-            at,
         })
     }
+}
+
+/// Where a window of this place and size on the root lies on its monitor, or on the whole screen.
+///
+/// # Safety
+/// As [`place`].
+unsafe fn on_screen(
+    connection: Connection,
+    root: u32,
+    at: (i32, i32),
+    (width, height): (u32, u32),
+) -> Option<OnScreen> {
+    let centre = (at.0 + width as i32 / 2, at.1 + height as i32 / 2);
+    let holds = |m: &Monitor| {
+        let inside = |at: i32, start: i16, length: u16| {
+            (i32::from(start)..i32::from(start) + i32::from(length)).contains(&at)
+        };
+        inside(centre.0, m.x, m.width) && inside(centre.1, m.y, m.height)
+    };
+    // SAFETY: forwarded.
+    let monitors = unsafe { monitors(connection, root) };
+    if let Some(m) = monitors.into_iter().flatten().find(holds) {
+        return Some(OnScreen {
+            screen: (m.width.into(), m.height.into()),
+            at: (at.0 - i32::from(m.x), at.1 - i32::from(m.y)),
+        });
+    }
+    // SAFETY: forwarded.
+    let (width, height, _) = unsafe { window(connection, root) }?;
+    Some(OnScreen {
+        screen: (width, height),
+        at,
+    })
 }
 
 /// The monitors of a screen. None where the driver did not load RandR's library, or the server has none.

@@ -4,7 +4,7 @@ use crate::control;
 use crate::entry::{ENTRY, HOOK};
 use crate::provider;
 use core::sync::atomic::{AtomicBool, Ordering::Relaxed};
-use manyview_core::config::Config;
+use manyview_core::config::{Config, Output};
 use manyview_core::gl::{NAMES, slot};
 use std::io::Write;
 use std::sync::OnceLock;
@@ -49,7 +49,8 @@ pub(crate) fn mode() -> Mode {
     match config() {
         _ if OFF.load(Relaxed) => Mode::Passive,
         None => Mode::Passive,
-        Some(c) if c.views > 1 => Mode::Active,
+        // Depth is read from the atlas, also of one view.
+        Some(c) if c.views > 1 || c.output == Output::Rgbd => Mode::Active,
         Some(c) if c.capture.is_some() || c.report.is_some() => Mode::Observe,
         Some(_) => Mode::Passive,
     }

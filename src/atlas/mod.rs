@@ -25,6 +25,8 @@ pub struct Atlas {
     pub flipped: bool,
     /// The colour texture that is sampled: the tiles themselves, or what they are resolved to.
     pub color: u32,
+    /// The depth texture that is sampled, resolved as [`Atlas::resolve`] does; 0 where the window has no depth.
+    pub depth: u32,
     textures: Vec<u32>,
     rows: Vec<u32>,
     layered: Option<u32>,
@@ -204,6 +206,7 @@ impl Atlas {
             tiles,
             flipped: flip,
             color: sampled,
+            depth: resolve_depth.or(depth).map_or(0, |(name, _)| name),
             textures,
             rows,
             layered,

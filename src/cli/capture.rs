@@ -2,18 +2,20 @@
 #![forbid(unsafe_code)]
 
 use super::layer::LayerArguments;
-use super::{Outcome, tell};
+use super::{Outcome, print, tell};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
-use manyview::config::{OptionId, Origin};
+use manyview::config::{Capture, Config, OptionId, Origin, Output};
 use manyview::launch::{CaptureJob, Launch, LaunchError};
 use std::ffi::OsString;
+use std::path::Path;
 use std::process::ExitCode;
 use std::time::Duration;
 
 #[derive(Args)]
 pub(crate) struct Arguments {
-    /// PNG to write; with several frames %d in it is the frame, else -000030 goes before the extension
+    /// PNG to write; with several frames %d in it is the frame, else -000030 goes before the extension; the name of a quilt gets
+    /// its columns, rows and aspect, such as _qs8x6a0.75, and goes to stdout
     #[arg(long, value_name = "PATH")]
     out: Option<String>,
     /// Frame to write, counted from 1 [default: 30]
@@ -62,6 +64,13 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
             settings.set(id, value, Origin::CommandLine);
         }
     }
+    let quilt = Config::from_settings(&settings)?.output == Output::Quilt
+        && matches!(arguments.what.as_deref(), None | Some("output"));
+    if let Some(out) = settings.get(OptionId::CaptureOut).filter(|_| quilt) {
+        let completed = Capture::completed(Path::new(&out.value));
+        let value = completed.to_string_lossy().into_owned();
+        settings.set(OptionId::CaptureOut, value, out.origin.clone());
+    }
     let launch = Launch::prepare(&arguments.command, &settings)?;
     let Some(capture) = &launch.config.capture else {
         return Err(LaunchError::NoPicture);
@@ -95,7 +104,15 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
         )),
         [] => {}
     }
-    Ok(ExitCode::SUCCESS)
+    if !capture.names_quilts() {
+        return Ok(ExitCode::SUCCESS);
+    }
+    // Nobody knew these names before.
+    let names = captured
+        .files
+        .iter()
+        .map(|file| format!("{}\n", file.display()));
+    print(&names.collect::<String>())
 }
 
 /// On stderr, and silent when that is no terminal.

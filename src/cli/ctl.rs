@@ -3,6 +3,7 @@
 
 use super::{Outcome, print};
 use clap::{Args, Subcommand};
+use manyview::config::Capture;
 use manyview::control::{ALL, Answer, ControlError, LAYER, Picture, Request, line, place};
 use manyview::launch::LaunchError;
 use serde_json::Value;
@@ -80,7 +81,13 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
         Answer::Layer(on) => print(&format!("{LAYER} = {}\n", word(&on.into()))),
         Answer::Captured { path, frame } => {
             super::tell(&format_args!("wrote {} (frame {frame})", path.display()));
-            Ok(ExitCode::SUCCESS)
+            match &arguments.what {
+                // Nobody knew the name of a quilt before.
+                What::Capture { path: asked, .. } if asked.file_name() != path.file_name() => {
+                    print(&format!("{}\n", path.display()))
+                }
+                _ => Ok(ExitCode::SUCCESS),
+            }
         }
     }
 }
@@ -108,7 +115,11 @@ fn request(what: &What) -> Result<Request, LaunchError> {
         }
         What::Get { name } => Request::Get(name.clone().unwrap_or_else(|| ALL.to_owned())),
         What::Capture { path, what } => {
-            let path = std::path::absolute(path).map_err(|source| LaunchError::System {
+            let path = match what.as_deref() {
+                None | Some("output") => Capture::completed(path),
+                Some(_) => path.clone(),
+            };
+            let path = std::path::absolute(&path).map_err(|source| LaunchError::System {
                 doing: "finding the current folder",
                 source,
             })?;

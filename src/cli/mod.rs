@@ -12,6 +12,7 @@ mod layer;
 mod mask;
 mod run;
 mod simulate;
+mod weave;
 
 use clap::{Parser, Subcommand};
 use manyview::launch::LaunchError;
@@ -48,6 +49,8 @@ enum Action {
     Ctl(ctl::Arguments),
     /// Write the mask of a panel: 16-bit RGB PNG, each value the view that the subpixel shows, 65535 for black.
     Mask(mask::Arguments),
+    /// Interleave a quilt, a picture of all views, for a panel.
+    Weave(weave::Arguments),
     /// Show what an eye in front of a panel sees of a picture, or a strip of eyes from left to right.
     Simulate(simulate::Arguments),
     /// Measure a panel's lens sheet from photos of a pattern that it shows.
@@ -67,6 +70,7 @@ pub(crate) fn main() -> ExitCode {
         Action::Capture(arguments) => capture::run(&arguments),
         Action::Ctl(arguments) => ctl::run(&arguments),
         Action::Mask(arguments) => mask::run(&arguments),
+        Action::Weave(arguments) => weave::run(&arguments),
         Action::Simulate(arguments) => simulate::run(&arguments),
         Action::Calibrate(arguments) => calibrate::run(&arguments),
         Action::Doctor(arguments) => doctor::run(&arguments),

@@ -53,7 +53,7 @@ impl Live {
         }
         let changed = |id| changes.iter().any(|(given, _)| *given == id);
         let measured = settings.get(OptionId::AutoDepth);
-        if !measured.is_some_and(|s| s.value == "1") {
+        if measured.is_none_or(|s| s.value != "1") {
             self.complete(&mut settings, chosen);
         }
         Ok(Self {
@@ -259,6 +259,7 @@ mod tests {
             "rows",
             "columns",
             "checker",
+            "rgbd",
             "anaglyph:red-cyan",
             "anaglyph:green-magenta-half",
             "anaglyph:amber-blue-grey",

@@ -1,6 +1,7 @@
 //! What the user asked for: options of the command line, keys of the TOML file and `MANYVIEW_*` variables.
 #![forbid(unsafe_code)]
 
+mod capture;
 mod class;
 mod error;
 mod explain;
@@ -16,6 +17,7 @@ mod status;
 #[cfg(test)]
 mod tests;
 
+pub use capture::{Capture, CaptureWhat};
 pub use class::{Class, DepthRange, DepthState, Projection, Viewport, Word};
 pub use error::ConfigError;
 pub use explain::Explain;
@@ -122,6 +124,8 @@ pub enum Output {
     Interlaced(Interlace),
     /// Two eyes, through coloured glasses.
     Anaglyph(Anaglyph),
+    /// The program's own view on the left, how near it is as grey on the right.
+    Rgbd,
     /// One view.
     View(u32),
 }
@@ -133,7 +137,7 @@ impl Output {
         match self {
             Self::Interlaced(_) | Self::Anaglyph(_) | Self::TopBottom { .. } => true,
             Self::SideBySide { half } => half,
-            Self::Panel | Self::Quilt | Self::View(_) => false,
+            Self::Panel | Self::Quilt | Self::Rgbd | Self::View(_) => false,
         }
     }
 }
@@ -259,68 +263,4 @@ pub enum AtlasLayout {
     SideBySide,
     /// One layer of an array texture per view.
     Layers,
-}
-
-/// Pictures to write while the program runs.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Capture {
-    /// Target file; [`Capture::path_for`] says what it is called for each frame.
-    pub out: PathBuf,
-    /// First frame, 1-based.
-    pub first: u64,
-    /// Last frame, inclusive.
-    pub last: u64,
-    /// What is written.
-    pub what: CaptureWhat,
-}
-
-impl Capture {
-    /// The file for one frame: `%d` becomes the frame; without it, several frames get `-000030` before the extension.
-    ///
-    /// The layer writes to [`Capture::partial_path`] first and renames, so a file with this name is whole.
-    #[must_use]
-    pub fn path_for(&self, frame: u64) -> PathBuf {
-        let name = self
-            .out
-            .file_name()
-            .map(|name| name.to_string_lossy().into_owned())
-            .unwrap_or_default();
-        if name.contains("%d") {
-            return self
-                .out
-                .with_file_name(name.replace("%d", &frame.to_string()));
-        }
-        if self.first == self.last {
-            return self.out.clone();
-        }
-        let path = Path::new(&name);
-        let stem = path.file_stem().unwrap_or_default().to_string_lossy();
-        let extension = path
-            .extension()
-            .map(|e| format!(".{}", e.to_string_lossy()))
-            .unwrap_or_default();
-        self.out
-            .with_file_name(format!("{stem}-{frame:06}{extension}"))
-    }
-
-    /// The name under which the file for one frame grows.
-    #[must_use]
-    pub fn partial_path(&self, frame: u64) -> PathBuf {
-        let mut path = self.path_for(frame).into_os_string();
-        path.push(".tmp");
-        PathBuf::from(path)
-    }
-}
-
-/// What a captured picture holds.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum CaptureWhat {
-    /// The picture given to the swap.
-    Output,
-    /// All tiles, views in order, left to right then top to bottom.
-    Atlas,
-    /// One tile at tile size.
-    View(u32),
-    /// The depth of the program's own view, 16-bit grey.
-    Depth,
 }

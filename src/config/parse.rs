@@ -85,7 +85,12 @@ fn views(settings: &Settings, display: &Display, output: Output) -> Result<u32, 
     let (field, text) = match given {
         Some((field, value)) => (field, value.to_owned()),
         None => {
-            let views = if output.is_stereo() { 2 } else { display.views };
+            let views = match output {
+                // The program's own view is enough.
+                Output::Rgbd => 1,
+                _ if output.is_stereo() => 2,
+                _ => display.views,
+            };
             let field = display_field(settings).0.sibling(OptionId::Views);
             (field, views.to_string())
         }
@@ -102,7 +107,7 @@ fn views(settings: &Settings, display: &Display, output: Output) -> Result<u32, 
     Ok(views)
 }
 
-const OUTPUT_CHOICES: &str = "panel, quilt, sbs, half-sbs, tb, half-tb, rows, columns, checker, anaglyph:KIND and view:I, with KIND red-cyan, green-magenta or \
+const OUTPUT_CHOICES: &str = "panel, quilt, sbs, half-sbs, tb, half-tb, rows, columns, checker, rgbd, anaglyph:KIND and view:I, with KIND red-cyan, green-magenta or \
                               amber-blue, and -half or -grey after it";
 
 const OUTPUTS: &[(&str, Output)] = &[
@@ -112,6 +117,7 @@ const OUTPUTS: &[(&str, Output)] = &[
     ("half-sbs", Output::SideBySide { half: true }),
     ("tb", Output::TopBottom { half: false }),
     ("half-tb", Output::TopBottom { half: true }),
+    ("rgbd", Output::Rgbd),
     ("rows", Output::Interlaced(Interlace::Rows)),
     ("columns", Output::Interlaced(Interlace::Columns)),
     ("checker", Output::Interlaced(Interlace::Checkerboard)),

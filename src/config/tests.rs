@@ -273,9 +273,53 @@ fn pictures_are_named_by_frame() {
         Path::new("d.x/a-000002")
     );
     assert_eq!(
-        capture("d/a.png", 1, 1).partial_path(1),
+        Capture::partial(Path::new("d/a.png")),
         Path::new("d/a.png.tmp")
     );
+    let quilt = |out: &str, first, last| {
+        let capture = capture(out, first, last);
+        let path = capture.path_with(31, "_qs8x6a0.75");
+        let name = path.file_name().unwrap().to_str().unwrap().to_owned();
+        assert!(capture.is_for(31, &name), "{name}");
+        assert_eq!(
+            capture.is_for(30, &name),
+            first == last && !out.contains("%d")
+        );
+        path
+    };
+    for (out, first, last, name) in [
+        ("d/a%q.png", 31, 31, "d/a_qs8x6a0.75.png"),
+        ("d/a%q.png", 30, 31, "d/a-000031_qs8x6a0.75.png"),
+        ("d/a%q-%d.png", 30, 31, "d/a_qs8x6a0.75-31.png"),
+        ("d/%d%q", 30, 31, "d/31_qs8x6a0.75"),
+    ] {
+        assert_eq!(quilt(out, first, last), Path::new(name));
+    }
+    assert_eq!(
+        capture("d/a.png", 1, 1).path_with(1, "_qs8x6a0.75"),
+        Path::new("d/a.png")
+    );
+    let of = capture("d/a%q.png", 1, 1);
+    assert_eq!(of.path_for(1), Path::new("d/a.png"));
+    for other in [
+        "b_qs8x6a0.75.png",
+        "a-old.png",
+        "a_qs8x6a0.75.png.tmp",
+        "a_qs8x6a0.75-x.png",
+    ] {
+        assert!(!of.is_for(1, other), "{other}");
+    }
+    assert!(!capture("d/a.png", 1, 1).is_for(1, "a_qs8x6a0.75.png"));
+    for (out, completed) in [
+        ("d/a.png", "d/a%q.png"),
+        ("a", "a%q"),
+        ("d/a%q.png", "d/a%q.png"),
+        ("d/a_qs9x5.png", "d/a_qs9x5.png"),
+        ("d/f-%d.png", "d/f-%d%q.png"),
+        ("/", "/"),
+    ] {
+        assert_eq!(Capture::completed(Path::new(out)), Path::new(completed));
+    }
 }
 
 #[test]

@@ -7,8 +7,8 @@ const MM_PER_INCH: f64 = 25.4;
 /// Of two eyes that look at one picture, before and behind the panel: a part of its width. Players and converters give two
 /// percent to the whole depth of a scene.
 const TWO_EYES: f64 = 0.01;
-/// Angle between what two eyes see: 63 mm at 600 mm, degrees.
-const EYES: f64 = 6.0;
+/// From eye to eye over the distance of the panel: 63 mm at 600 mm.
+const EYES: f64 = 63.0 / 600.0;
 /// Angle over which lens sheets show their views when nobody says, degrees; that of the Looking Glass family.
 const CONE: f64 = 40.0;
 
@@ -19,8 +19,8 @@ pub struct Budget {
     pub px: f64,
     /// Millimetres per pixel, where they are known.
     pub mm_per_px: Option<f64>,
-    /// Angle between the directions in which the views are seen, radians.
-    pub angle: f64,
+    /// From one camera to the next where eyes see the views, over the focal depth (see [`super::Cameras::neighbours`]).
+    pub neighbours: f64,
 }
 
 impl Facts {
@@ -52,11 +52,12 @@ impl Display {
         if views < 3 {
             return self.budget_of_eyes(2, width);
         }
-        let views = f64::from(views);
+        let cone = self.facts.cone.unwrap_or(CONE);
+        let even = (f64::from(views) / 3.0).sqrt();
         Budget {
-            px: self.facts.budget().unwrap_or((views / 3.0).sqrt()),
+            px: self.facts.budget().unwrap_or(even),
             mm_per_px: self.facts.mm_per_px(),
-            angle: self.facts.cone.unwrap_or(CONE).to_radians() / views,
+            neighbours: self.spacing().cameras(views, cone).neighbours,
         }
     }
 
@@ -68,7 +69,7 @@ impl Display {
         Budget {
             px: given.unwrap_or(TWO_EYES * f64::from(width)) / steps,
             mm_per_px: self.facts.mm_per_px(),
-            angle: EYES.to_radians() / steps,
+            neighbours: EYES / steps,
         }
     }
 }
@@ -83,7 +84,7 @@ mod tests {
         let budget = portrait.budget(48, 1536);
         assert!((budget.px - 4.0).abs() < 1e-9);
         assert!((budget.mm_per_px.unwrap() * 324.0 - MM_PER_INCH).abs() < 1e-9);
-        assert!((budget.angle - 40f64.to_radians() / 48.0).abs() < 1e-9);
+        assert_eq!(budget.neighbours, portrait.cameras().unwrap().neighbours);
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! A panel in words and numbers, as `manyview displays show` prints it.
 #![forbid(unsafe_code)]
 
-use super::{Display, Kind, Number, Slanted, SubpixelOrder};
+use super::{Display, Kind, Number, Slanted, Spacing, SubpixelOrder};
 
 impl Display {
     /// Labels and values, in the order in which people read them.
@@ -43,6 +43,20 @@ impl Display {
             lines.push((
                 "disparity budget",
                 format!("{:.2} pixels{mm} from view to view", budget.px),
+            ));
+        }
+        if let Some(cameras) = self.cameras() {
+            let spacing = self.spacing();
+            let named = Spacing::ALL.iter().find(|(_, known)| *known == spacing);
+            lines.push(("camera spacing", named.map_or("", |(name, _)| name).into()));
+            lines.push((
+                "outer cameras",
+                format!("{:.4}° to either side", cameras.outer),
+            ));
+            let apart = cameras.neighbours;
+            lines.push((
+                "neighbouring cameras",
+                format!("{apart:.6} of the focal depth apart"),
             ));
         }
         if let Some((columns, rows)) = facts.quilt {

@@ -1,7 +1,7 @@
 //! Values of a description, each with its own sentence when it is wrong.
 #![forbid(unsafe_code)]
 
-use super::{DisplayError, Number, SubpixelOrder};
+use super::{DisplayError, Number, Spacing, SubpixelOrder};
 use std::ops::RangeInclusive;
 use toml::{Table, Value};
 
@@ -233,6 +233,19 @@ impl Fields {
     ) -> Result<&'v str, DisplayError> {
         let text = value.as_str().filter(|text| !text.is_empty());
         text.ok_or_else(|| self.wrong(field, expected, value, remedy))
+    }
+
+    pub(super) fn spacing(&self) -> Result<Option<Spacing>, DisplayError> {
+        const REMEDY: &str =
+            "give where in the cone the cameras stand, for example spacing = \"edges\"";
+        let Some(value) = self.get("spacing") else {
+            return Ok(None);
+        };
+        let word = value.as_str().unwrap_or_default();
+        match Spacing::ALL.iter().find(|(name, _)| *name == word) {
+            Some((_, spacing)) => Ok(Some(*spacing)),
+            None => Err(self.wrong("spacing", "\"centres\" or \"edges\"", value, REMEDY)),
+        }
     }
 
     pub(super) fn order(&self) -> Result<SubpixelOrder, DisplayError> {

@@ -49,7 +49,7 @@ const BUDGET_MM: &str =
 const DPI_FOR_MM: &str = "give the pixels per inch with budget-mm, for example dpi = 338";
 const QUILT: &str = "give columns and rows, for example quilt = \"8x6\"";
 
-const COMMON: [&str; 11] = [
+const COMMON: [&str; 12] = [
     "version",
     "name",
     "kind",
@@ -57,6 +57,7 @@ const COMMON: [&str; 11] = [
     "screen",
     "dpi",
     "cone",
+    "spacing",
     "rotation",
     "quilt",
     "budget-px",
@@ -279,6 +280,7 @@ impl Reader<'_> {
         facts.screen = f.pair("screen", 32_768, SCREEN)?.or(facts.screen);
         facts.dpi = f.float("dpi", (1.0, 10_000.0), DPI)?.or(facts.dpi);
         facts.cone = f.float("cone", (0.1, 170.0), CONE)?.or(facts.cone);
+        facts.spacing = f.spacing()?.or(facts.spacing);
         facts.quilt = f.pair("quilt", 256, QUILT)?.or(facts.quilt);
         facts.budget_px = f.float("budget-px", (0.01, 1000.0), BUDGET_PX)?;
         facts.budget_mm = f.float("budget-mm", (0.001, 100.0), BUDGET_MM)?;

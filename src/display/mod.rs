@@ -15,6 +15,7 @@ mod bias;
 mod budget;
 mod builtin;
 mod calibration;
+mod cameras;
 mod describe;
 mod error;
 mod fields;
@@ -27,6 +28,7 @@ mod looking_glass;
 mod mask;
 mod number;
 mod pattern;
+mod quilt;
 mod rotation;
 mod slanted;
 #[cfg(test)]
@@ -35,6 +37,7 @@ mod tests;
 pub use bias::Bias;
 pub use budget::Budget;
 pub use builtin::{Builtin, builtins};
+pub use cameras::{Cameras, Spacing};
 pub use error::{DisplayError, MaskError};
 pub use integer::Integer;
 pub use leia::Leia;
@@ -42,6 +45,7 @@ pub use looking_glass::{CellPattern, LookingGlass};
 pub use mask::{GUARD, Mask};
 pub use number::Number;
 pub use pattern::Pattern;
+pub use quilt::{QuiltError, QuiltName};
 pub use rotation::Rotation;
 pub use slanted::Slanted;
 
@@ -83,6 +87,8 @@ pub struct Facts {
     pub cone: Option<f64>,
     /// Columns and rows of its quilt.
     pub quilt: Option<(u32, u32)>,
+    /// Where in that angle the cameras stand, if the description says it; see [`Display::spacing`].
+    pub spacing: Option<Spacing>,
     /// Largest disparity between neighbouring views, in pixels of the screen.
     pub budget_px: Option<f64>,
     /// The same, in mm.

@@ -294,6 +294,18 @@ impl Gl {
         out
     }
 
+    /// glReadPixels of depth, 0 to `u32::MAX`, rows bottom up; no pack buffer may be bound.
+    pub fn read_depth32(&self, x: i32, y: i32, w: u32, h: u32) -> Vec<u32> {
+        let mut out = vec![0u32; w as usize * h as usize];
+        let c = (super::consts::DEPTH_COMPONENT, super::consts::UNSIGNED_INT);
+        // SAFETY: w·h·4 bytes; alignment 1, no pack buffer.
+        unsafe {
+            self.real
+                .glReadPixels(x, y, w as i32, h as i32, c.0, c.1, out.as_mut_ptr().cast())
+        };
+        out
+    }
+
     /// glDrawPixels of RGB bytes, rows bottom up; unpack state must be the default with alignment 1.
     pub fn draw_pixels_rgb(&self, w: i32, h: i32, data: &[u8]) {
         if data.len() < w as usize * h as usize * 3 {

@@ -4,7 +4,7 @@ use super::real::{Ptr, Real};
 use core::ffi::{CStr, c_ulong};
 
 /// Number of commands in the table.
-pub const COUNT: usize = 1246;
+pub const COUNT: usize = 1253;
 
 /// Index of each command in the table.
 pub mod slot {
@@ -1209,51 +1209,58 @@ pub mod slot {
     pub const eglCreateContext: usize = 1198;
     pub const eglDestroyContext: usize = 1199;
     pub const eglReleaseThread: usize = 1200;
-    pub const eglGetProcAddress: usize = 1201;
-    pub const eglQuerySurface: usize = 1202;
-    pub const eglQueryContext: usize = 1203;
-    pub const eglGetCurrentContext: usize = 1204;
-    pub const glXGetCurrentContext: usize = 1205;
-    pub const OSMesaMakeCurrent: usize = 1206;
-    pub const OSMesaCreateContext: usize = 1207;
-    pub const OSMesaCreateContextExt: usize = 1208;
-    pub const OSMesaCreateContextAttribs: usize = 1209;
-    pub const OSMesaDestroyContext: usize = 1210;
-    pub const OSMesaGetProcAddress: usize = 1211;
-    pub const glCopyImageSubData: usize = 1212;
-    pub const glGetString: usize = 1213;
-    pub const glGetStringi: usize = 1214;
-    pub const glGenQueries: usize = 1215;
-    pub const glTexImage2DMultisample: usize = 1216;
-    pub const glTexImage3DMultisample: usize = 1217;
-    pub const glCreateShader: usize = 1218;
-    pub const glShaderSource: usize = 1219;
-    pub const glCompileShader: usize = 1220;
-    pub const glGetShaderiv: usize = 1221;
-    pub const glGetShaderInfoLog: usize = 1222;
-    pub const glCreateProgram: usize = 1223;
-    pub const glAttachShader: usize = 1224;
-    pub const glLinkProgram: usize = 1225;
-    pub const glGetProgramiv: usize = 1226;
-    pub const glGetProgramInfoLog: usize = 1227;
-    pub const glDeleteShader: usize = 1228;
-    pub const glDeleteProgram: usize = 1229;
-    pub const glGetUniformLocation: usize = 1230;
-    pub const glFenceSync: usize = 1231;
-    pub const glClientWaitSync: usize = 1232;
-    pub const glDeleteSync: usize = 1233;
-    pub const glGetBufferSubData: usize = 1234;
-    pub const glGetUniformBlockIndex: usize = 1235;
-    pub const glUniformBlockBinding: usize = 1236;
-    pub const glBindBufferBase: usize = 1237;
-    pub const glBindBufferRange: usize = 1238;
-    pub const glGenBuffers: usize = 1239;
-    pub const glBindAttribLocation: usize = 1240;
-    pub const glProgramParameteri: usize = 1241;
-    pub const glGenVertexArrays: usize = 1242;
-    pub const glBindVertexArray: usize = 1243;
-    pub const glGenSamplers: usize = 1244;
-    pub const glBindSampler: usize = 1245;
+    pub const eglGetDisplay: usize = 1201;
+    pub const eglGetPlatformDisplay: usize = 1202;
+    pub const eglGetPlatformDisplayEXT: usize = 1203;
+    pub const eglCreateWindowSurface: usize = 1204;
+    pub const eglCreatePlatformWindowSurface: usize = 1205;
+    pub const eglCreatePlatformWindowSurfaceEXT: usize = 1206;
+    pub const eglDestroySurface: usize = 1207;
+    pub const eglGetProcAddress: usize = 1208;
+    pub const eglQuerySurface: usize = 1209;
+    pub const eglQueryContext: usize = 1210;
+    pub const eglGetCurrentContext: usize = 1211;
+    pub const glXGetCurrentContext: usize = 1212;
+    pub const OSMesaMakeCurrent: usize = 1213;
+    pub const OSMesaCreateContext: usize = 1214;
+    pub const OSMesaCreateContextExt: usize = 1215;
+    pub const OSMesaCreateContextAttribs: usize = 1216;
+    pub const OSMesaDestroyContext: usize = 1217;
+    pub const OSMesaGetProcAddress: usize = 1218;
+    pub const glCopyImageSubData: usize = 1219;
+    pub const glGetString: usize = 1220;
+    pub const glGetStringi: usize = 1221;
+    pub const glGenQueries: usize = 1222;
+    pub const glTexImage2DMultisample: usize = 1223;
+    pub const glTexImage3DMultisample: usize = 1224;
+    pub const glCreateShader: usize = 1225;
+    pub const glShaderSource: usize = 1226;
+    pub const glCompileShader: usize = 1227;
+    pub const glGetShaderiv: usize = 1228;
+    pub const glGetShaderInfoLog: usize = 1229;
+    pub const glCreateProgram: usize = 1230;
+    pub const glAttachShader: usize = 1231;
+    pub const glLinkProgram: usize = 1232;
+    pub const glGetProgramiv: usize = 1233;
+    pub const glGetProgramInfoLog: usize = 1234;
+    pub const glDeleteShader: usize = 1235;
+    pub const glDeleteProgram: usize = 1236;
+    pub const glGetUniformLocation: usize = 1237;
+    pub const glFenceSync: usize = 1238;
+    pub const glClientWaitSync: usize = 1239;
+    pub const glDeleteSync: usize = 1240;
+    pub const glGetBufferSubData: usize = 1241;
+    pub const glGetUniformBlockIndex: usize = 1242;
+    pub const glUniformBlockBinding: usize = 1243;
+    pub const glBindBufferBase: usize = 1244;
+    pub const glBindBufferRange: usize = 1245;
+    pub const glGenBuffers: usize = 1246;
+    pub const glBindAttribLocation: usize = 1247;
+    pub const glProgramParameteri: usize = 1248;
+    pub const glGenVertexArrays: usize = 1249;
+    pub const glBindVertexArray: usize = 1250;
+    pub const glGenSamplers: usize = 1251;
+    pub const glBindSampler: usize = 1252;
 }
 
 /// Name of each command.
@@ -2459,6 +2466,13 @@ pub static NAMES: [&CStr; COUNT] = [
     c"eglCreateContext",
     c"eglDestroyContext",
     c"eglReleaseThread",
+    c"eglGetDisplay",
+    c"eglGetPlatformDisplay",
+    c"eglGetPlatformDisplayEXT",
+    c"eglCreateWindowSurface",
+    c"eglCreatePlatformWindowSurface",
+    c"eglCreatePlatformWindowSurfaceEXT",
+    c"eglDestroySurface",
     c"eglGetProcAddress",
     c"eglQuerySurface",
     c"eglQueryContext",
@@ -3708,6 +3722,13 @@ real_functions! {
     eglCreateContext(dpy: Ptr, config: Ptr, share: Ptr, attribs: Ptr) -> Ptr = core::ptr::null_mut();
     eglDestroyContext(dpy: Ptr, ctx: Ptr) -> u32 = 0;
     eglReleaseThread() -> u32 = 0;
+    eglGetDisplay(native: Ptr) -> Ptr = core::ptr::null_mut();
+    eglGetPlatformDisplay(platform: u32, native: Ptr, attribs: Ptr) -> Ptr = core::ptr::null_mut();
+    eglGetPlatformDisplayEXT(platform: u32, native: Ptr, attribs: Ptr) -> Ptr = core::ptr::null_mut();
+    eglCreateWindowSurface(dpy: Ptr, config: Ptr, win: Ptr, attribs: Ptr) -> Ptr = core::ptr::null_mut();
+    eglCreatePlatformWindowSurface(dpy: Ptr, config: Ptr, win: Ptr, attribs: Ptr) -> Ptr = core::ptr::null_mut();
+    eglCreatePlatformWindowSurfaceEXT(dpy: Ptr, config: Ptr, win: Ptr, attribs: Ptr) -> Ptr = core::ptr::null_mut();
+    eglDestroySurface(dpy: Ptr, surface: Ptr) -> u32 = 0;
     eglGetProcAddress(name: Ptr) -> Ptr = core::ptr::null_mut();
     eglQuerySurface(dpy: Ptr, surface: Ptr, attribute: i32, value: Ptr) -> u32 = 0;
     eglQueryContext(dpy: Ptr, ctx: Ptr, attribute: i32, value: Ptr) -> u32 = 0;

@@ -1,7 +1,7 @@
 //! The output passes in the program's context: on the GPU, or by the CPU reference where the context's GLSL is too old.
 
-use super::shader::{MASK_UNIT, Pass, Uniforms, VIEWS_UNIT};
-use super::{Form, Layout, Program, reference};
+use super::shader::{DEPTH_UNIT, MASK_UNIT, Pass, Uniforms, VIEWS_UNIT};
+use super::{Depth, Form, Layout, Program, reference, rgbd};
 use crate::atlas::{Names, Tiles};
 use crate::config::{Config, Filter, Output};
 use crate::display::{Mask, Placement};
@@ -10,13 +10,16 @@ use image::RgbImage;
 
 /// The atlas as the passes see it.
 #[derive(Clone, Copy, Debug)]
-pub struct Source {
+pub struct Source<'a> {
     /// Places of the views.
     pub tiles: Tiles,
     /// The array texture.
     pub texture: u32,
     /// Its rows run top down.
     pub top_down: bool,
+    /// The array texture of their depths, 0 where the window has none, and what is in it of the own view; only where the output
+    /// shows it.
+    pub depth: Option<(u32, &'a Depth)>,
     /// Its colours are stored as sRGB, and so are the window's.
     pub srgb: bool,
 }
@@ -28,6 +31,7 @@ pub struct Interleaver {
     panel: Option<Program>,
     layout: Option<Program>,
     anaglyph: Option<Program>,
+    rgbd: Option<Program>,
     /// Of an output whose picture lay there.
     mask: Option<((Output, Placement), Mask)>,
     mask_texture: u32,
@@ -59,17 +63,19 @@ impl Interleaver {
             panel: None,
             layout: None,
             anaglyph: None,
+            rgbd: None,
             mask: None,
             mask_texture: 0,
             mask_uploaded: None,
             cpu: None,
         };
         let program = |pass| Program::new(gl, glsl, pass);
-        match [Pass::Interleave, Pass::Layout, Pass::Anaglyph].map(program) {
-            [Ok(panel), Ok(layout), Ok(anaglyph)] => {
+        match [Pass::Interleave, Pass::Layout, Pass::Anaglyph, Pass::Rgbd].map(program) {
+            [Ok(panel), Ok(layout), Ok(anaglyph), Ok(rgbd)] => {
                 i.panel = Some(panel);
                 i.layout = Some(layout);
                 i.anaglyph = Some(anaglyph);
+                i.rgbd = Some(rgbd);
                 i.vertex_array = gl.gen_vertex_array();
                 i.mask_texture = reserve(gl, names);
             }
@@ -92,7 +98,7 @@ impl Interleaver {
 
     /// The names of its programs.
     pub fn programs(&self) -> impl Iterator<Item = u32> {
-        let programs = [&self.panel, &self.layout, &self.anaglyph];
+        let programs = [&self.panel, &self.layout, &self.anaglyph, &self.rgbd];
         programs.into_iter().flatten().map(Program::name)
     }
 
@@ -127,9 +133,11 @@ impl Interleaver {
             Form::Panel(..) | Form::Eyes(_) => &self.panel,
             Form::Layout(_) => &self.layout,
             Form::Anaglyph(_) => &self.anaglyph,
+            Form::Rgbd => &self.rgbd,
         };
         let Some(program) = program else {
-            return self.draw_by_cpu(gl, config, tile, &form, placement);
+            let depth = source.depth.map(|(_, depth)| depth);
+            return self.draw_by_cpu(gl, config, tile, depth, &form, placement);
         };
         let size = [placement.width, placement.height];
         gl.viewport(0, 0, size[0] as i32, size[1] as i32);
@@ -151,6 +159,10 @@ impl Interleaver {
                 }
                 self.mask_uploaded = Some(*known);
             }
+        }
+        if let Some((texture, _)) = source.depth {
+            gl.active_texture(c::TEXTURE0 + DEPTH_UNIT);
+            gl.bind_texture(c::TEXTURE_2D_ARRAY, texture);
         }
         gl.active_texture(c::TEXTURE0 + VIEWS_UNIT);
         gl.bind_texture(c::TEXTURE_2D_ARRAY, source.texture);
@@ -176,6 +188,7 @@ impl Interleaver {
                 Form::Anaglyph(anaglyph) => anaglyph.matrices(),
                 _ => Default::default(),
             },
+            depth: source.depth.map_or([0.0; 2], |(_, depth)| depth.ends),
         };
         program.bind(gl, &uniforms.words());
         gl.bind_vertex_array(self.vertex_array);
@@ -195,6 +208,7 @@ impl Interleaver {
         gl: &Gl,
         config: &Config,
         tile: &mut dyn FnMut(u32) -> RgbImage,
+        depth: Option<&Depth>,
         form: &Form,
         placement: &Placement,
     ) -> Result<(), String> {
@@ -203,6 +217,10 @@ impl Interleaver {
         let picture = match (form, &self.mask) {
             (Form::Layout(layout), _) => reference::arrange(&tiles, *layout, size),
             (Form::Anaglyph(anaglyph), _) => reference::anaglyph(&tiles, *anaglyph, size),
+            (Form::Rgbd, _) => match (depth, tiles.get((tiles.len().max(1) - 1) / 2)) {
+                (Some(depth), Some(own)) => rgbd(own, depth, size),
+                _ => return Ok(()),
+            },
             (Form::Panel(_, filter), Some((_, mask))) => reference::filtered(&tiles, mask, *filter),
             (Form::Eyes(_), Some((_, mask))) => {
                 reference::interleave(&reference::eyes(tiles), mask)

@@ -1,19 +1,23 @@
 //! From N views to the picture that is shown.
 //!
 //! `reference` does it exactly on the CPU and is what the GPU is compared with; `shader` translates the passes of
-//! `shaders/*.wgsl` for the program's context, `program` compiles them; `layout` and `anaglyph` hold what both agree on; `gpu` draws.
+//! `shaders/*.wgsl` for the program's context, `program` compiles them; `layout`, `anaglyph` and `depth` hold what both agree on; `gpu` draws.
 #![forbid(unsafe_code)]
 
 mod anaglyph;
+mod depth;
 mod gpu;
 mod layout;
 mod program;
+#[cfg(feature = "cli")]
+pub mod quilt;
 pub mod reference;
 pub mod shader;
 #[cfg(test)]
 mod tests;
 
 pub use anaglyph::Matrix;
+pub use depth::{Depth, rgbd};
 pub use gpu::{Interleaver, Source, glsl_version};
 pub use layout::Layout;
 pub use program::Program;
@@ -32,6 +36,8 @@ pub enum Form<'a> {
     Layout(Layout),
     /// The first and the last view through coloured glasses.
     Anaglyph(Anaglyph),
+    /// The own view beside its depth.
+    Rgbd,
 }
 
 impl<'a> Form<'a> {
@@ -45,6 +51,7 @@ impl<'a> Form<'a> {
             Output::Quilt => Self::Layout(Layout::quilt(config.views, config.display.facts.quilt)),
             Output::View(view) => Self::Layout(Layout::View(view)),
             Output::Anaglyph(anaglyph) => Self::Anaglyph(anaglyph),
+            Output::Rgbd => Self::Rgbd,
         }
     }
 
@@ -57,7 +64,7 @@ impl<'a> Form<'a> {
                 Ok(display) => display.mask(placement, 2),
                 Err(error) => return Some(Err(error)),
             },
-            Self::Layout(_) | Self::Anaglyph(_) => return None,
+            Self::Layout(_) | Self::Anaglyph(_) | Self::Rgbd => return None,
         };
         Some(made.map_err(DisplayError::from))
     }

@@ -263,6 +263,23 @@ fn encoded(light: f32) -> f32 {
     }
 }
 
+/// One view in each cell of a picture.
+pub(super) fn resample(
+    view: &RgbImage,
+    grid: (u32, u32),
+    size: (u32, u32),
+) -> Result<RgbImage, ReferenceError> {
+    let tile = tile_size(std::slice::from_ref(view))?;
+    let mut out = picture(size)?;
+    let taps = Taps::new(size, grid, tile);
+    for (x, row, pixel) in out.enumerate_pixels_mut() {
+        if let Some(colour) = taps.colour(view, x, row) {
+            *pixel = colour;
+        }
+    }
+    Ok(out)
+}
+
 fn tile_size<P: Pixel<Subpixel = u8>>(tiles: &[Tile<P>]) -> Result<(u32, u32), ReferenceError> {
     let first = tiles.first().ok_or(ReferenceError::NoTiles)?.dimensions();
     if P::CHANNEL_COUNT < 3 {
@@ -286,7 +303,7 @@ fn tile_size<P: Pixel<Subpixel = u8>>(tiles: &[Tile<P>]) -> Result<(u32, u32), R
     Ok(first)
 }
 
-fn picture((width, height): (u32, u32)) -> Result<RgbImage, ReferenceError> {
+pub(super) fn picture((width, height): (u32, u32)) -> Result<RgbImage, ReferenceError> {
     let pixels = u64::from(width) * u64::from(height);
     if !(1..=1 << 28).contains(&pixels) {
         return Err(ReferenceError::Size { width, height });

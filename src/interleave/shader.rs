@@ -17,12 +17,16 @@ const ATLAS: &str = include_str!("../../shaders/atlas.wgsl");
 const INTERLEAVE: &str = include_str!("../../shaders/interleave.wgsl");
 const LAYOUT: &str = include_str!("../../shaders/layout.wgsl");
 const ANAGLYPH: &str = include_str!("../../shaders/anaglyph.wgsl");
+const RGBD: &str = include_str!("../../shaders/rgbd.wgsl");
 const ACCUMULATE: &str = include_str!("../../shaders/accumulate.wgsl");
 
 /// Texture unit of the views: a 2D array texture.
 pub const VIEWS_UNIT: u32 = 0;
 /// Texture unit of the mask: RGBA16UI or RGB16UI, NEAREST, row 0 on top.
 pub const MASK_UNIT: u32 = 1;
+
+/// Texture unit of the depths of the views: a 2D array texture.
+pub const DEPTH_UNIT: u32 = 2;
 
 /// What a pass makes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -33,6 +37,8 @@ pub enum Pass {
     Layout,
     /// Two views for coloured glasses.
     Anaglyph,
+    /// The own view beside its depth.
+    Rgbd,
     /// A step of the accumulation buffer.
     Accumulate(Step),
 }
@@ -145,7 +151,7 @@ pub struct Translated {
 pub struct TextureBinding {
     /// Name in the GLSL.
     pub name: String,
-    /// [`VIEWS_UNIT`] or [`MASK_UNIT`]; as `shaders/accumulate.wgsl` numbers them.
+    /// [`VIEWS_UNIT`], [`MASK_UNIT`] or [`DEPTH_UNIT`]; as `shaders/accumulate.wgsl` numbers them.
     pub unit: u32,
 }
 
@@ -192,16 +198,18 @@ pub struct Uniforms {
     pub filter: Filter,
     /// Of the left and the right view; only the anaglyph pass reads them.
     pub matrices: (Matrix, Matrix),
+    /// White and black as values of the depth buffer; only the RGBD pass reads them.
+    pub depth: [f32; 2],
 }
 
 impl Uniforms {
     /// In the order and alignment of the WGSL struct.
-    pub fn words(&self) -> [u32; 40] {
+    pub fn words(&self) -> [u32; 44] {
         let [tile_x, tile_y] = self.tile;
         let [out_x, out_y] = self.picture;
         let (grid_x, grid_y) = self.layout.grid(self.views);
         let (columns, views) = (self.columns.max(1), self.views.max(1));
-        let mut words = [0; 40];
+        let mut words = [0; 44];
         let whole = [
             tile_x,
             tile_y,
@@ -232,6 +240,9 @@ impl Uniforms {
             for (word, value) in words.iter_mut().skip(16 + 4 * i).zip(row) {
                 *word = value.to_bits();
             }
+        }
+        for (word, value) in words.iter_mut().skip(40).zip(self.depth) {
+            *word = value.to_bits();
         }
         words
     }
@@ -347,6 +358,7 @@ fn entry(pass: Pass) -> &'static str {
         Pass::Interleave => "interleave",
         Pass::Layout => "arrange",
         Pass::Anaglyph => "anaglyph",
+        Pass::Rgbd => "rgbd",
         Pass::Accumulate(Step::Fill) => "fill",
         Pass::Accumulate(Step::Copy) => "copy",
         Pass::Accumulate(Step::Load) => "load",
@@ -363,6 +375,7 @@ fn source(pass: Pass) -> String {
         Pass::Interleave => [COVER, COMMON, ATLAS, INTERLEAVE].join("\n"),
         Pass::Layout => [COVER, COMMON, ATLAS, LAYOUT].join("\n"),
         Pass::Anaglyph => [COVER, COMMON, ATLAS, ANAGLYPH].join("\n"),
+        Pass::Rgbd => [COVER, COMMON, ATLAS, RGBD].join("\n"),
         Pass::Accumulate(_) => [COVER, ACCUMULATE].join("\n"),
     }
 }

@@ -200,7 +200,7 @@ proptest! {
     }
 }
 
-const PASSES: [Pass; 3] = [Pass::Interleave, Pass::Layout, Pass::Anaglyph];
+const PASSES: [Pass; 4] = [Pass::Interleave, Pass::Layout, Pass::Anaglyph, Pass::Rgbd];
 
 #[test]
 fn every_pass_translates_for_every_version() {
@@ -214,15 +214,16 @@ fn every_pass_translates_for_every_version() {
             };
             assert!(fragment.source.starts_with(&line), "{}", fragment.source);
             let units: Vec<_> = fragment.textures.iter().map(|t| t.unit).collect();
-            let expected = [VIEWS_UNIT, MASK_UNIT];
-            assert_eq!(
-                units,
-                expected[..if pass == Pass::Interleave { 2 } else { 1 }]
-            );
+            let expected: &[u32] = match pass {
+                Pass::Interleave => &[VIEWS_UNIT, MASK_UNIT],
+                Pass::Rgbd => &[VIEWS_UNIT, DEPTH_UNIT],
+                _ => &[VIEWS_UNIT],
+            };
+            assert_eq!(units, expected);
             for texture in &fragment.textures {
                 assert!(fragment.source.contains(&format!(" {};", texture.name)));
             }
-            assert_eq!(fragment.uniforms.len(), 19);
+            assert_eq!(fragment.uniforms.len(), 20);
             assert!(!fragment.source.contains("std140"), "no uniform block");
 
             let vertex = translate(pass, Stage::Vertex, version).unwrap();
@@ -253,6 +254,7 @@ fn uniforms_are_found_by_name() {
         linear: false,
         filter: Filter::Gaussian,
         matrices: ([[1.0; 3]; 3], [[2.0; 3]; 3]),
+        depth: [3.0, 4.0],
     };
     let version = GlslVersion::Desktop(330);
     let got = translate(Pass::Layout, Stage::Fragment, version).unwrap();
@@ -289,6 +291,8 @@ fn uniforms_are_found_by_name() {
         ("right_red", &right),
     ];
     assert_eq!(of[..17], expected);
+    let ends = [3.0f32.to_bits(), 4.0f32.to_bits(), 0, 0];
+    assert_eq!(of[19], ("depth", &ends[..]));
 }
 
 #[test]

@@ -56,10 +56,14 @@ impl CaptureJob<'_> {
         let mut program = self.start(screen.as_ref())?;
         let limit = Instant::now() + self.timeout;
         let mut next = self.capture.first;
+        let mut files = Vec::new();
         loop {
             // Asked before the files are looked at: what the program wrote before its end counts.
             let ended = program.ended();
-            while next <= self.capture.last && self.is_new(next, &before) {
+            while next <= self.capture.last
+                && let Some(file) = self.new_file(next, &before)
+            {
+                files.push(file);
                 next += 1;
             }
             let status = Status::read(self.status);
@@ -69,10 +73,8 @@ impl CaptureJob<'_> {
             );
             if next > self.capture.last {
                 drop(program);
-                let files = (self.capture.first..=self.capture.last)
-                    .map(|frame| self.capture.path_for(frame));
                 return Ok(Captured {
-                    files: files.collect(),
+                    files,
                     notes: self.notes(),
                 });
             }
@@ -123,9 +125,20 @@ impl CaptureJob<'_> {
             .map(|child| Program { child, ended: None })
     }
 
-    fn is_new(&self, frame: u64, before: &HashMap<PathBuf, Stamp>) -> bool {
-        let path = self.capture.path_for(frame);
-        stamp(&path).is_some_and(|now| before.get(&path) != Some(&now))
+    /// The picture of a frame, once it is there: what the layer adds to the name of a quilt is not known before.
+    fn new_file(&self, frame: u64, before: &HashMap<PathBuf, Stamp>) -> Option<PathBuf> {
+        let is_new = |path: &PathBuf| stamp(path).is_some_and(|now| before.get(path) != Some(&now));
+        let plain = self.capture.path_for(frame);
+        if is_new(&plain) {
+            return Some(plain);
+        }
+        if !self.capture.names_quilts() {
+            return None;
+        }
+        entries(self.capture).find(|path| {
+            let name = path.file_name().unwrap_or_default();
+            self.capture.is_for(frame, &name.to_string_lossy()) && is_new(path)
+        })
     }
 
     /// How many frames the program got, in words.
@@ -175,20 +188,22 @@ impl Drop for Program {
 
 /// The files that are in the folder of the pictures already.
 fn stamps(capture: &Capture) -> HashMap<PathBuf, Stamp> {
+    entries(capture)
+        .filter_map(|path| stamp(&path).map(|stamp| (path, stamp)))
+        .collect()
+}
+
+/// The files in the folder of the pictures.
+fn entries(capture: &Capture) -> impl Iterator<Item = PathBuf> {
     let first = capture.path_for(capture.first);
-    let folder = first.parent().unwrap_or(Path::new(""));
+    let folder = first.parent().unwrap_or(Path::new("")).to_owned();
     let listed = if folder == Path::new("") {
         Path::new(".")
     } else {
-        folder
+        &folder
     };
     let entries = std::fs::read_dir(listed).into_iter().flatten().flatten();
-    entries
-        .filter_map(|entry| {
-            let path = folder.join(entry.file_name());
-            stamp(&path).map(|stamp| (path, stamp))
-        })
-        .collect()
+    entries.map(move |entry| folder.join(entry.file_name()))
 }
 
 fn stamp(path: &Path) -> Option<Stamp> {

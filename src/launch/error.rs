@@ -4,7 +4,8 @@
 use crate::calibrate::CalibrateError;
 use crate::config::ConfigError;
 use crate::control::ControlError;
-use crate::display::{DisplayError, MaskError};
+use crate::display::{DisplayError, MaskError, QuiltError};
+use crate::interleave::reference::ReferenceError;
 use crate::simulate::SimulateError;
 use std::path::PathBuf;
 
@@ -28,6 +29,36 @@ pub enum LaunchError {
     /// A panel.
     #[error(transparent)]
     Display(#[from] DisplayError),
+    /// A quilt.
+    #[error(transparent)]
+    Quilt(#[from] QuiltError),
+    /// Columns and rows that are none.
+    #[error("--quilt is '{0}'; give columns and rows such as 8x6, each from 1 to 256")]
+    QuiltShape(String),
+    /// A picture of which nobody says what it holds.
+    #[error(
+        "{}: neither its name nor the panel says how many columns and rows of views it has; give them as --quilt 8x6", _0.display()
+    )]
+    QuiltUnknown(PathBuf),
+    /// More views are asked for than there are.
+    #[error("the quilt has {has} views; give --views 1 to {has} instead of {wanted}")]
+    QuiltViews {
+        /// Of the quilt.
+        has: usize,
+        /// As asked for.
+        wanted: u32,
+    },
+    /// Views that make no picture.
+    #[error(transparent)]
+    Reference(#[from] ReferenceError),
+    /// A picture that is not read or not written.
+    #[error("{}: {reason}", file.display())]
+    Picture {
+        /// Its file.
+        file: PathBuf,
+        /// What is wrong with it.
+        reason: String,
+    },
     /// What an eye would see, but for this.
     #[error(transparent)]
     Simulate(#[from] SimulateError),
@@ -140,6 +171,12 @@ impl LaunchError {
             | Self::Size(_)
             | Self::Mask(_)
             | Self::Display(_)
+            | Self::Quilt(_)
+            | Self::QuiltShape(_)
+            | Self::QuiltUnknown(_)
+            | Self::QuiltViews { .. }
+            | Self::Reference(_)
+            | Self::Picture { .. }
             | Self::Simulate(_)
             | Self::Calibrate(_) => 2,
             Self::Control(error) => error.exit_status(),

@@ -16,6 +16,8 @@ pub(super) struct Frame {
     pub(super) list: Option<u32>,
     /// Something in perspective has written depth since the frame began or was last cleared.
     pub(super) deep: bool,
+    /// Nearer things have larger depths, by the first draw of the scene.
+    pub(super) nearer_is_larger: Option<bool>,
 }
 
 impl Layer {

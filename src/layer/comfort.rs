@@ -148,7 +148,8 @@ impl Layer {
         }
     }
 
-    fn zero_to_one(&mut self, gl: &Gl) -> bool {
+    /// Whether normalised depths begin at 0.
+    pub(super) fn zero_to_one(&mut self, gl: &Gl) -> bool {
         let there = self.comfort.clip_control.get_or_insert_with(|| {
             gl.version() >= (4, 5) || gl.has_extension("GL_ARB_clip_control")
         });
@@ -283,7 +284,7 @@ impl Layer {
             let (budget, lens) = (self.budget(), parallax::lens(p));
             let limits = comfort::Limits {
                 budget: budget.px / self.half_width(),
-                orthoscopic: lens.0 * budget.angle,
+                orthoscopic: lens.0 * budget.neighbours,
                 lens,
             };
             self.comfort.next = self.comfort.cameras.follow(seen, &limits);

@@ -141,9 +141,8 @@ impl Layer {
                 ..wanted.clone()
             };
             let written = self.write(gl, source, &wanted, frame);
-            let path = wanted.path_for(frame);
             self.picture = Picture::Done(match written {
-                Ok(()) => Ok(Answer::Captured { path, frame }),
+                Ok(path) => Ok(Answer::Captured { path, frame }),
                 Err(reason) => Err(ControlError::Picture(reason)),
             });
         }

@@ -1,11 +1,11 @@
 //! A draw call of the program: refresh, plan, execute, count.
 
 use super::Layer;
-use crate::config::{Class, Projection, Word};
+use crate::config::{Class, Output, Projection, Word};
 use crate::draw::{Again, Amplified, Current, FixedState, replay};
 use crate::gl::api::Indices;
 use crate::gl::{Ends, Gl, Recording, consts as c};
-use crate::plan::{Kind, Method, Plan, plan};
+use crate::plan::{Kind, Method, Plan, Ramp, plan};
 use crate::state::{Begin, Command, Effect, Immediate, Run, Touch};
 
 /// A draw from arrays that may be instanced. Counts, types and modes are GL's.
@@ -185,6 +185,12 @@ impl Layer {
         let (facts, classed) = self.classify(gl, kind);
         if classed.class == Class::Scene {
             self.rig.latch(&self.state.projection);
+            if self.output() == Output::Rgbd && self.frame.nearer_is_larger.is_none() {
+                let range = gl.get_floats(c::DEPTH_RANGE);
+                let zero_to_one = self.zero_to_one(gl);
+                let ramp = Ramp::of(&self.state.projection, range, zero_to_one);
+                self.frame.nearer_is_larger = ramp.map(|ramp| ramp.nearer_is_larger());
+            }
         }
         self.watch_depths(gl, kind, &classed);
         let plan = plan(kind, &self.state, &self.rig, &self.means, &classed);

@@ -1,13 +1,14 @@
 //! The end of a frame: interleave, capture, report.
 
 use super::{Layer, OnScreen};
-use crate::config::{Capture, CaptureWhat};
-use crate::display::Placement;
+use crate::config::{Capture, CaptureWhat, Output};
+use crate::display::{Placement, QuiltName};
 use crate::gl::{Gl, consts as c};
-use crate::interleave::{Form, Layout, Source, reference};
+use crate::interleave::{Depth, Form, Layout, Source, reference, rgbd};
 use crate::present::{Saved, capture};
 use crate::state::{BACK, FRONT};
 use image::RgbImage;
+use std::path::PathBuf;
 
 impl Layer {
     /// Shows the frame in the true framebuffer 0. The caller swaps or flushes after it; nothing of the program's state
@@ -53,6 +54,8 @@ impl Layer {
     /// Draws the picture into the true framebuffer 0 and captures what is wanted.
     fn present(&mut self, gl: &Gl, image: u32) {
         self.atlas.resolve(gl, false, c::COLOR_BUFFER_BIT);
+        let output = self.output();
+        let depth = (output == Output::Rgbd).then(|| self.own_depth(gl));
         gl.bind_framebuffer(c::FRAMEBUFFER, 0);
         if image == FRONT {
             gl.draw_buffer(c::FRONT);
@@ -61,10 +64,10 @@ impl Layer {
         let source = Source {
             tiles: self.atlas.tiles,
             texture: self.atlas.sampled(image),
+            depth: depth.as_ref().map(|depth| (self.atlas.depth, depth)),
             top_down: self.atlas.flipped,
             srgb: self.state.window.srgb,
         };
-        let output = self.output();
         if let Err(e) = self.interleaver.draw(
             gl,
             self.config,
@@ -77,6 +80,22 @@ impl Layer {
         }
         self.capture(gl, &source);
         self.follow_depths(gl);
+    }
+
+    /// The depth of the program's own view. Changes the framebuffers that are bound.
+    fn own_depth(&self, gl: &Gl) -> Depth {
+        let tiles = &self.atlas.tiles;
+        let (width, height) = (tiles.width, tiles.height);
+        let reversed = self.frame.nearer_is_larger.unwrap_or(false);
+        let mut values = Vec::with_capacity(width as usize * height as usize);
+        if self.atlas.depth != 0 {
+            self.atlas.resolve(gl, true, c::DEPTH_BUFFER_BIT);
+            let (from, x) = self.atlas.readable(tiles.own());
+            gl.bind_framebuffer(c::READ_FRAMEBUFFER, from);
+            let read = gl.read_depth32(x, 0, width, height);
+            values.extend(read.rchunks_exact(width as usize).flatten());
+        }
+        Depth::new((width, height), values, reversed)
     }
 
     /// The framebuffers that the program has bound, after others were.
@@ -157,15 +176,23 @@ impl Layer {
         self.take_picture(gl, source, frame);
     }
 
-    /// Writes what is wanted of the frame. Changes the framebuffers that are bound.
+    /// Writes what is wanted of the frame and answers the file's name. Changes the framebuffers that are bound.
     pub(super) fn write(
         &mut self,
         gl: &Gl,
         source: &Source,
         wanted: &Capture,
         frame: u64,
-    ) -> Result<(), String> {
+    ) -> Result<PathBuf, String> {
         let (width, height) = self.size();
+        let form = Form::of(self.config, self.output());
+        let path = match (wanted.what, form) {
+            (CaptureWhat::Output, Form::Layout(Layout::Quilt { columns, rows })) => {
+                let name = QuiltName::new((columns, rows), (width, height));
+                wanted.path_with(frame, &name.to_string())
+            }
+            _ => wanted.path_for(frame),
+        };
         let views = || -> Vec<RgbImage> {
             (0..self.config.views)
                 .map(|v| tile(gl, &self.atlas, v))
@@ -179,27 +206,34 @@ impl Layer {
             );
             reference::arrange(&views(), layout, size)
                 .map_err(|e| e.to_string())
-                .and_then(|i| capture::write(&i, wanted, frame))
+                .and_then(|i| capture::write(&i, &path))
         };
         let written = match wanted.what {
-            CaptureWhat::Output => match Form::of(self.config, self.output()) {
+            CaptureWhat::Output => match form {
                 Form::Layout(layout) => whole(layout),
+                Form::Rgbd => {
+                    let own = tile(gl, &self.atlas, source.tiles.own());
+                    let size = Layout::SideBySide { half: false }.native_size(2, own.dimensions());
+                    rgbd(&own, &self.own_depth(gl), size)
+                        .map_err(|e| e.to_string())
+                        .and_then(|i| capture::write(&i, &path))
+                }
                 _ => {
                     gl.bind_framebuffer(c::READ_FRAMEBUFFER, 0);
-                    capture::write(&capture::read_rgb(gl, 0, 0, width, height), wanted, frame)
+                    capture::write(&capture::read_rgb(gl, 0, 0, width, height), &path)
                 }
             },
             CaptureWhat::Atlas => whole(Layout::SideBySide { half: false }),
-            CaptureWhat::View(v) => capture::write(&tile(gl, &self.atlas, v), wanted, frame),
+            CaptureWhat::View(v) => capture::write(&tile(gl, &self.atlas, v), &path),
             CaptureWhat::Depth => {
                 self.atlas.resolve(gl, true, c::DEPTH_BUFFER_BIT);
                 let (from, x) = self.atlas.readable(source.tiles.own());
                 gl.bind_framebuffer(c::READ_FRAMEBUFFER, from);
-                capture::write(&capture::read_depth(gl, x, 0, width, height), wanted, frame)
+                capture::write(&capture::read_depth(gl, x, 0, width, height), &path)
             }
         };
         gl.bind_framebuffer(c::FRAMEBUFFER, 0);
-        written
+        written.map(|()| path)
     }
 }
 

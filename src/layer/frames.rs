@@ -55,13 +55,11 @@ impl Frames {
         let written = match wanted.what {
             CaptureWhat::Depth => capture::write(
                 &capture::read_depth(gl, 0, 0, self.width, self.height),
-                wanted,
-                frame,
+                &wanted.path_for(frame),
             ),
             _ => capture::write(
                 &capture::read_rgb(gl, 0, 0, self.width, self.height),
-                wanted,
-                frame,
+                &wanted.path_for(frame),
             ),
         };
         if let Err(e) = written {

@@ -44,6 +44,11 @@ impl Ramp {
         (found && !oblique).then_some(ramp)
     }
 
+    /// Whether what is nearer has larger depths.
+    pub fn nearer_is_larger(&self) -> bool {
+        self.slope > 0.0
+    }
+
     fn holds(&self, depth: f64) -> bool {
         (self.range[0]..=self.range[1]).contains(&depth)
     }
@@ -244,6 +249,8 @@ mod tests {
         ];
         for (p, range, zero_to_one) in cases {
             let ramp = Ramp::of(&p.to_cols_array(), range, zero_to_one).expect("a ramp");
+            let turned = (p == reversed || p == reversed * camera) != (range == [1.0, 0.0]);
+            assert_eq!(ramp.nearer_is_larger(), turned);
             for z in [-1.0_f32, -3.0, -20.0, 1.0, 3.0, 20.0] {
                 let at = Vec4::new(0.3, -0.2, z, 1.0);
                 let (depth, inverse) = depth(p, at, range, zero_to_one);

@@ -3,6 +3,7 @@
 use crate::config::Capture;
 use crate::gl::Gl;
 use image::{ImageBuffer, Luma, RgbImage};
+use std::path::Path;
 
 /// The rectangle of the bound read framebuffer; the pixel-store state must be as [`super::Saved::take`] leaves it.
 pub fn read_rgb(gl: &Gl, x: i32, y: i32, width: u32, height: u32) -> RgbImage {
@@ -27,15 +28,15 @@ pub fn read_depth(
 }
 
 /// Writes one frame beside its file and renames, so that whoever waits for the file never sees half of it.
-pub fn write<P, C>(image: &ImageBuffer<P, C>, capture: &Capture, frame: u64) -> Result<(), String>
+pub fn write<P, C>(image: &ImageBuffer<P, C>, path: &Path) -> Result<(), String>
 where
     P: image::Pixel + image::PixelWithColorType,
     [P::Subpixel]: image::EncodableLayout,
     C: std::ops::Deref<Target = [P::Subpixel]>,
 {
-    let (partial, path) = (capture.partial_path(frame), capture.path_for(frame));
+    let partial = Capture::partial(path);
     image
         .save_with_format(&partial, image::ImageFormat::Png)
         .map_err(|e| format!("{}: {e}", path.display()))?;
-    std::fs::rename(&partial, &path).map_err(|e| format!("{}: {e}", path.display()))
+    std::fs::rename(&partial, path).map_err(|e| format!("{}: {e}", path.display()))
 }

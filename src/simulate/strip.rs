@@ -3,6 +3,7 @@
 
 use super::light::Light;
 use super::{Eye, Optics, Setup, SimulateError, see};
+use crate::display::Spacing;
 use image::{Rgb, RgbImage};
 
 /// Largest number of eyes in a strip.
@@ -33,7 +34,8 @@ pub fn strip(
     let mut out = RgbImage::new(cell * eyes, cell_height);
     let light = Light::new();
     for index in 0..eyes {
-        let place = (f64::from(index) + 0.5) / f64::from(eyes) - 0.5;
+        // Whatever rule the cameras follow: at the ends of the zone an eye would be between the last view and the first.
+        let place = Spacing::Centres.part(index, eyes);
         let eye = Eye {
             x: middle.x + place * 2.0 * middle.z * setup.half_zone(),
             ..middle

@@ -186,6 +186,53 @@ pub(crate) unsafe fn eglReleaseThread() -> u32 {
     ok
 }
 
+pub(crate) unsafe fn eglGetDisplay(native: Ptr) -> Ptr {
+    // SAFETY: the program's own call.
+    let display = guarded(|| unsafe { gl().eglGetDisplay(native) });
+    windows::egl_display(display, 0, native);
+    display
+}
+
+/// As eglGetDisplay, of a platform that the program names.
+macro_rules! platform_display {
+    ($name:ident) => {
+        pub(crate) unsafe fn $name(platform: u32, native: Ptr, attribs: Ptr) -> Ptr {
+            // SAFETY: the program's own call.
+            let display = guarded(|| unsafe { gl().$name(platform, native, attribs) });
+            windows::egl_display(display, platform, native);
+            display
+        }
+    };
+}
+
+platform_display!(eglGetPlatformDisplay);
+platform_display!(eglGetPlatformDisplayEXT);
+
+/// A surface of a window, which is given as such or by its address.
+macro_rules! window_surface {
+    ($name:ident, $address:literal) => {
+        pub(crate) unsafe fn $name(dpy: Ptr, config: Ptr, win: Ptr, attribs: Ptr) -> Ptr {
+            // SAFETY: the program's own call.
+            let surface = guarded(|| unsafe { gl().$name(dpy, config, win, attribs) });
+            if !surface.is_null() {
+                // SAFETY: EGL has taken the window.
+                unsafe { windows::egl_made(dpy, surface, win, $address) };
+            }
+            surface
+        }
+    };
+}
+
+window_surface!(eglCreateWindowSurface, false);
+window_surface!(eglCreatePlatformWindowSurface, true);
+window_surface!(eglCreatePlatformWindowSurfaceEXT, true);
+
+pub(crate) unsafe fn eglDestroySurface(dpy: Ptr, surface: Ptr) -> u32 {
+    windows::egl_gone(dpy, surface);
+    // SAFETY: the program's own call.
+    guarded(|| unsafe { gl().eglDestroySurface(dpy, surface) })
+}
+
 pub(crate) unsafe fn eglGetProcAddress(name: Ptr) -> Ptr {
     // SAFETY: the program's own string.
     unsafe { proc_address(name.cast(), gl().eglGetProcAddress(name)) }

@@ -5,7 +5,7 @@ use super::*;
 use crate::display::{calibration, file};
 
 /// What files are made of; mistakes are put in from here.
-const WORDS: [&str; 48] = [
+const WORDS: [&str; 49] = [
     "kind",
     "views",
     "pitch",
@@ -20,6 +20,7 @@ const WORDS: [&str; 48] = [
     "cone",
     "rotation",
     "quilt",
+    "spacing",
     "bias",
     "colour-offsets",
     "horizontal",

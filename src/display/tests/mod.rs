@@ -437,6 +437,7 @@ fn messages() {
         "kind = \"huebner\"\nscreen = \"1920:1080\"".into(),
         "kind = \"huebner\"\ndpi = -1".into(),
         "kind = \"huebner\"\ncone = \"wide\"".into(),
+        "kind = \"huebner\"\nspacing = \"middle\"".into(),
         "kind = \"huebner\"\nquilt = [8, 6]".into(),
         format!("{slanted}colour-offsets = [0, 1]"),
         format!("{slanted}bias = {{ columns = 2, rows = 2, values = [0, 1] }}"),

@@ -1,61 +1,105 @@
-/* A window that lies at 7,5, then at 8,5, then at 8,6, two frames at each place. With an argument it is drawn to through a drawable
- * of glXCreateWindow. */
-#include <GL/gl.h>
+/* A window that lies at 7,5, then at 8,5, then at 8,6, two frames at each place. Each argument is a word:
+ *   drawable    drawn to through a drawable of glXCreateWindow
+ *   egl         drawn to through EGL; with `platform` by eglCreatePlatformWindowSurface
+ *   samples     four samples per pixel
+ *   reversed    near things have the larger depths */
+#include "scene.h"
+#include <EGL/egl.h>
+#include <EGL/eglext.h>
 #include <GL/glx.h>
 #include <X11/Xlib.h>
+#include <X11/Xutil.h>
+#include <string.h>
 
-enum { WIDTH = 96, HEIGHT = 64 };
+static int count;
+static char **words;
 
-static void draw(void)
+static int has(const char *word)
 {
-    glClearColor(0.1f, 0.2f, 0.3f, 1);
-    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-    glEnable(GL_DEPTH_TEST);
-    glMatrixMode(GL_PROJECTION);
-    glLoadIdentity();
-    glFrustum(-0.6, 0.6, -0.4, 0.4, 1, 50);
-    glMatrixMode(GL_MODELVIEW);
-    glLoadIdentity();
-    /* Bars at several depths, each with its own colour. */
-    for (int i = 0; i < 12; i++) {
-        float x = -3 + 0.55f * i, z = -3 - 2.3f * (float)((i * 5) % 12);
-        glColor3f((float)(i % 3) / 2, (float)(i % 5) / 4, 1 - (float)(i % 7) / 6);
-        glBegin(GL_TRIANGLES);
-        glVertex3f(x, -2, z);
-        glVertex3f(x + 0.8f, -2, z);
-        glVertex3f(x + 0.3f, 3, z - 1);
-        glEnd();
+    for (int i = 1; i < count; i++)
+        if (!strcmp(words[i], word))
+            return 1;
+    return 0;
+}
+
+static Window window(Display *display, XVisualInfo *visual)
+{
+    Window root = DefaultRootWindow(display);
+    XSetWindowAttributes a = {.colormap = XCreateColormap(display, root, visual->visual, AllocNone), .override_redirect = True};
+    Window made = XCreateWindow(display, root, 7, 5, WIDTH, HEIGHT, 0, visual->depth, InputOutput, visual->visual,
+                                CWColormap | CWOverrideRedirect, &a);
+    XMapWindow(display, made);
+    XSync(display, False);
+    return made;
+}
+
+static void frame(Display *display, Window window, int i)
+{
+    static const int places[3][2] = {{7, 5}, {8, 5}, {8, 6}};
+    XMoveWindow(display, window, places[i / 2][0], places[i / 2][1]);
+    XSync(display, False);
+    if (has("reversed")) {
+        glDepthRange(1, 0);
+        glDepthFunc(GL_GREATER);
+        glClearDepth(0);
     }
+    bars();
+}
+
+static int by_glx(Display *display)
+{
+    int wanted[] = {GLX_DOUBLEBUFFER, True, GLX_DEPTH_SIZE, 16, GLX_SAMPLES, has("samples") ? 4 : 0, None}, found;
+    GLXFBConfig *configs = glXChooseFBConfig(display, DefaultScreen(display), wanted, &found);
+    XVisualInfo *visual = configs ? glXGetVisualFromFBConfig(display, configs[0]) : NULL;
+    if (!visual)
+        return 2;
+    Window shown = window(display, visual);
+    GLXDrawable drawable = has("drawable") ? glXCreateWindow(display, configs[0], shown, NULL) : shown;
+    GLXContext context = glXCreateNewContext(display, configs[0], GLX_RGBA_TYPE, NULL, True);
+    if (!glXMakeContextCurrent(display, drawable, drawable, context))
+        return 3;
+    for (int i = 0; i < 6; i++) {
+        frame(display, shown, i);
+        glXSwapBuffers(display, drawable);
+    }
+    glXMakeContextCurrent(display, None, None, NULL);
+    if (has("drawable"))
+        glXDestroyWindow(display, drawable);
+    return 0;
+}
+
+static int by_egl(Display *display)
+{
+    EGLint wanted[] = {EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_SURFACE_TYPE, EGL_WINDOW_BIT, EGL_RED_SIZE, 8, EGL_DEPTH_SIZE, 16, EGL_NONE};
+    EGLint found, id;
+    EGLConfig config;
+    EGLDisplay egl = eglGetPlatformDisplay(EGL_PLATFORM_X11_EXT, display, NULL);
+    if (!eglInitialize(egl, NULL, NULL) || !eglBindAPI(EGL_OPENGL_API) || !eglChooseConfig(egl, wanted, &config, 1, &found) || !found ||
+        !eglGetConfigAttrib(egl, config, EGL_NATIVE_VISUAL_ID, &id))
+        return 4;
+    XVisualInfo like = {.visualid = (VisualID)id}, *visual = XGetVisualInfo(display, VisualIDMask, &like, &found);
+    if (!visual)
+        return 5;
+    Window shown = window(display, visual);
+    /* Older programs give the window itself, newer ones its address. */
+    EGLSurface surface = has("platform") ? eglCreatePlatformWindowSurface(egl, config, &shown, NULL)
+                                         : eglCreateWindowSurface(egl, config, (EGLNativeWindowType)shown, NULL);
+    EGLContext context = eglCreateContext(egl, config, EGL_NO_CONTEXT, NULL);
+    if (!eglMakeCurrent(egl, surface, surface, context))
+        return 6;
+    for (int i = 0; i < 6; i++) {
+        frame(display, shown, i);
+        eglSwapBuffers(egl, surface);
+    }
+    eglMakeCurrent(egl, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+    eglDestroySurface(egl, surface);
+    return 0;
 }
 
 int main(int argc, char **argv)
 {
-    int wanted[] = {GLX_DOUBLEBUFFER, True, GLX_DEPTH_SIZE, 16, None}, count;
-    (void)argv;
+    count = argc;
+    words = argv;
     Display *display = XOpenDisplay(NULL);
-    GLXFBConfig *configs = display ? glXChooseFBConfig(display, DefaultScreen(display), wanted, &count) : NULL;
-    XVisualInfo *visual = configs ? glXGetVisualFromFBConfig(display, configs[0]) : NULL;
-    if (!visual)
-        return 2;
-    Window root = DefaultRootWindow(display);
-    XSetWindowAttributes a = {.colormap = XCreateColormap(display, root, visual->visual, AllocNone), .override_redirect = True};
-    Window window = XCreateWindow(display, root, 7, 5, WIDTH, HEIGHT, 0, visual->depth, InputOutput, visual->visual,
-                                  CWColormap | CWOverrideRedirect, &a);
-    XMapWindow(display, window);
-    XSync(display, False);
-    GLXDrawable drawable = argc > 1 ? glXCreateWindow(display, configs[0], window, NULL) : window;
-    GLXContext context = glXCreateNewContext(display, configs[0], GLX_RGBA_TYPE, NULL, True);
-    if (!glXMakeContextCurrent(display, drawable, drawable, context))
-        return 3;
-    static const int places[3][2] = {{7, 5}, {8, 5}, {8, 6}};
-    for (int i = 0; i < 6; i++) {
-        XMoveWindow(display, window, places[i / 2][0], places[i / 2][1]);
-        XSync(display, False);
-        draw();
-        glXSwapBuffers(display, drawable);
-    }
-    glXMakeContextCurrent(display, None, None, NULL);
-    if (argc > 1)
-        glXDestroyWindow(display, drawable);
-    return 0;
+    return !display ? 1 : has("egl") ? by_egl(display) : by_glx(display);
 }
