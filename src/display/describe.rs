@@ -49,7 +49,7 @@ impl Display {
                 lines.push(("slant", "2/3 subpixels per row".into()));
                 lines.push(("order", order.name().into()));
             }
-            Kind::Slanted(lens) => self.lens(lens, lines),
+            Kind::Slanted(lens) => self.sheet(lens, lines),
             Kind::LookingGlass(device) => {
                 let lenses = device.lenses();
                 let width = f64::from(device.width);
@@ -87,7 +87,7 @@ impl Display {
         }
     }
 
-    fn lens(&self, lens: &Slanted, lines: &mut Vec<(&'static str, String)>) {
+    fn sheet(&self, lens: &Slanted, lines: &mut Vec<(&'static str, String)>) {
         let pitch = lens.pitch.to_f64();
         // Three subpixels are as wide as a row is high.
         let angle = (lens.slant.to_f64() / 3.0).atan().to_degrees();
@@ -132,7 +132,7 @@ impl Kind {
 }
 
 impl SubpixelOrder {
-    fn name(self) -> &'static str {
+    pub(super) fn name(self) -> &'static str {
         match self {
             Self::Rgb => "rgb",
             Self::Bgr => "bgr",

@@ -22,6 +22,7 @@ mod huebner;
 mod integer;
 mod lattice;
 mod leia;
+mod lens;
 mod looking_glass;
 mod mask;
 mod number;
@@ -30,12 +31,14 @@ mod rotation;
 mod slanted;
 #[cfg(test)]
 mod tests;
+mod written;
 
 pub use bias::Bias;
 pub use builtin::{Builtin, builtins};
 pub use error::{DisplayError, MaskError};
 pub use integer::Integer;
 pub use leia::Leia;
+pub use lens::{Lens, LensPart};
 pub use looking_glass::{CellPattern, LookingGlass};
 pub use mask::{GUARD, Mask};
 pub use number::Number;
