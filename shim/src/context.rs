@@ -3,6 +3,7 @@
 use crate::control;
 use crate::deep;
 use crate::geometry;
+use crate::live;
 use crate::provider::Provider;
 use crate::shares;
 use crate::switch::{self, Mode, say, turn_off};
@@ -402,6 +403,7 @@ pub(crate) fn frame<R>(drawable: Option<Drawable>, swap: impl FnOnce() -> R) -> 
         with_context(|_, c| {
             if let Some(l) = &mut c.layer {
                 l.count_frame();
+                live::adopt(l);
                 control::after(l);
             }
             if let Some(f) = &mut c.frames {

@@ -2,6 +2,7 @@
 #![forbid(unsafe_code)]
 
 use super::{Camera, CaptureWhat, Config, ConfigError, OptionId, Origin, Output, Settings, parse};
+use crate::display::{Lens, LensPart};
 
 /// What is in force now; it begins as the options say.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -12,8 +13,19 @@ pub struct Live {
     pub camera: Camera,
     /// Where flat draws stand that no rule places.
     pub hud_depth: f64,
+    /// The numbers of the panel's sheet; none where it has no slanted one.
+    pub lens: Option<Lens>,
     /// All cameras are the program's own, and its own view is shown.
     pub flat: bool,
+}
+
+/// A value that can be set while the program runs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Knob {
+    /// An option, one of [`Live::OPTIONS`].
+    Option(OptionId),
+    /// A number of the panel's lens sheet.
+    Lens(LensPart),
 }
 
 impl Live {
@@ -34,6 +46,7 @@ impl Live {
             output: config.output,
             camera: config.camera,
             hud_depth: config.hud_depth.or(config.profile.hud_depth).unwrap_or(0.0),
+            lens: config.display.lens(),
             flat: false,
         }
     }
@@ -43,19 +56,27 @@ impl Live {
     pub fn with(
         self,
         config: &Config,
-        changes: &[(OptionId, String)],
+        changes: &[(Knob, String)],
         chosen: Option<(f64, f64)>,
     ) -> Result<Self, ConfigError> {
         let mut settings = Settings::default();
-        for (id, value) in changes {
-            settings.set(*id, value, Origin::Request);
+        let mut lens = self.lens;
+        for (setting, value) in changes {
+            match setting {
+                Knob::Option(id) => settings.set(*id, value, Origin::Request),
+                Knob::Lens(part) => lens = Some(self.sheet(lens, config, *part, value)?),
+            }
         }
-        let changed = |id| changes.iter().any(|(given, _)| *given == id);
-        if changes.iter().any(|(id, _)| id.places_cameras()) {
+        let changed = |id| settings.get(id).is_some();
+        let output = changed(OptionId::Output);
+        if Self::OPTIONS
+            .into_iter()
+            .any(|id| id.places_cameras() && changed(id))
+        {
             self.complete(&mut settings, chosen);
         }
         Ok(Self {
-            output: if changed(OptionId::Output) {
+            output: if output {
                 parse::output_of(&settings, &config.display, config.views)?
             } else {
                 self.output
@@ -65,7 +86,25 @@ impl Live {
                 placed => placed,
             },
             hud_depth: parse::hud_depth(&settings)?.unwrap_or(self.hud_depth),
+            lens,
             flat: self.flat,
+        })
+    }
+
+    /// The sheet with another number.
+    fn sheet(
+        self,
+        lens: Option<Lens>,
+        config: &Config,
+        part: LensPart,
+        value: &str,
+    ) -> Result<Lens, ConfigError> {
+        let lens = lens.ok_or_else(|| ConfigError::NoSheet {
+            part: part.name(),
+            display: config.display.name.clone(),
+        })?;
+        lens.with(part, value).map_err(|error| ConfigError::Sheet {
+            reason: error.to_string(),
         })
     }
 
@@ -138,7 +177,7 @@ mod tests {
     ) -> Result<Live, String> {
         let changes: Vec<_> = changes
             .iter()
-            .map(|(id, value)| (*id, (*value).to_owned()))
+            .map(|(id, value)| (Knob::Option(*id), (*value).to_owned()))
             .collect();
         let live = Live::new(config).with(config, &changes, chosen);
         live.map_err(|error| error.to_string())
@@ -198,6 +237,33 @@ mod tests {
                 hud_depth: -0.5,
                 ..before
             }
+        );
+    }
+
+    #[test]
+    fn a_sheet_changes_and_nothing_else() {
+        let config = config(&[(OptionId::Display, "slanted8")]);
+        let before = Live::new(&config);
+        let set =
+            |part, text: &str| before.with(&config, &[(Knob::Lens(part), text.to_owned())], None);
+        let after = set(LensPart::Pitch, "7.99").unwrap();
+        let lens = before.lens.unwrap().with(LensPart::Pitch, "7.99").unwrap();
+        assert_eq!(
+            after,
+            Live {
+                lens: Some(lens),
+                ..before
+            }
+        );
+        let refused = set(LensPart::Pitch, "0").unwrap_err().to_string();
+        assert!(refused.starts_with("pitch is '0'; give "), "{refused}");
+        let plain = super::tests::config(&[]);
+        let change = (Knob::Lens(LensPart::Offset), "1".to_owned());
+        let refused = Live::new(&plain).with(&plain, &[change], None);
+        assert_eq!(
+            refused.unwrap_err().to_string(),
+            "offset is a number of a slanted lens sheet, and display `huebner8` is none; \
+             start the program with one of kind \"slanted\""
         );
     }
 

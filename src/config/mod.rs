@@ -19,7 +19,7 @@ mod tests;
 pub use class::{Class, DepthRange, DepthState, Projection, Viewport, Word};
 pub use error::ConfigError;
 pub use explain::Explain;
-pub use live::Live;
+pub use live::{Knob, Live};
 pub use options::{DISABLE, Field, LIBRARY, OPTIONS, OptionId, OptionSpec, Origin, PathKind};
 pub use profile::{Profile, Rule};
 pub use settings::{Setting, Settings};

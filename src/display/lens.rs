@@ -32,6 +32,12 @@ impl LensPart {
     /// All of them, in the order in which they are fitted.
     pub const ALL: [Self; 3] = [Self::Pitch, Self::Slant, Self::Offset];
 
+    /// By its [name](Self::name).
+    #[must_use]
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|part| part.name() == name)
+    }
+
     /// As the field of a file.
     #[must_use]
     pub fn name(self) -> &'static str {

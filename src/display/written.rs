@@ -60,11 +60,9 @@ impl Display {
 
 /// A decimal number where it is one, else a fraction in quotes.
 fn number(number: Number) -> String {
-    let value = number.to_f64();
-    if Number::from_f64(value) == Some(number) {
-        float(value)
-    } else {
-        format!("\"{number}\"")
+    match number.decimal() {
+        Some(value) => float(value),
+        None => format!("\"{number}\""),
     }
 }
 

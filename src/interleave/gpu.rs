@@ -4,7 +4,7 @@ use super::shader::{MASK_UNIT, Pass, Uniforms, VIEWS_UNIT};
 use super::{Form, Layout, Program, reference};
 use crate::atlas::{Names, Tiles};
 use crate::config::{Config, Filter, Output};
-use crate::display::{Mask, Placement};
+use crate::display::{Display, Lens, Mask, Placement};
 use crate::gl::{Gl, consts as c};
 use image::RgbImage;
 
@@ -21,6 +21,18 @@ pub struct Source {
     pub srgb: bool,
 }
 
+/// The panel that is in force.
+#[derive(Clone, Copy, Debug)]
+pub struct Glass<'a> {
+    /// Its description.
+    pub display: &'a Display,
+    /// Where the picture lies on it.
+    pub placement: Placement,
+}
+
+/// What a mask depends on that can change.
+type Of = (Output, Placement, Option<Lens>);
+
 /// Programs and mask of one context.
 #[derive(Debug)]
 pub struct Interleaver {
@@ -28,10 +40,9 @@ pub struct Interleaver {
     panel: Option<Program>,
     layout: Option<Program>,
     anaglyph: Option<Program>,
-    /// Of an output whose picture lay there.
-    mask: Option<((Output, Placement), Mask)>,
+    mask: Option<(Of, Mask)>,
     mask_texture: u32,
-    mask_uploaded: Option<(Output, Placement)>,
+    mask_uploaded: Option<Of>,
     cpu: Option<String>,
 }
 
@@ -105,8 +116,8 @@ impl Interleaver {
         }
     }
 
-    /// Draws the picture of an output over the whole framebuffer that is bound, which lies at `placement`; `tile` reads one view
-    /// for the CPU (and may change the read framebuffer). State must be as `present::Saved::take` leaves it.
+    /// Draws the picture of an output over the whole framebuffer that is bound, which lies on `glass`; `tile` reads one view for the
+    /// CPU (and may change the read framebuffer). State must be as `present::Saved::take` leaves it.
     pub fn draw(
         &mut self,
         gl: &Gl,
@@ -114,10 +125,11 @@ impl Interleaver {
         source: &Source,
         tile: &mut dyn FnMut(u32) -> RgbImage,
         output: Output,
-        placement: &Placement,
+        glass: &Glass,
     ) -> Result<(), String> {
-        let form = Form::of(config, output);
-        let of = (output, *placement);
+        let placement = &glass.placement;
+        let form = Form::of(config, glass.display, output);
+        let of = (output, *placement, glass.display.lens());
         if self.mask.as_ref().is_none_or(|(known, _)| *known != of)
             && let Some(mask) = form.mask(placement, config.views)
         {

@@ -3,6 +3,7 @@
 use super::Layer;
 use crate::config::{Camera, Capture, CaptureWhat, Live, OptionId, Output};
 use crate::control::{Answer, ControlError, LAYER, Order, VIEWS};
+use crate::display::LensPart;
 use crate::gl::Gl;
 use crate::interleave::Source;
 use serde_json::{Map, Value};
@@ -33,6 +34,14 @@ impl Layer {
 
     /// Other values from the next draw on; to be called between frames, so that none is drawn with both.
     pub fn adopt(&mut self, live: Live) {
+        if let Some(lens) = live.lens
+            && live.lens != self.live.lens
+        {
+            let display = self
+                .fitted
+                .get_or_insert_with(|| self.config.display.clone());
+            display.set_lens(lens);
+        }
         self.live = live;
         self.rig.change(live.camera, live.flat);
         self.classifier.change_hud_depth(live.hud_depth);
@@ -90,16 +99,28 @@ impl Layer {
         for (id, value) in cameras.into_iter().flatten() {
             put(id, value.into());
         }
+        for (part, lens) in LensPart::ALL
+            .into_iter()
+            .zip(self.live.lens.into_iter().cycle())
+        {
+            let number = lens.get(part);
+            let value = number
+                .decimal()
+                .map_or_else(|| number.to_string().into(), Value::from);
+            values.insert(part.name().to_owned(), value);
+        }
         values.insert(VIEWS.to_owned(), self.config.views.into());
         values.insert(LAYER.to_owned(), (!self.live.flat).into());
         values
     }
 
-    /// Only the cameras' values are not always there.
+    /// Only values of the cameras and of a lens sheet are not always there.
     fn not_in_force(&self, name: String) -> ControlError {
         ControlError::NotInForce {
-            name,
             reason: match self.live.camera {
+                _ if LensPart::named(&name).is_some() => {
+                    "the display is no slanted lens sheet; see `manyview displays show`"
+                }
                 Camera::Auto if self.rig.latched().is_none() => {
                     "the program has drawn nothing in perspective yet, so the cameras are not chosen"
                 }
@@ -110,6 +131,7 @@ impl Layer {
                     "the cameras are placed by separation and convergence; ask for those"
                 }
             },
+            name,
         }
     }
 

@@ -4,7 +4,7 @@ use super::{Layer, OnScreen};
 use crate::config::{Capture, CaptureWhat};
 use crate::display::Placement;
 use crate::gl::{Gl, consts as c};
-use crate::interleave::{Form, Layout, Source, reference};
+use crate::interleave::{Form, Glass, Layout, Source, reference};
 use crate::present::{Saved, capture};
 use crate::state::{BACK, FRONT};
 use image::RgbImage;
@@ -65,13 +65,17 @@ impl Layer {
             srgb: self.state.window.srgb,
         };
         let output = self.output();
+        let glass = Glass {
+            display: self.fitted.as_ref().unwrap_or(&self.config.display),
+            placement: self.placement(),
+        };
         if let Err(e) = self.interleaver.draw(
             gl,
             self.config,
             &source,
             &mut |view| tile(gl, &self.atlas, view),
             output,
-            &self.placement(),
+            &glass,
         ) {
             self.report.note(e);
         }
@@ -181,7 +185,8 @@ impl Layer {
                 .and_then(|i| capture::write(&i, wanted, frame))
         };
         let written = match wanted.what {
-            CaptureWhat::Output => match Form::of(self.config, self.output()) {
+            CaptureWhat::Output => match Form::of(self.config, &self.config.display, self.output())
+            {
                 Form::Layout(layout) => whole(layout),
                 _ => {
                     gl.bind_framebuffer(c::READ_FRAMEBUFFER, 0);

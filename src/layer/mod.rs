@@ -23,6 +23,7 @@ pub use queries::Answer;
 
 use crate::atlas::{Atlas, AtlasError, Names, Tiles};
 use crate::config::{AtlasLayout, Config, Live, Projection, Strategy, profile};
+use crate::display::Display;
 use crate::draw::{Driver, FixedState, Programs};
 use crate::gl::{Count, Ends, Gl, Held, Recording, consts as c};
 use crate::interleave::Interleaver;
@@ -83,6 +84,8 @@ pub struct Layer {
     frame: classing::Frame,
     explained: Option<explain::Explained>,
     live: Live,
+    /// The display with other numbers of its sheet, once they have been changed.
+    fitted: Option<Display>,
     picture: control::Picture,
     made: Count,
     on_screen: Option<OnScreen>,
@@ -165,6 +168,7 @@ impl Layer {
             frame: classing::Frame::default(),
             explained: None,
             live,
+            fitted: None,
             picture: control::Picture::None,
             made: Count::default(),
             report,
