@@ -12,6 +12,7 @@ mod dl;
 mod entry;
 mod geometry;
 mod hooks;
+mod keys;
 mod live;
 mod provider;
 mod shares;

@@ -59,6 +59,9 @@ pub(crate) struct LayerArguments {
     /// Let `manyview ctl` change the views while the program runs
     #[arg(long)]
     control: bool,
+    /// Let keys with Ctrl+Alt change the views while the program runs (X11)
+    #[arg(long)]
+    keys: bool,
     /// Read options from a TOML file; variables and the command line win over it
     #[arg(long, value_name = "FILE.toml")]
     config: Option<String>,
@@ -92,8 +95,13 @@ impl LayerArguments {
                 settings.set(id, value, Origin::CommandLine);
             }
         }
-        if self.control {
-            settings.set(OptionId::Control, "1", Origin::CommandLine);
+        for (id, on) in [
+            (OptionId::Control, self.control),
+            (OptionId::Keys, self.keys),
+        ] {
+            if on {
+                settings.set(id, "1", Origin::CommandLine);
+            }
         }
         settings
             .over(Settings::from_variables(variable))

@@ -63,6 +63,8 @@ pub struct Config {
     pub report: Option<PathBuf>,
     /// The running program may be asked and told through a socket.
     pub control: bool,
+    /// Keys with Ctrl and Alt change the views.
+    pub keys: bool,
     /// Pictures to write, if any.
     pub capture: Option<Capture>,
     /// Where the layer tells the launcher how far it is, if the launcher asked.

@@ -45,7 +45,8 @@ impl Config {
             profile: named_profile(settings)?,
             explain: explain(settings, views)?,
             report: path(settings, OptionId::Report),
-            control: control(settings, views)?,
+            control: switch(settings, OptionId::Control, views)?,
+            keys: switch(settings, OptionId::Keys, views)?,
             capture: capture(settings, views)?,
             status: path(settings, OptionId::Status),
             display,
@@ -420,8 +421,9 @@ fn explain(settings: &Settings, views: u32) -> Result<Option<Explain>, ConfigErr
     }))
 }
 
-fn control(settings: &Settings, views: u32) -> Result<bool, ConfigError> {
-    let Some((field, value)) = settings.field(OptionId::Control) else {
+/// On or off; nothing of one view can change.
+fn switch(settings: &Settings, id: OptionId, views: u32) -> Result<bool, ConfigError> {
+    let Some((field, value)) = settings.field(id) else {
         return Ok(false);
     };
     let value = value.to_owned();

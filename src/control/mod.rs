@@ -4,6 +4,7 @@
 #![forbid(unsafe_code)]
 
 mod error;
+pub mod keys;
 mod lines;
 pub mod place;
 

@@ -2,11 +2,12 @@
 
 use super::Layer;
 use crate::config::{Camera, Capture, CaptureWhat, Live, OptionId, Output};
-use crate::control::{Answer, ControlError, LAYER, Order, VIEWS};
+use crate::control::{Answer, ControlError, LAYER, Order, VIEWS, keys::Key};
 use crate::display::LensPart;
 use crate::gl::Gl;
 use crate::interleave::Source;
 use serde_json::{Map, Value};
+use std::path::PathBuf;
 
 /// A picture that is asked for.
 #[derive(Debug)]
@@ -86,6 +87,24 @@ impl Layer {
         }
     }
 
+    /// Does what a key asks, as [`Layer::control`]. `picture` names the file of a frame.
+    pub fn press(
+        &mut self,
+        key: Key,
+        picture: impl FnOnce(u64) -> PathBuf,
+    ) -> Result<Result<Answer, Capture>, ControlError> {
+        // The next one, counted from 1.
+        let frame = self.report.frames() + 1;
+        let orders = key.orders(self.live, self.rig.latched(), || picture(frame));
+        let outcome = orders
+            .into_iter()
+            .fold(None, |outcome, order| match outcome {
+                Some(Ok(_)) => outcome,
+                _ => Some(self.control(order)),
+            });
+        outcome.unwrap_or_else(|| Ok(Ok(Answer::Values(self.values()))))
+    }
+
     fn values(&self) -> Map<String, Value> {
         let mut values = Map::new();
         let mut put = |id: OptionId, value: Value| {
@@ -138,6 +157,11 @@ impl Layer {
     /// Asks for a picture of the next frame that is shown.
     pub fn picture(&mut self, wanted: Capture) {
         self.picture = Picture::Wanted(wanted);
+    }
+
+    /// Whether a picture of the next frame is asked for already.
+    pub fn awaits_picture(&self) -> bool {
+        !matches!(self.picture, Picture::None)
     }
 
     /// What has become of the picture that was asked for, once.

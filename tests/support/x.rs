@@ -5,7 +5,8 @@
 use image::{Rgb, RgbImage};
 use x11rb::connection::Connection;
 use x11rb::protocol::xproto::{
-    AtomEnum, ConnectionExt as _, ImageFormat, KEY_PRESS_EVENT, KEY_RELEASE_EVENT, Window,
+    AtomEnum, ConnectionExt as _, CreateWindowAux, ImageFormat, InputFocus, KEY_PRESS_EVENT,
+    KEY_RELEASE_EVENT, Window, WindowClass,
 };
 use x11rb::protocol::xtest::ConnectionExt as _;
 use x11rb::rust_connection::RustConnection;
@@ -58,9 +59,39 @@ impl User {
         self.connection.sync().expect("a server");
     }
 
+    /// The windows of the root.
+    pub(crate) fn windows(&self) -> Vec<Window> {
+        let tree = self.connection.query_tree(self.root).expect("sent").reply();
+        tree.expect("a tree").children
+    }
+
+    /// A window in another one, mapped.
+    pub(crate) fn open(&self, parent: Window) -> Window {
+        let id = self.connection.generate_id().expect("an id");
+        let about = CreateWindowAux::new().override_redirect(1);
+        let class = WindowClass::COPY_FROM_PARENT;
+        let made = self
+            .connection
+            .create_window(0, id, parent, 200, 200, 9, 9, 0, class, 0, &about);
+        made.expect("sent").check().expect("a window");
+        self.connection
+            .map_window(id)
+            .expect("sent")
+            .check()
+            .expect("mapped");
+        id
+    }
+
+    /// Gives a window the keys.
+    pub(crate) fn focus(&self, window: Window) {
+        let given =
+            self.connection
+                .set_input_focus(InputFocus::PARENT, window, x11rb::CURRENT_TIME);
+        given.expect("sent").check().expect("focus");
+    }
+
     /// A window of the root by its name.
     pub(crate) fn window(&self, name: &str) -> Option<Window> {
-        let children = self.connection.query_tree(self.root).expect("sent").reply();
         let named = |window: &Window| {
             let property = (AtomEnum::WM_NAME, AtomEnum::STRING);
             let cookie = self
@@ -69,7 +100,7 @@ impl User {
             let value = cookie.expect("sent").reply();
             value.is_ok_and(|found| found.value == name.as_bytes())
         };
-        children.expect("a tree").children.into_iter().find(named)
+        self.windows().into_iter().find(named)
     }
 
     /// What a window shows.
