@@ -60,7 +60,8 @@ pictures: packages build demos ## make the picture of the README
 
 gallery: packages build demos ## make the pictures of docs/gallery.md
 	@sh scripts/packages.sh $(PICTURE_PACKAGES)
-	@sh scripts/gallery.sh $(BIN) $(DEMOS)/mirror docs/gallery
+	$(CARGO) test --release --test calibrate gallery_photos -- --ignored
+	@sh scripts/gallery.sh $(BIN) $(DEMOS)/mirror docs/gallery $(TARGET)/gallery
 
 test: packages build demos ## run the tests
 	@if $(CARGO) nextest --version >/dev/null 2>&1; \

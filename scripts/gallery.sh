@@ -1,7 +1,8 @@
 #!/bin/sh
-# The pictures of docs/gallery.md: one scene in each layout, and what eyes see of a panel. gallery.sh BIN DEMO FOLDER
+# The pictures of docs/gallery.md: one scene in each layout, what eyes see of a panel, and a panel before and after it is measured from
+# the photos that tests/calibrate/gallery.rs takes. gallery.sh BIN DEMO FOLDER PHOTOS
 set -eu
-bin=$1 demo=$2 folder=$3
+bin=$1 demo=$2 folder=$3 photos=$4
 scene="--frame 40 --eye-spacing 0.3 --focal-depth 8"
 mkdir -p "$folder"
 
@@ -34,9 +35,21 @@ for filter in panel blend gaussian; do
     "$bin/manyview" simulate --display slanted8 --eye 0,0,600 --strip 5 --width 300 \
         --in "$folder/$filter.png" --out "$folder/$filter-strip.png"
 done
+# What somebody believes of a panel, and what its photos say; eyes look through the true sheet.
+"$bin/manyview" calibrate fit --display "$photos/described.toml" --size 960x540 --out "$photos/measured.toml" \
+    --picture "$folder/fit.png" "$photos/front.jpg" "$photos/side.jpg"
+for panel in described measured; do
+    shot $panel 960x540 --display "$photos/$panel.toml"
+    "$bin/manyview" simulate --display "$photos/true.toml" --eye 0,0,600 --strip 3 --width 240 --cone 30 \
+        --in "$folder/$panel.png" --out "$folder/$panel-strip.png"
+done
 # Small enough for a page; everything else is as the commands wrote it.
 for strip in panel-strip blend-strip gaussian-strip; do
     pngtopnm "$folder/$strip.png" | pnmscale 0.4 | pnmtopng -compression 9 >"$folder/$strip.tmp"
     mv "$folder/$strip.tmp" "$folder/$strip.png"
 done
-rm -f "$folder/blend.png" "$folder/gaussian.png"
+for picture in described-strip measured-strip fit; do
+    pngtopnm "$folder/$picture.png" | pnmscale 0.25 | pnmtopng -compression 9 >"$folder/$picture.tmp"
+    mv "$folder/$picture.tmp" "$folder/$picture.png"
+done
+rm -f "$folder/blend.png" "$folder/gaussian.png" "$folder/described.png" "$folder/measured.png"

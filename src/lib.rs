@@ -43,4 +43,7 @@ pub mod present;
 pub mod layer;
 
 #[cfg(feature = "cli")]
+pub mod window;
+
+#[cfg(feature = "cli")]
 pub mod launch;

@@ -3,10 +3,13 @@
 
 #[path = "calibrate/camera.rs"]
 mod camera;
+#[path = "calibrate/gallery.rs"]
+mod gallery;
 #[path = "calibrate/random.rs"]
 mod random;
 #[path = "calibrate/scene.rs"]
 mod scene;
+mod support;
 
 use camera::{Exposure, Sheet, expose};
 use image::RgbImage;

@@ -110,7 +110,7 @@ fn get_says_what_is_in_force() {
     assert_eq!(
         running.done(&["get"]),
         format!(
-            "convergence = {chosen}\nhud-depth = 0.0\nlayer = on\noutput = view:3\nseparation = 0.03\nviews = 5\n"
+            "auto-depth = 0\nconvergence = {chosen}\nhud-depth = 0.0\nlayer = on\noutput = view:3\nseparation = 0.03\nviews = 5\n"
         )
     );
     running.done(&[
@@ -125,7 +125,7 @@ fn get_says_what_is_in_force() {
     running.done(&["toggle"]);
     assert_eq!(
         running.done(&["get"]),
-        "eye-spacing = 0.2\nfocal-depth = 9.0\nhud-depth = 0.25\nlayer = off\noutput = view:3\nviews = 5\n"
+        "auto-depth = 0\neye-spacing = 0.2\nfocal-depth = 9.0\nhud-depth = 0.25\nlayer = off\noutput = view:3\nviews = 5\n"
     );
     let (code, _, stderr) = running.ctl(&["get", "separation"]);
     assert_eq!(code, 2);
@@ -468,4 +468,41 @@ fn another_user_is_not_heard() {
         );
     }
     assert_eq!(running.end(), (Some(0), String::new()));
+}
+
+#[test]
+fn a_sheet_is_fitted_while_the_program_runs() {
+    let screen = own_screen();
+    let base = [&[("DISPLAY", "slanted8")][..], &CAMERAS[..]].concat();
+    let mut running = Running::controlled(&screen, &base);
+    let before = running.steady_window();
+    assert_eq!(running.done(&["get", "slant"]), "2/3\n");
+    running.done(&["set", "pitch", "7.5", "slant", "-0.25", "offset", "3"]);
+    assert_eq!(running.done(&["get", "pitch"]), "7.5\n");
+
+    let panel = running.path("panel.toml");
+    let text = "kind = \"slanted\"\nviews = 8\npitch = 7.5\nslant = -0.25\noffset = 3\n";
+    std::fs::write(&panel, text).expect("written");
+    let file = [("DISPLAY", panel.to_str().expect("UTF-8"))];
+    let with = [&file[..], &CAMERAS[..]].concat();
+    let other = Running::start(&screen, &with);
+    let expected = other.steady_window();
+    drop(other);
+    assert!(expected != before, "another sheet is another picture");
+    same(&running.steady_window(), &expected, "fitted");
+    let (code, _, refused) = running.ctl(&["set", "pitch", "-1", "offset", "0"]);
+    assert_eq!(code, 2);
+    assert!(refused.contains("pitch is '-1'; give "), "{refused}");
+    running.done(&["set", "pitch", "8", "slant", "2/3", "offset", "1"]);
+    same(&running.steady_window(), &before, "as it was");
+    assert_eq!(running.end(), (Some(0), String::new()));
+
+    let mut other = Running::controlled(&screen, &CAMERAS);
+    let (code, _, refused) = other.ctl(&["set", "pitch", "8"]);
+    assert_eq!(code, 2);
+    assert!(refused.contains("display `huebner8` is none"), "{refused}");
+    let (code, _, refused) = other.ctl(&["get", "pitch"]);
+    assert_eq!(code, 2);
+    assert!(refused.contains("no slanted lens sheet"), "{refused}");
+    assert_eq!(other.end(), (Some(0), String::new()));
 }

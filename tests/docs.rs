@@ -15,6 +15,8 @@ const NO_PROGRAM: &str = "/no/such/program";
 const APP_NOT_FOUND: i32 = 127;
 /// Of `ctl` where no program listens.
 const NOBODY: i32 = 3;
+/// Of `calibrate show` without an X server.
+const NO_SCREEN: i32 = 3;
 
 #[test]
 fn the_readme_has_every_option_variable_and_key() {
@@ -135,6 +137,8 @@ fn the_commands_of_the_documents_are_accepted() {
         command
             .current_dir(folder.path())
             .env("XDG_RUNTIME_DIR", folder.path())
+            // No window before whoever runs this.
+            .env_remove("DISPLAY")
             .args(options.split_whitespace());
         if app {
             command.args(["--", NO_PROGRAM]);
@@ -143,6 +147,7 @@ fn the_commands_of_the_documents_are_accepted() {
         let wanted = match app {
             true => APP_NOT_FOUND,
             false if line.starts_with("ctl ") => NOBODY,
+            false if line.starts_with("calibrate show ") => NO_SCREEN,
             false => 0,
         };
         assert_eq!(

@@ -3,6 +3,8 @@
 use crate::control;
 use crate::deep;
 use crate::geometry::{self, Seen};
+use crate::keys;
+use crate::live;
 use crate::provider::Provider;
 use crate::shares;
 use crate::switch::{self, Mode, say, turn_off};
@@ -184,6 +186,19 @@ pub(crate) fn draws_to(drawable: Drawable) -> bool {
     let context = THREAD.with(|t| t.context.get());
     // SAFETY: as in `peek`; only compared.
     !context.is_null() && unsafe { (*context).drawable == drawable }
+}
+
+/// The name of the X display, and the window behind a drawable.
+fn window(drawable: Drawable) -> Option<(String, u32)> {
+    match drawable {
+        Drawable::Glx(display, drawable) => {
+            // SAFETY: the program has just shown a frame with this display on this thread.
+            let name = unsafe { geometry::display_name(display) }?;
+            let window = windows::behind(display, drawable);
+            Some((name, u32::try_from(window).ok()?))
+        }
+        _ => None,
+    }
 }
 
 fn size(drawable: Drawable) -> Option<(u32, u32)> {
@@ -396,6 +411,7 @@ pub(crate) fn frame<R>(drawable: Option<Drawable>, swap: impl FnOnce() -> R) -> 
         with_context(|gl, c| {
             if let Some(l) = &mut c.layer {
                 control::before(l);
+                keys::before(l);
                 if l.follows_window() {
                     l.moved(place(c.drawable, l.size(), &mut c.seen));
                 }
@@ -411,6 +427,9 @@ pub(crate) fn frame<R>(drawable: Option<Drawable>, swap: impl FnOnce() -> R) -> 
         with_context(|_, c| {
             if let Some(l) = &mut c.layer {
                 l.count_frame();
+                live::adopt(l);
+                // First: a picture that a key has asked for is no client's.
+                keys::after(l, || window(c.drawable));
                 control::after(l);
             }
             if let Some(f) = &mut c.frames {

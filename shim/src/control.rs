@@ -1,14 +1,14 @@
 //! The socket by which `manyview ctl` asks and tells: looked at once per frame, on the thread that shows it. Nothing here waits.
 //!
-//! The descriptors live in the program's table, and the program may close what it has not opened: each is looked at again before it
-//! is used, and left alone once it is something else.
+//! The descriptors live in the program's table; see [`crate::socket`].
 
+use crate::live;
+use crate::socket::{self, Checked};
 use crate::switch::{config, say};
-use manyview_core::config::{Capture, Live};
+use manyview_core::config::Capture;
 use manyview_core::control::{self, Answer, ControlError, Lines, place};
 use manyview_core::layer::{Layer, Pictured};
 use std::io::Read;
-use std::mem::ManuallyDrop;
 use std::os::fd::AsRawFd;
 use std::os::unix::fs::MetadataExt;
 use std::os::unix::net::{UnixListener, UnixStream};
@@ -40,8 +40,6 @@ pub(crate) struct Server {
     pid: u32,
     user: u32,
     clients: Vec<Client>,
-    /// What all contexts of the process are to have; none as long as nobody has changed it.
-    live: Option<Live>,
     /// A picture that somebody waits for, while no frame is being shown.
     wanted: Option<Capture>,
 }
@@ -169,7 +167,6 @@ impl Server {
             pid,
             user,
             clients: Vec::new(),
-            live: None,
             wanted: None,
         })
     }
@@ -178,11 +175,6 @@ impl Server {
     fn serve(&mut self, layer: &mut Layer) -> bool {
         if !self.accept() {
             return false;
-        }
-        if let Some(live) = self.live
-            && live != layer.live()
-        {
-            layer.adopt(live);
         }
         match layer.pictured() {
             None => {}
@@ -273,9 +265,7 @@ impl Server {
                     }
                 }
             }
-            if layer.live() != before {
-                self.live = Some(layer.live());
-            }
+            live::changed(layer, before);
         }
     }
 }
@@ -311,21 +301,12 @@ impl Client {
         if self.answers.is_empty() {
             return true;
         }
-        // SAFETY: our socket and our bytes. Without a signal: the program has its own handler for SIGPIPE, or none.
-        let sent = unsafe {
-            libc::send(
-                stream.as_raw_fd(),
-                self.answers.as_ptr().cast(),
-                self.answers.len(),
-                libc::MSG_NOSIGNAL | libc::MSG_DONTWAIT,
-            )
-        };
-        match usize::try_from(sent) {
+        match socket::send(stream, &self.answers) {
             Ok(count) => {
                 self.answers.drain(..count.min(self.answers.len()));
                 true
             }
-            Err(_) => std::io::Error::last_os_error().kind() == std::io::ErrorKind::WouldBlock,
+            Err(error) => error.kind() == std::io::ErrorKind::WouldBlock,
         }
     }
 
@@ -353,44 +334,4 @@ fn peer(stream: &UnixStream) -> Option<u32> {
         )
     };
     (known == 0).then_some(about.uid)
-}
-
-/// A socket of ours, as long as its descriptor is that.
-struct Checked<T: AsRawFd> {
-    socket: ManuallyDrop<T>,
-    identity: (u64, u64),
-}
-
-impl<T: AsRawFd> Checked<T> {
-    fn new(socket: T) -> std::io::Result<Self> {
-        let identity = identity(&socket).ok_or_else(std::io::Error::last_os_error)?;
-        Ok(Checked {
-            socket: ManuallyDrop::new(socket),
-            identity,
-        })
-    }
-}
-
-impl<T: AsRawFd> Checked<T> {
-    fn get(&self) -> Option<&T> {
-        (identity(&*self.socket) == Some(self.identity)).then_some(&*self.socket)
-    }
-}
-
-impl<T: AsRawFd> Drop for Checked<T> {
-    fn drop(&mut self) {
-        if self.get().is_some() {
-            // SAFETY: dropped once, here; the descriptor is still the socket's.
-            unsafe { ManuallyDrop::drop(&mut self.socket) };
-        }
-    }
-}
-
-/// Device and inode of what a descriptor is.
-fn identity(socket: &impl AsRawFd) -> Option<(u64, u64)> {
-    // SAFETY: all-zero is a valid stat.
-    let mut status: libc::stat = unsafe { core::mem::zeroed() };
-    // SAFETY: status is ours; the descriptor may be anything.
-    let known = unsafe { libc::fstat(socket.as_raw_fd(), &mut status) } == 0;
-    known.then_some((status.st_dev, status.st_ino))
 }

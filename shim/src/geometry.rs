@@ -119,6 +119,20 @@ unsafe fn answer<R, T>(
     }
 }
 
+/// What a Display was opened with.
+///
+/// # Safety
+/// As [`glx_size`].
+pub(crate) unsafe fn display_name(display: Ptr) -> Option<String> {
+    let name = function(c"libX11.so.6", c"XDisplayString")?;
+    type Name = unsafe extern "C" fn(Ptr) -> *const core::ffi::c_char;
+    // SAFETY: the signature of X11/Xlib.h; the string lives as long as the Display.
+    unsafe {
+        let name = core::mem::transmute::<Ptr, Name>(name)(display);
+        (!name.is_null()).then(|| CStr::from_ptr(name).to_string_lossy().into_owned())
+    }
+}
+
 /// Width, height and root of a window (or the root itself).
 unsafe fn window(connection: Ptr, window: u32) -> Option<(u32, u32, u32)> {
     let ask = function(c"libxcb.so.1", c"xcb_get_geometry")?;

@@ -188,14 +188,17 @@ fn load(provider: Provider, name: &CStr) -> Ptr {
 
 fn load_gl(name: &CStr) -> Ptr {
     let p = load(Provider::Gl, name);
-    if !p.is_null() || !name.to_bytes().starts_with(b"gl") || name.to_bytes().starts_with(b"glX") {
+    if !p.is_null() {
         return p;
     }
-    by_address_function(
-        Provider::Gl,
-        &[c"glXGetProcAddressARB", c"eglGetProcAddress"],
-        name,
-    )
+    // Extensions of a window system have no symbols either, and only its own library knows them.
+    let functions: &[&CStr] = match name.to_bytes() {
+        [b'e', b'g', b'l', ..] => &[c"eglGetProcAddress"],
+        [b'g', b'l', b'X', ..] => &[c"glXGetProcAddressARB"],
+        [b'g', b'l', ..] => &[c"glXGetProcAddressARB", c"eglGetProcAddress"],
+        _ => return p,
+    };
+    by_address_function(Provider::Gl, functions, name)
 }
 
 fn load_osmesa(name: &CStr) -> Ptr {

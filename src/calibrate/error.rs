@@ -22,6 +22,11 @@ pub enum CalibrateError {
         /// One sentence with the remedy.
         reason: String,
     },
+    /// A fit by eye that ends nowhere.
+    #[error(
+        "a fit by eye ends in a display file; give --out FILE.toml, or --photos to show the pattern that photos are taken of"
+    )]
+    NoOut,
     /// Millimetres without a scale.
     #[error("{option} is in mm, so the size of the screen is needed; give --screen-mm or --dpi")]
     NoScreenSize {

@@ -40,6 +40,7 @@
 //! gap is positive. Colour offsets are seen through the camera's own colour filters, which make them smaller.
 #![forbid(unsafe_code)]
 
+mod by_eye;
 mod camera;
 mod edges;
 mod error;
@@ -55,6 +56,7 @@ mod sighting;
 mod solve;
 mod written;
 
+pub use by_eye::{Action, ByEye, KEYS, action};
 pub use error::CalibrateError;
 pub use fit::{Camera, Fit, Residuals, fit};
 pub use photo::Photo;

@@ -2,48 +2,50 @@
 #![forbid(unsafe_code)]
 
 use super::{CalibrateError, Fit, Setup};
-use crate::display::SubpixelOrder;
-use std::fmt::Write as _;
+use crate::display::{Bias, Display, Kind, Number, Slanted};
 use std::path::Path;
 
 impl Fit {
-    /// The description of the panel, as TOML.
+    /// The description of the panel.
     #[must_use]
-    pub fn to_toml(&self, setup: &Setup, name: &str) -> String {
-        let order = match setup.order {
-            SubpixelOrder::Rgb => "rgb",
-            SubpixelOrder::Bgr => "bgr",
+    pub fn display(&self, setup: &Setup, name: &str) -> Display {
+        let sheet = Slanted {
+            pitch: rounded(self.pitch, 8),
+            slant: rounded(self.slant, 8),
+            offset: rounded(self.offset, 5),
+            colours: match &self.colours {
+                Some((colours, _)) => colours.map(|colour| rounded(colour, 4)),
+                None => [Number::whole(0); 3],
+            },
+            bias: self.bias.as_ref().and_then(|bias| {
+                let values = bias.iter().map(|value| rounded(*value, 4).to_f64());
+                Bias::new(3, 3, values.collect())
+            }),
+            order: setup.order,
+            inverted: setup.inverted,
         };
-        let name = toml::Value::from(name);
-        let mut text = format!(
-            "version = 1\nname = {name}\nkind = \"slanted\"\nviews = {}\npitch = {:.8}\nslant = {:.8}\n\
-             offset = {:.5}\norder = \"{order}\"\ninverted = {}\n",
-            setup.views, self.pitch, self.slant, self.offset, setup.inverted
-        );
-        let list = |values: &[f64]| {
-            let values: Vec<String> = values.iter().map(|value| format!("{value:.4}")).collect();
-            values.join(", ")
-        };
-        // Writing to a String cannot fail.
-        if let Some((colours, _)) = &self.colours {
-            let _ = writeln!(text, "colour-offsets = [{}]", list(colours));
-        }
-        if let Some(bias) = &self.bias {
-            let _ = write!(
-                text,
-                "\n[bias]\ncolumns = 3\nrows = 3\nvalues = [{}]\n",
-                list(bias)
-            );
-        }
-        text
+        Display::new(name, setup.views, Kind::Slanted(sheet))
     }
 
-    /// Writes [`Fit::to_toml`].
+    /// Writes [`Fit::display`].
     pub fn write(&self, setup: &Setup, name: &str, path: &Path) -> Result<(), CalibrateError> {
-        std::fs::write(path, self.to_toml(setup, name)).map_err(|error| CalibrateError::Write {
-            what: "the display file",
-            file: path.display().to_string(),
-            reason: error.to_string(),
-        })
+        write(&self.display(setup, name), path)
     }
+}
+
+/// Writes a slanted sheet as TOML.
+pub(super) fn write(display: &Display, path: &Path) -> Result<(), CalibrateError> {
+    // Only slanted sheets come here; nothing else has a text.
+    let text = display.to_toml().unwrap_or_default();
+    std::fs::write(path, text).map_err(|error| CalibrateError::Write {
+        what: "the display file",
+        file: path.display().to_string(),
+        reason: error.to_string(),
+    })
+}
+
+/// So many digits after the point, which is more than can be measured.
+pub(super) fn rounded(value: f64, digits: usize) -> Number {
+    // A finite number reads back; nothing else is fitted.
+    Number::parse(&format!("{value:.digits$}")).unwrap_or(Number::whole(0))
 }

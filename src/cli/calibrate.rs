@@ -1,7 +1,7 @@
 //! `manyview calibrate`
 #![forbid(unsafe_code)]
 
-use super::{Outcome, mask, print, tell};
+use super::{Outcome, mask, print, show, tell};
 use clap::{Args, Subcommand};
 use indicatif::{ProgressBar, ProgressStyle};
 use manyview::calibrate::{self, CalibrateError, Fit, Guess, Photo, Setup, Sighting};
@@ -28,6 +28,8 @@ pub(crate) struct Arguments {
 enum Step {
     /// Write the picture to show on the panel: full screen, unscaled, in a dark room.
     Pattern(PatternArguments),
+    /// Show the pattern on the panel itself, or fit a panel by eye: a picture through its mask, and keys that nudge its numbers.
+    Show(show::Arguments),
     /// Measure the panel from photos of the pattern and write its display file.
     ///
     /// Take the first photo straight from the front, and one or two more from about 10 degrees to the sides and from other
@@ -36,7 +38,7 @@ enum Step {
 }
 
 #[derive(Args)]
-struct PanelArguments {
+pub(super) struct SheetArguments {
     /// Panel as it is thought to be: a built-in name or a file of kind "slanted", with a pitch right to 1 %
     #[arg(long, value_name = "NAME|FILE", required_unless_present = "pitch")]
     display: Option<String>,
@@ -55,6 +57,12 @@ struct PanelArguments {
     /// With --pitch: number of views
     #[arg(long, value_name = "N", conflicts_with = "display")]
     views: Option<u32>,
+}
+
+#[derive(Args)]
+struct PanelArguments {
+    #[command(flatten)]
+    sheet: SheetArguments,
     /// Size of the panel in pixels
     #[arg(long, value_name = "WxH")]
     size: String,
@@ -114,6 +122,7 @@ struct FitArguments {
 pub(crate) fn run(arguments: &Arguments) -> Outcome {
     match &arguments.step {
         Step::Pattern(arguments) => pattern(arguments),
+        Step::Show(arguments) => show::run(arguments),
         Step::Fit(arguments) => fit(arguments),
     }
 }
@@ -184,29 +193,38 @@ fn fit(arguments: &FitArguments) -> Outcome {
 impl PanelArguments {
     fn setup(&self) -> Result<Setup, LaunchError> {
         let size = mask::size(&self.size).ok_or_else(|| LaunchError::Size(self.size.clone()))?;
-        let (Some(name), None) = (&self.display, self.pitch) else {
-            let (pitch, views) = (self.pitch.unwrap_or(0.0), self.views.unwrap_or(0));
-            return Ok(Setup::new(size.0, size.1, views, pitch, self.slant));
+        self.sheet.setup(size)
+    }
+}
+
+impl SheetArguments {
+    /// The sheet as it is thought to be; none where only numbers are given.
+    pub(super) fn display(&self) -> Result<Option<Display>, CalibrateError> {
+        let Some(name) = &self.display else {
+            return Ok(None);
         };
         let display = panel::load(name).map_err(|reason| CalibrateError::Display { reason })?;
-        let Display {
+        if let Kind::Slanted(_) = display.kind {
+            return Ok(Some(display));
+        }
+        let reason = format!(
+            "display `{name}` is no slanted lens sheet; give one of kind \"slanted\", or --pitch, --slant and --views"
+        );
+        Err(CalibrateError::Display { reason })
+    }
+
+    pub(super) fn setup(&self, (width, height): (u32, u32)) -> Result<Setup, LaunchError> {
+        let Some(Display {
             kind: Kind::Slanted(lens),
             views,
             ..
-        } = display
+        }) = self.display()?
         else {
-            let reason = format!(
-                "display `{name}` is no slanted lens sheet; give one of kind \"slanted\", or --pitch, --slant and --views"
-            );
-            return Err(CalibrateError::Display { reason }.into());
+            let (pitch, views) = (self.pitch.unwrap_or(0.0), self.views.unwrap_or(0));
+            return Ok(Setup::new(width, height, views, pitch, self.slant));
         };
-        let mut setup = Setup::new(
-            size.0,
-            size.1,
-            views,
-            lens.pitch.to_f64(),
-            lens.slant.to_f64(),
-        );
+        let (pitch, slant) = (lens.pitch.to_f64(), lens.slant.to_f64());
+        let mut setup = Setup::new(width, height, views, pitch, slant);
         setup.order = lens.order;
         setup.inverted = lens.inverted;
         Ok(setup)

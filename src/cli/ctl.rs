@@ -30,7 +30,7 @@ pub(crate) struct Arguments {
 #[derive(Subcommand)]
 enum What {
     /// Change values from the next frame on, all of them or none: output, separation, convergence, eye-spacing, focal-depth,
-    /// hud-depth
+    /// hud-depth; of a slanted lens sheet pitch, slant, offset
     Set {
         /// Names and values in turn, such as: separation 0.03 convergence 8
         #[arg(

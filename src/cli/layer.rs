@@ -62,6 +62,9 @@ pub(crate) struct LayerArguments {
     /// Let `manyview ctl` change the views while the program runs
     #[arg(long)]
     control: bool,
+    /// Let keys with Ctrl+Alt change the views while the program runs (X11)
+    #[arg(long)]
+    keys: bool,
     /// Read options from a TOML file; variables and the command line win over it
     #[arg(long, value_name = "FILE.toml")]
     config: Option<String>,
@@ -98,6 +101,7 @@ impl LayerArguments {
         for (id, on) in [
             (OptionId::AutoDepth, self.auto_depth),
             (OptionId::Control, self.control),
+            (OptionId::Keys, self.keys),
         ] {
             if on {
                 settings.set(id, "1", Origin::CommandLine);

@@ -11,6 +11,7 @@ mod doctor;
 mod layer;
 mod mask;
 mod run;
+mod show;
 mod simulate;
 mod weave;
 

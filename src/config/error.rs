@@ -152,6 +152,22 @@ pub enum ConfigError {
         /// What is wrong.
         reason: String,
     },
+    /// A number of a lens sheet, for a panel that has none.
+    #[error(
+        "{part} is a number of a slanted lens sheet, and display `{display}` is none; start the program with one of kind \"slanted\""
+    )]
+    NoSheet {
+        /// The number.
+        part: &'static str,
+        /// The display.
+        display: String,
+    },
+    /// A number that a lens sheet cannot have.
+    #[error("{reason}")]
+    Sheet {
+        /// One sentence with the remedy.
+        reason: String,
+    },
     /// A depth for flat draws out of range.
     #[error("{field} is '{value}'; {remedy}", remedy = super::profile::DEPTH_REMEDY)]
     HudDepth {

@@ -2,6 +2,7 @@
 #![forbid(unsafe_code)]
 
 use super::{Camera, CaptureWhat, Config, ConfigError, OptionId, Origin, Output, Settings, parse};
+use crate::display::{Lens, LensPart};
 
 /// What is in force now; it begins as the options say.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -12,8 +13,19 @@ pub struct Live {
     pub camera: Camera,
     /// Where flat draws stand that no rule places.
     pub hud_depth: f64,
+    /// The numbers of the panel's sheet; none where it has no slanted one.
+    pub lens: Option<Lens>,
     /// All cameras are the program's own, and its own view is shown.
     pub flat: bool,
+}
+
+/// A value that can be set while the program runs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Knob {
+    /// An option, one of [`Live::OPTIONS`].
+    Option(OptionId),
+    /// A number of the panel's lens sheet.
+    Lens(LensPart),
 }
 
 impl Live {
@@ -35,6 +47,7 @@ impl Live {
             output: config.output,
             camera: config.camera,
             hud_depth: config.hud_depth.or(config.profile.hud_depth).unwrap_or(0.0),
+            lens: config.display.lens(),
             flat: false,
         }
     }
@@ -44,30 +57,35 @@ impl Live {
     pub fn with(
         self,
         config: &Config,
-        changes: &[(OptionId, String)],
+        changes: &[(Knob, String)],
         chosen: Option<(f64, f64)>,
     ) -> Result<Self, ConfigError> {
         let mut settings = Settings::default();
-        for (id, value) in changes {
-            settings.set(*id, value, Origin::Request);
+        let mut lens = self.lens;
+        for (setting, value) in changes {
+            match setting {
+                Knob::Option(id) => settings.set(*id, value, Origin::Request),
+                Knob::Lens(part) => lens = Some(self.sheet(lens, config, *part, value)?),
+            }
         }
-        let changed = |id| changes.iter().any(|(given, _)| *given == id);
-        let measured = settings.get(OptionId::AutoDepth);
-        if measured.is_none_or(|s| s.value != "1") {
+        let output = settings.get(OptionId::Output).is_some();
+        let measured = settings.get(OptionId::AutoDepth).map(|s| s.value == "1");
+        if measured != Some(true) {
             self.complete(&mut settings, chosen);
         }
         Ok(Self {
-            output: if changed(OptionId::Output) {
+            output: if output {
                 parse::output_of(&settings, &config.display, config.views)?
             } else {
                 self.output
             },
             camera: match parse::camera(&settings)? {
-                Camera::Auto if changed(OptionId::AutoDepth) => self.as_they_stand(chosen),
+                Camera::Auto if measured.is_some() => self.as_they_stand(chosen),
                 Camera::Auto => self.camera,
                 placed => placed,
             },
             hud_depth: parse::hud_depth(&settings)?.unwrap_or(self.hud_depth),
+            lens,
             flat: self.flat,
         })
     }
@@ -82,6 +100,23 @@ impl Live {
             (Camera::Measured(_), None) => Camera::Auto,
             (placed, _) => placed,
         }
+    }
+
+    /// The sheet with another number.
+    fn sheet(
+        self,
+        lens: Option<Lens>,
+        config: &Config,
+        part: LensPart,
+        value: &str,
+    ) -> Result<Lens, ConfigError> {
+        let lens = lens.ok_or_else(|| ConfigError::NoSheet {
+            part: part.name(),
+            display: config.display.name.clone(),
+        })?;
+        lens.with(part, value).map_err(|error| ConfigError::Sheet {
+            reason: error.to_string(),
+        })
     }
 
     /// Of a pair of which one half is given, the other one stays as it is.
@@ -137,6 +172,7 @@ impl CaptureWhat {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::config::Kept;
 
     fn config(pairs: &[(OptionId, &str)]) -> Config {
         let mut settings = Settings::default();
@@ -153,7 +189,7 @@ mod tests {
     ) -> Result<Live, String> {
         let changes: Vec<_> = changes
             .iter()
-            .map(|(id, value)| (*id, (*value).to_owned()))
+            .map(|(id, value)| (Knob::Option(*id), (*value).to_owned()))
             .collect();
         let live = Live::new(config).with(config, &changes, chosen);
         live.map_err(|error| error.to_string())
@@ -189,6 +225,31 @@ mod tests {
     }
 
     #[test]
+    fn cameras_by_depth_are_let_go_where_they_stand() {
+        let auto = config(&[]);
+        let measured = changed(&auto, &[(OptionId::AutoDepth, "1")], None).unwrap();
+        assert_eq!(measured.camera, Camera::Measured(None));
+        let kept = [(OptionId::AutoDepth, "1"), (OptionId::Separation, "0.03")];
+        let kept = changed(&auto, &kept, Some((0.1, 7.3))).unwrap();
+        assert_eq!(kept.camera, Camera::Measured(Some(Kept::Separation(0.03))));
+        let by_depth = config(&[(OptionId::AutoDepth, "1")]);
+        let placed = |separation| Camera::Clip {
+            separation,
+            convergence: 7.3,
+        };
+        let off = [(OptionId::AutoDepth, "0")];
+        let stays = changed(&by_depth, &off, Some((0.1, 7.3))).unwrap();
+        assert_eq!(stays.camera, placed(0.1));
+        assert_eq!(changed(&by_depth, &off, None).unwrap().camera, Camera::Auto);
+        let wider = [(OptionId::Separation, "0.2")];
+        let wider = changed(&by_depth, &wider, Some((0.1, 7.3))).unwrap();
+        assert_eq!(wider.camera, placed(0.2));
+        let both = [(OptionId::EyeSpacing, "0.2"), (OptionId::FocalDepth, "5")];
+        let both = changed(&by_depth, &both, None).unwrap();
+        assert!(matches!(both.camera, Camera::Eye { .. }));
+    }
+
+    #[test]
     fn what_is_not_named_stays() {
         let config = config(&[
             (OptionId::Views, "5"),
@@ -213,6 +274,33 @@ mod tests {
                 hud_depth: -0.5,
                 ..before
             }
+        );
+    }
+
+    #[test]
+    fn a_sheet_changes_and_nothing_else() {
+        let config = config(&[(OptionId::Display, "slanted8")]);
+        let before = Live::new(&config);
+        let set =
+            |part, text: &str| before.with(&config, &[(Knob::Lens(part), text.to_owned())], None);
+        let after = set(LensPart::Pitch, "7.99").unwrap();
+        let lens = before.lens.unwrap().with(LensPart::Pitch, "7.99").unwrap();
+        assert_eq!(
+            after,
+            Live {
+                lens: Some(lens),
+                ..before
+            }
+        );
+        let refused = set(LensPart::Pitch, "0").unwrap_err().to_string();
+        assert!(refused.starts_with("pitch is '0'; give "), "{refused}");
+        let plain = super::tests::config(&[]);
+        let change = (Knob::Lens(LensPart::Offset), "1".to_owned());
+        let refused = Live::new(&plain).with(&plain, &[change], None);
+        assert_eq!(
+            refused.unwrap_err().to_string(),
+            "offset is a number of a slanted lens sheet, and display `huebner8` is none; \
+             start the program with one of kind \"slanted\""
         );
     }
 

@@ -21,7 +21,7 @@ pub use capture::{Capture, CaptureWhat};
 pub use class::{Class, DepthRange, DepthState, Projection, Viewport, Word};
 pub use error::ConfigError;
 pub use explain::Explain;
-pub use live::Live;
+pub use live::{Knob, Live};
 pub use options::{DISABLE, Field, LIBRARY, OPTIONS, OptionId, OptionSpec, Origin, PathKind};
 pub use profile::{Profile, Rule};
 pub use settings::{Setting, Settings};
@@ -65,6 +65,8 @@ pub struct Config {
     pub report: Option<PathBuf>,
     /// The running program may be asked and told through a socket.
     pub control: bool,
+    /// Keys with Ctrl and Alt change the views.
+    pub keys: bool,
     /// Pictures to write, if any.
     pub capture: Option<Capture>,
     /// Where the layer tells the launcher how far it is, if the launcher asked.

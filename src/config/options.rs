@@ -52,6 +52,8 @@ pub enum OptionId {
     Report,
     /// A socket by which the running program is asked and told.
     Control,
+    /// Keys that change the views.
+    Keys,
     /// Picture to write.
     CaptureOut,
     /// Frames to write.
@@ -147,6 +149,8 @@ pub const OPTIONS: &[OptionSpec] = &[
         "write a JSON report of frames, draws and fallbacks"),
     option!(Control, Some("control"), Some("control"), "MANYVIEW_CONTROL", "0|1", No,
         "let `manyview ctl` change the views while the program runs; 0 unless given"),
+    option!(Keys, Some("keys"), Some("keys"), "MANYVIEW_KEYS", "0|1", No,
+        "let keys with Ctrl+Alt change the views while the program runs (X11); 0 unless given"),
     option!(Config, Some("config"), None, "MANYVIEW_CONFIG", "FILE.toml", File,
         "read options from a TOML file; variables and the command line win over it"),
     option!(CaptureOut, Some("out"), Some("capture-out"), "MANYVIEW_CAPTURE_OUT", "PATH", File,
@@ -175,7 +179,7 @@ impl OptionId {
     /// True for options that are on or off; in a TOML file they are truth values.
     #[must_use]
     pub fn is_switch(self) -> bool {
-        matches!(self, Self::Control | Self::AutoDepth)
+        matches!(self, Self::Control | Self::Keys | Self::AutoDepth)
     }
 
     /// True for the options that place the cameras: a source that sets one of them replaces them all.
@@ -266,6 +270,6 @@ mod tests {
         for row in OPTIONS {
             assert_eq!(row.id.spec().variable, row.variable);
         }
-        assert_eq!(OPTIONS.len(), 24, "a new option needs a row");
+        assert_eq!(OPTIONS.len(), 25, "a new option needs a row");
     }
 }

@@ -45,7 +45,8 @@ impl Config {
             profile: named_profile(settings)?,
             explain: explain(settings, views)?,
             report: path(settings, OptionId::Report),
-            control: control(settings, views)?,
+            control: changes(settings, OptionId::Control, views)?,
+            keys: changes(settings, OptionId::Keys, views)?,
             capture: capture(settings, views)?,
             status: path(settings, OptionId::Status),
             display,
@@ -447,13 +448,14 @@ fn explain(settings: &Settings, views: u32) -> Result<Option<Explain>, ConfigErr
     }))
 }
 
-fn control(settings: &Settings, views: u32) -> Result<bool, ConfigError> {
-    match settings.field(OptionId::Control) {
+/// Lets the views change while the program runs; nothing of one view can change.
+fn changes(settings: &Settings, id: OptionId, views: u32) -> Result<bool, ConfigError> {
+    match settings.field(id) {
         Some((field, value)) if views < 2 && value == "1" => Err(ConfigError::OneView {
             field,
             value: value.to_owned(),
         }),
-        _ => switch(settings, OptionId::Control),
+        _ => switch(settings, id),
     }
 }
 

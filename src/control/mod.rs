@@ -4,13 +4,15 @@
 #![forbid(unsafe_code)]
 
 mod error;
+pub mod keys;
 mod lines;
 pub mod place;
 
 pub use error::ControlError;
 pub use lines::Lines;
 
-use crate::config::{Live, OptionId};
+use crate::config::{Knob, Live, OptionId};
+use crate::display::LensPart;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 use std::collections::BTreeMap;
@@ -53,8 +55,8 @@ pub struct Picture {
 /// A request, understood.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Order {
-    /// Options and their values as text.
-    Set(Vec<(OptionId, String)>),
+    /// What is set, and to what, as text.
+    Set(Vec<(Knob, String)>),
     /// One value by its name, or all.
     Get(Option<String>),
     /// Path and content of a picture.
@@ -103,10 +105,10 @@ pub fn order(line: &str) -> Result<Order, ControlError> {
     match request {
         Request::Set(values) => {
             let values = values.into_iter().map(|(name, value)| {
-                let id = settable(&name)?;
+                let setting = settable(&name)?;
                 match value {
-                    Value::String(text) => Ok((id, text)),
-                    Value::Number(number) => Ok((id, number.to_string())),
+                    Value::String(text) => Ok((setting, text)),
+                    Value::Number(number) => Ok((setting, number.to_string())),
                     _ => Err(ControlError::Type { name }),
                 }
             });
@@ -130,21 +132,22 @@ pub fn order(line: &str) -> Result<Order, ControlError> {
     }
 }
 
-/// The options that can be set, by the names that they have in a TOML file.
-fn options() -> impl Iterator<Item = (OptionId, &'static str)> {
-    let named = |id: OptionId| Some((id, id.spec().key?));
-    Live::OPTIONS.into_iter().filter_map(named)
+/// What can be set, by the names that it has in a TOML file and in a panel's description.
+fn settings() -> impl Iterator<Item = (Knob, &'static str)> {
+    let named = |id: OptionId| Some((Knob::Option(id), id.spec().key?));
+    let options = Live::OPTIONS.into_iter().filter_map(named);
+    options.chain(LensPart::ALL.map(|part| (Knob::Lens(part), part.name())))
 }
 
 /// Everything that can be asked for.
 fn names() -> impl Iterator<Item = &'static str> {
-    options().map(|(_, name)| name).chain([VIEWS, LAYER])
+    settings().map(|(_, name)| name).chain([VIEWS, LAYER])
 }
 
-fn settable(name: &str) -> Result<OptionId, ControlError> {
-    let found = options().find(|(_, known)| *known == name);
-    found.map(|(id, _)| id).ok_or_else(|| {
-        let known = options().map(|(_, name)| name);
+fn settable(name: &str) -> Result<Knob, ControlError> {
+    let found = settings().find(|(_, known)| *known == name);
+    found.map(|(setting, _)| setting).ok_or_else(|| {
+        let known = settings().map(|(_, name)| name);
         ControlError::NotSettable {
             name: name.to_owned(),
             known: known.collect::<Vec<_>>().join(", "),
@@ -161,9 +164,16 @@ mod tests {
         assert_eq!(
             order(r#"{"set": {"separation": 0.03, "output": "view:1"}}"#),
             Ok(Order::Set(vec![
-                (OptionId::Output, "view:1".to_owned()),
-                (OptionId::Separation, "0.03".to_owned()),
+                (Knob::Option(OptionId::Output), "view:1".to_owned()),
+                (Knob::Option(OptionId::Separation), "0.03".to_owned()),
             ]))
+        );
+        assert_eq!(
+            order(r#"{"set": {"pitch": "16/3"}}"#),
+            Ok(Order::Set(vec![(
+                Knob::Lens(LensPart::Pitch),
+                "16/3".to_owned()
+            )]))
         );
         assert_eq!(order(r#"{"get": "all"}"#), Ok(Order::Get(None)));
         assert_eq!(

@@ -30,6 +30,11 @@ impl Bias {
         })
     }
 
+    /// Columns, rows and values, as [`Bias::new`] takes them.
+    pub(super) fn grid(&self) -> (usize, usize, &[f64]) {
+        (self.columns, self.rows, &self.values)
+    }
+
     /// The values along a row of the screen.
     pub(super) fn row(&self, placement: &Placement, row: i64) -> BiasRow {
         let (upper, weight) = cell(row, placement.screen_height, self.rows);

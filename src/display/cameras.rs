@@ -22,8 +22,16 @@ pub enum Spacing {
 }
 
 impl Spacing {
-    /// All of them, with their words.
-    pub const ALL: [(&str, Self); 2] = [("centres", Self::Centres), ("edges", Self::Edges)];
+    /// All of them.
+    pub const ALL: [Self; 2] = [Self::Centres, Self::Edges];
+
+    /// Its word.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Centres => "centres",
+            Self::Edges => "edges",
+        }
+    }
 
     /// Place of a camera in the cone, from −1/2 to 1/2.
     pub fn part(self, view: u32, views: u32) -> f64 {

@@ -1,7 +1,7 @@
 //! A panel in words and numbers, as `manyview displays show` prints it.
 #![forbid(unsafe_code)]
 
-use super::{Display, Kind, Number, Slanted, Spacing, SubpixelOrder};
+use super::{Display, Kind, Number, Slanted, SubpixelOrder};
 
 impl Display {
     /// Labels and values, in the order in which people read them.
@@ -46,9 +46,7 @@ impl Display {
             ));
         }
         if let Some(cameras) = self.cameras() {
-            let spacing = self.spacing();
-            let named = Spacing::ALL.iter().find(|(_, known)| *known == spacing);
-            lines.push(("camera spacing", named.map_or("", |(name, _)| name).into()));
+            lines.push(("camera spacing", self.spacing().name().into()));
             lines.push((
                 "outer cameras",
                 format!("{:.4}° to either side", cameras.outer),
@@ -72,7 +70,7 @@ impl Display {
                 lines.push(("slant", "2/3 subpixels per row".into()));
                 lines.push(("order", order.name().into()));
             }
-            Kind::Slanted(lens) => self.lens(lens, lines),
+            Kind::Slanted(lens) => self.sheet(lens, lines),
             Kind::LookingGlass(device) => {
                 let lenses = device.lenses();
                 let width = f64::from(device.width);
@@ -110,7 +108,7 @@ impl Display {
         }
     }
 
-    fn lens(&self, lens: &Slanted, lines: &mut Vec<(&'static str, String)>) {
+    fn sheet(&self, lens: &Slanted, lines: &mut Vec<(&'static str, String)>) {
         let pitch = lens.pitch.to_f64();
         // Three subpixels are as wide as a row is high.
         let angle = (lens.slant.to_f64() / 3.0).atan().to_degrees();
@@ -155,7 +153,7 @@ impl Kind {
 }
 
 impl SubpixelOrder {
-    fn name(self) -> &'static str {
+    pub(super) fn name(self) -> &'static str {
         match self {
             Self::Rgb => "rgb",
             Self::Bgr => "bgr",

@@ -102,6 +102,16 @@ pub enum DisplayError {
         /// The kind that was given.
         kind: String,
     },
+    /// A number of a sheet that it cannot have.
+    #[error("{part} is '{value}'; give {expected}, such as 5.34 or 16/3")]
+    Lens {
+        /// Which number.
+        part: &'static str,
+        /// As given.
+        value: String,
+        /// The bounds.
+        expected: &'static str,
+    },
     /// The mask file.
     #[error(transparent)]
     Mask(#[from] MaskError),

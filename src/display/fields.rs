@@ -242,8 +242,8 @@ impl Fields {
             return Ok(None);
         };
         let word = value.as_str().unwrap_or_default();
-        match Spacing::ALL.iter().find(|(name, _)| *name == word) {
-            Some((_, spacing)) => Ok(Some(*spacing)),
+        match Spacing::ALL.iter().find(|known| known.name() == word) {
+            Some(spacing) => Ok(Some(*spacing)),
             None => Err(self.wrong("spacing", "\"centres\" or \"edges\"", value, REMEDY)),
         }
     }

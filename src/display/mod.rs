@@ -24,6 +24,7 @@ mod huebner;
 mod integer;
 mod lattice;
 mod leia;
+mod lens;
 mod looking_glass;
 mod mask;
 mod number;
@@ -33,6 +34,7 @@ mod rotation;
 mod slanted;
 #[cfg(test)]
 mod tests;
+mod written;
 
 pub use bias::Bias;
 pub use budget::Budget;
@@ -41,6 +43,7 @@ pub use cameras::{Cameras, Spacing};
 pub use error::{DisplayError, MaskError};
 pub use integer::Integer;
 pub use leia::Leia;
+pub use lens::{Lens, LensPart};
 pub use looking_glass::{CellPattern, LookingGlass};
 pub use mask::{GUARD, Mask};
 pub use number::Number;

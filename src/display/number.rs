@@ -80,6 +80,12 @@ impl Number {
         }
     }
 
+    /// The decimal number that it is, in the shortest digits; none for another fraction.
+    pub fn decimal(self) -> Option<f64> {
+        let value = self.to_f64();
+        (Self::from_f64(value) == Some(self)).then_some(value)
+    }
+
     /// The nearest f64.
     pub fn to_f64(self) -> f64 {
         match self {

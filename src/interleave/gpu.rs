@@ -4,7 +4,7 @@ use super::shader::{DEPTH_UNIT, MASK_UNIT, Pass, Uniforms, VIEWS_UNIT};
 use super::{Depth, Form, Layout, Program, reference, rgbd};
 use crate::atlas::{Names, Tiles};
 use crate::config::{Config, Filter, Output};
-use crate::display::{Mask, Placement};
+use crate::display::{Display, Lens, Mask, Placement};
 use crate::gl::{Gl, consts as c};
 use image::RgbImage;
 
@@ -24,6 +24,18 @@ pub struct Source<'a> {
     pub srgb: bool,
 }
 
+/// The panel that is in force.
+#[derive(Clone, Copy, Debug)]
+pub struct Glass<'a> {
+    /// Its description.
+    pub display: &'a Display,
+    /// Where the picture lies on it.
+    pub placement: Placement,
+}
+
+/// What a mask depends on that can change.
+type Of = (Output, Placement, Option<Lens>);
+
 /// Programs and mask of one context.
 #[derive(Debug)]
 pub struct Interleaver {
@@ -33,9 +45,9 @@ pub struct Interleaver {
     anaglyph: Option<Program>,
     rgbd: Option<Program>,
     /// Of an output whose picture lay there.
-    mask: Option<((Output, Placement), Mask)>,
+    mask: Option<(Of, Mask)>,
     mask_texture: u32,
-    mask_uploaded: Option<(Output, Placement)>,
+    mask_uploaded: Option<Of>,
     cpu: Option<String>,
 }
 
@@ -111,8 +123,8 @@ impl Interleaver {
         }
     }
 
-    /// Draws the picture of an output over the whole framebuffer that is bound, which lies at `placement`; `tile` reads one view
-    /// for the CPU (and may change the read framebuffer). State must be as `present::Saved::take` leaves it.
+    /// Draws the picture of an output over the whole framebuffer that is bound, which lies on `glass`; `tile` reads one view for the
+    /// CPU (and may change the read framebuffer). State must be as `present::Saved::take` leaves it.
     pub fn draw(
         &mut self,
         gl: &Gl,
@@ -120,10 +132,11 @@ impl Interleaver {
         source: &Source,
         tile: &mut dyn FnMut(u32) -> RgbImage,
         output: Output,
-        placement: &Placement,
+        glass: &Glass,
     ) -> Result<(), String> {
-        let form = Form::of(config, output);
-        let of = (output, *placement);
+        let placement = &glass.placement;
+        let form = Form::of(config, glass.display, output);
+        let of = (output, *placement, glass.display.lens());
         if self.mask.as_ref().is_none_or(|(known, _)| *known != of)
             && let Some(mask) = form.mask(placement, config.views)
         {

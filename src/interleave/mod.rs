@@ -18,7 +18,7 @@ mod tests;
 
 pub use anaglyph::Matrix;
 pub use depth::{Depth, rgbd};
-pub use gpu::{Interleaver, Source, glsl_version};
+pub use gpu::{Glass, Interleaver, Source, glsl_version};
 pub use layout::Layout;
 pub use program::Program;
 
@@ -42,9 +42,9 @@ pub enum Form<'a> {
 
 impl<'a> Form<'a> {
     /// What an output is made by.
-    pub fn of(config: &'a Config, output: Output) -> Self {
+    pub fn of(config: &'a Config, display: &'a Display, output: Output) -> Self {
         match output {
-            Output::Panel => Self::Panel(&config.display, config.filter),
+            Output::Panel => Self::Panel(display, config.filter),
             Output::Interlaced(interlace) => Self::Eyes(interlace),
             Output::SideBySide { half } => Self::Layout(Layout::SideBySide { half }),
             Output::TopBottom { half } => Self::Layout(Layout::TopBottom { half }),

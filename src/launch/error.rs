@@ -7,6 +7,7 @@ use crate::control::ControlError;
 use crate::display::{DisplayError, MaskError, QuiltError};
 use crate::interleave::reference::ReferenceError;
 use crate::simulate::SimulateError;
+use crate::window::WindowError;
 use std::path::PathBuf;
 
 /// What went wrong; each kind has its exit status.
@@ -65,6 +66,9 @@ pub enum LaunchError {
     /// A panel that could not be measured.
     #[error(transparent)]
     Calibrate(#[from] CalibrateError),
+    /// A window of our own that cannot be had.
+    #[error(transparent)]
+    Window(#[from] WindowError),
     /// A running program that was not asked, or has refused.
     #[error(transparent)]
     Control(#[from] ControlError),
@@ -180,6 +184,7 @@ impl LaunchError {
             | Self::Simulate(_)
             | Self::Calibrate(_) => 2,
             Self::Control(error) => error.exit_status(),
+            Self::Window(error) => error.exit_status(),
             Self::NoLibrary { .. }
             | Self::BadLibrary { .. }
             | Self::NoDisplay { .. }

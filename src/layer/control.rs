@@ -2,10 +2,12 @@
 
 use super::Layer;
 use crate::config::{Camera, Capture, CaptureWhat, Live, OptionId, Output};
-use crate::control::{Answer, ControlError, LAYER, Order, VIEWS};
+use crate::control::{Answer, ControlError, LAYER, Order, VIEWS, keys::Key};
+use crate::display::LensPart;
 use crate::gl::Gl;
 use crate::interleave::Source;
 use serde_json::{Map, Value};
+use std::path::PathBuf;
 
 /// A picture that is asked for.
 #[derive(Debug)]
@@ -35,6 +37,14 @@ impl Layer {
     pub fn adopt(&mut self, live: Live) {
         if live.camera != self.live.camera {
             self.comfort.change(live.camera);
+        }
+        if let Some(lens) = live.lens
+            && live.lens != self.live.lens
+        {
+            let display = self
+                .fitted
+                .get_or_insert_with(|| self.config.display.clone());
+            display.set_lens(lens);
         }
         self.live = live;
         self.rig.change(live.camera, live.flat);
@@ -80,6 +90,24 @@ impl Layer {
         }
     }
 
+    /// Does what a key asks, as [`Layer::control`]. `picture` names the file of a frame.
+    pub fn press(
+        &mut self,
+        key: Key,
+        picture: impl FnOnce(u64) -> PathBuf,
+    ) -> Result<Result<Answer, Capture>, ControlError> {
+        // The next one, counted from 1.
+        let frame = self.report.frames() + 1;
+        let orders = key.orders(self.live, self.rig.latched(), || picture(frame));
+        let outcome = orders
+            .into_iter()
+            .fold(None, |outcome, order| match outcome {
+                Some(Ok(_)) => outcome,
+                _ => Some(self.control(order)),
+            });
+        outcome.unwrap_or_else(|| Ok(Ok(Answer::Values(self.values()))))
+    }
+
     fn values(&self) -> Map<String, Value> {
         let mut values = Map::new();
         let mut put = |id: OptionId, value: Value| {
@@ -95,16 +123,28 @@ impl Layer {
         for (id, value) in cameras.into_iter().flatten() {
             put(id, value.into());
         }
+        for (part, lens) in LensPart::ALL
+            .into_iter()
+            .zip(self.live.lens.into_iter().cycle())
+        {
+            let number = lens.get(part);
+            let value = number
+                .decimal()
+                .map_or_else(|| number.to_string().into(), Value::from);
+            values.insert(part.name().to_owned(), value);
+        }
         values.insert(VIEWS.to_owned(), self.config.views.into());
         values.insert(LAYER.to_owned(), (!self.live.flat).into());
         values
     }
 
-    /// Only the cameras' values are not always there.
+    /// Only values of the cameras and of a lens sheet are not always there.
     fn not_in_force(&self, name: String) -> ControlError {
         ControlError::NotInForce {
-            name,
             reason: match self.live.camera {
+                _ if LensPart::named(&name).is_some() => {
+                    "the display is no slanted lens sheet; see `manyview displays show`"
+                }
                 Camera::Auto | Camera::Measured(_) if self.rig.latched().is_none() => {
                     "the program has drawn nothing in perspective yet, so the cameras are not chosen"
                 }
@@ -115,12 +155,18 @@ impl Layer {
                     "the cameras are placed by separation and convergence; ask for those"
                 }
             },
+            name,
         }
     }
 
     /// Asks for a picture of the next frame that is shown.
     pub fn picture(&mut self, wanted: Capture) {
         self.picture = Picture::Wanted(wanted);
+    }
+
+    /// Whether a picture of the next frame is asked for already.
+    pub fn awaits_picture(&self) -> bool {
+        !matches!(self.picture, Picture::None)
     }
 
     /// What has become of the picture that was asked for, once.

@@ -4,7 +4,7 @@ use super::{Layer, OnScreen};
 use crate::config::{Capture, CaptureWhat, Output};
 use crate::display::{Placement, QuiltName};
 use crate::gl::{Gl, consts as c};
-use crate::interleave::{Depth, Form, Layout, Source, reference, rgbd};
+use crate::interleave::{Depth, Form, Glass, Layout, Source, reference, rgbd};
 use crate::present::{Saved, capture};
 use crate::state::{BACK, FRONT};
 use image::RgbImage;
@@ -68,13 +68,17 @@ impl Layer {
             top_down: self.atlas.flipped,
             srgb: self.state.window.srgb,
         };
+        let glass = Glass {
+            display: self.fitted.as_ref().unwrap_or(&self.config.display),
+            placement: self.placement(),
+        };
         if let Err(e) = self.interleaver.draw(
             gl,
             self.config,
             &source,
             &mut |view| tile(gl, &self.atlas, view),
             output,
-            &self.placement(),
+            &glass,
         ) {
             self.report.note(e);
         }
@@ -185,7 +189,7 @@ impl Layer {
         frame: u64,
     ) -> Result<PathBuf, String> {
         let (width, height) = self.size();
-        let form = Form::of(self.config, self.output());
+        let form = Form::of(self.config, &self.config.display, self.output());
         let path = match (wanted.what, form) {
             (CaptureWhat::Output, Form::Layout(Layout::Quilt { columns, rows })) => {
                 let name = QuiltName::new((columns, rows), (width, height));

@@ -24,6 +24,7 @@ pub use queries::Answer;
 
 use crate::atlas::{Atlas, AtlasError, Names, Tiles};
 use crate::config::{AtlasLayout, Config, Live, Projection, Strategy, profile};
+use crate::display::Display;
 use crate::draw::{Driver, FixedState, Programs};
 use crate::gl::{Count, Ends, Gl, Held, Recording, consts as c};
 use crate::interleave::Interleaver;
@@ -85,6 +86,8 @@ pub struct Layer {
     explained: Option<explain::Explained>,
     live: Live,
     comfort: comfort::Comfort,
+    /// The display with other numbers of its sheet, once they have been changed.
+    fitted: Option<Display>,
     picture: control::Picture,
     made: Count,
     on_screen: Option<OnScreen>,
@@ -168,6 +171,7 @@ impl Layer {
             explained: None,
             live,
             comfort: comfort::Comfort::new(config, live.camera),
+            fitted: None,
             picture: control::Picture::None,
             made: Count::default(),
             report,

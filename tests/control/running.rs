@@ -1,5 +1,6 @@
 //! A program that draws until it is told to stop, and the command that talks to it.
 #![forbid(unsafe_code)]
+#![allow(dead_code, reason = "each test file uses its part")]
 
 use super::support::{Compiled, Screen, compiled, layered, manyview, rgb, run, window_picture};
 use image::RgbImage;
@@ -59,6 +60,7 @@ impl Running {
             .arg(folder.path().join("stop"))
             .arg(folder.path())
             .env("XDG_RUNTIME_DIR", folder.path())
+            .current_dir(folder.path())
             .stderr(Stdio::piped());
         let child = screen.give(command).spawn().expect("the program starts");
         Running {

@@ -151,6 +151,11 @@ pub(crate) struct Screen {
 }
 
 impl Screen {
+    /// As `DISPLAY` says it.
+    pub(crate) fn display(&self) -> &str {
+        &self.display
+    }
+
     /// Lets a program use this screen.
     pub(crate) fn give<'a>(&self, command: &'a mut Command) -> &'a mut Command {
         command

@@ -9,6 +9,7 @@ use std::fs;
 mod fuzz;
 mod kinds;
 mod vectors;
+mod written;
 
 fn seeded(cases: u32) -> ProptestConfig {
     ProptestConfig {

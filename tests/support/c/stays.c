@@ -1,5 +1,6 @@
 /* Draws the same frame again and again until the file STOP exists or the frames are over.
  *   stays STOP [FOLDER]
+ * The keysyms of the keys that the window gets are added to `keys` in FOLDER, a line each.
  * In FOLDER, a file `shoot` makes it write what the window shows to `shot.ppm`, and take `shoot` away. */
 #include "scene.h"
 #include <GL/glx.h>
@@ -49,6 +50,21 @@ static void shoot(Display *display, Window window, const char *folder)
     unlink(order);
 }
 
+static void type(Display *display, const char *folder)
+{
+    while (XPending(display)) {
+        XEvent event;
+        XNextEvent(display, &event);
+        char path[4096];
+        snprintf(path, sizeof path, "%s/keys", folder);
+        FILE *out = event.type == KeyPress ? fopen(path, "a") : NULL;
+        if (out) {
+            fprintf(out, "%lx\n", XLookupKeysym(&event.xkey, 0));
+            fclose(out);
+        }
+    }
+}
+
 int main(int count, char **arguments)
 {
     int wanted[] = {GLX_RGBA, GLX_DOUBLEBUFFER, GLX_DEPTH_SIZE, 16, None};
@@ -57,9 +73,10 @@ int main(int count, char **arguments)
     if (count < 2 || !visual)
         return 2;
     Window root = DefaultRootWindow(display);
-    XSetWindowAttributes a = {.colormap = XCreateColormap(display, root, visual->visual, AllocNone), .override_redirect = True};
+    XSetWindowAttributes a = {.colormap = XCreateColormap(display, root, visual->visual, AllocNone), .override_redirect = True,
+                              .event_mask = KeyPressMask};
     Window window = XCreateWindow(display, root, 0, 0, WIDTH, HEIGHT, 0, visual->depth, InputOutput, visual->visual,
-                                  CWColormap | CWOverrideRedirect, &a);
+                                  CWColormap | CWOverrideRedirect | CWEventMask, &a);
     XMapWindow(display, window);
     XSync(display, False);
     GLXContext context = glXCreateContext(display, visual, NULL, True);
@@ -68,8 +85,10 @@ int main(int count, char **arguments)
     for (int i = 0; i < FRAMES && access(arguments[1], F_OK); i++) {
         draw();
         glXSwapBuffers(display, window);
-        if (count > 2)
+        if (count > 2) {
             shoot(display, window, arguments[2]);
+            type(display, arguments[2]);
+        }
         usleep(2000);
     }
     glXMakeCurrent(display, None, NULL);

@@ -1,0 +1,226 @@
+//! Keys for a running program, with Ctrl and Alt held: what each does, and the requests that it stands for.
+#![forbid(unsafe_code)]
+
+use super::{OUTPUT, Order};
+use crate::config::{Camera, Knob, Live, OptionId};
+use std::path::PathBuf;
+
+/// What is asked by a key.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Key {
+    /// The program's own picture, or all views again.
+    Toggle,
+    /// The first number of the cameras, separation or eye-spacing: more or less.
+    Spread(bool),
+    /// The second one, convergence or focal-depth: more or less.
+    Focus(bool),
+    /// Where flat draws stand: farther or nearer.
+    HudDepth(bool),
+    /// The next output.
+    Output,
+    /// The next frame as a file.
+    Capture,
+}
+
+/// Keys by their X keysym without Shift. Those that window managers and X itself take with Ctrl and Alt (arrows, Delete, Backspace,
+/// function keys) are not among them.
+const KEYS: [(u32, Key); 9] = [
+    (0x6d, Key::Toggle),
+    (0xff55, Key::Spread(true)),
+    (0xff56, Key::Spread(false)),
+    (0xff50, Key::Focus(true)),
+    (0xff57, Key::Focus(false)),
+    (0x6b, Key::HudDepth(true)),
+    (0x6a, Key::HudDepth(false)),
+    (0x6f, Key::Output),
+    (0x63, Key::Capture),
+];
+
+/// By what a press multiplies.
+const FACTOR: f64 = 1.1;
+/// What a press adds to a depth.
+const STEP: f64 = 0.05;
+/// The outputs that are gone through.
+const OUTPUTS: [&str; 4] = ["panel", "quilt", "sbs", "anaglyph:red-cyan"];
+
+impl Key {
+    /// The key of a keysym.
+    #[must_use]
+    pub fn of(keysym: u32) -> Option<Self> {
+        let found = KEYS.iter().find(|(known, _)| *known == keysym);
+        found.map(|(_, key)| *key)
+    }
+
+    /// The requests that the key stands for with these values in force; the first one that is not refused is meant. `chosen` as for
+    /// [`Live::with`]; `picture` is where a picture goes.
+    #[must_use]
+    pub fn orders(
+        self,
+        live: Live,
+        chosen: Option<(f64, f64)>,
+        picture: impl FnOnce() -> PathBuf,
+    ) -> Vec<Order> {
+        let set = |id, value: String| Order::Set(vec![(Knob::Option(id), value)]);
+        let camera = |at: usize, more: bool| {
+            // Until the cameras are chosen there is nothing to change; asking for it is refused with the reason.
+            let unknown = match (live.camera, at) {
+                (Camera::Eye { .. }, 0) => OptionId::EyeSpacing,
+                (Camera::Eye { .. }, _) => OptionId::FocalDepth,
+                (_, 0) => OptionId::Separation,
+                _ => OptionId::Convergence,
+            };
+            match live.cameras(chosen).and_then(|pair| pair.get(at).copied()) {
+                Some((id, value)) => {
+                    let value = if more { value * FACTOR } else { value / FACTOR };
+                    set(id, rounded(value))
+                }
+                None => Order::Get(unknown.spec().key.map(str::to_owned)),
+            }
+        };
+        match self {
+            Self::Toggle => vec![Order::Toggle],
+            Self::Spread(more) => vec![camera(0, more)],
+            Self::Focus(more) => vec![camera(1, more)],
+            Self::HudDepth(farther) => {
+                let step = if farther { STEP } else { -STEP };
+                vec![set(OptionId::HudDepth, rounded(live.hud_depth + step))]
+            }
+            Self::Output => {
+                let now = live.output.to_string();
+                let at = OUTPUTS.iter().position(|known| *known == now);
+                let next = at.map_or(0, |at| at + 1);
+                let others = OUTPUTS.iter().cycle().skip(next).take(OUTPUTS.len());
+                others
+                    .map(|word| set(OptionId::Output, (*word).to_owned()))
+                    .collect()
+            }
+            Self::Capture => vec![Order::Capture(picture(), OUTPUT.to_owned())],
+        }
+    }
+}
+
+/// Six digits, so that up and down meet again.
+fn rounded(value: f64) -> String {
+    // What was just written is a number.
+    format!("{value:.5e}").parse().unwrap_or(value).to_string()
+}
+
+/// The name of a picture: the program, the date and time of Greenwich by seconds since 1970, the frame.
+#[must_use]
+pub fn picture_name(program: &str, seconds: u64, frame: u64) -> String {
+    let (days, second) = (seconds / 86400, seconds % 86400);
+    let (year, month, day) = date(days);
+    let (hour, minute, second) = (second / 3600, second / 60 % 60, second % 60);
+    format!("{program}-{year:04}{month:02}{day:02}-{hour:02}{minute:02}{second:02}-{frame:06}.png")
+}
+
+/// Year, month and day of a day since 1970.
+fn date(mut day: u64) -> (u64, u64, u64) {
+    let of = |year: u64, years| year.is_multiple_of(years);
+    let leap = |year| of(year, 4) && (!of(year, 100) || of(year, 400));
+    let mut year = 1970;
+    while day >= 365 + u64::from(leap(year)) {
+        day -= 365 + u64::from(leap(year));
+        year += 1;
+    }
+    let mut month = 1;
+    for days in [
+        31,
+        28 + u64::from(leap(year)),
+        31,
+        30,
+        31,
+        30,
+        31,
+        31,
+        30,
+        31,
+        30,
+        31,
+    ] {
+        if day < days {
+            break;
+        }
+        day -= days;
+        month += 1;
+    }
+    (year, month, day + 1)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::config::{Config, Settings};
+
+    fn live() -> Live {
+        Live::new(&Config::from_settings(&Settings::default()).unwrap())
+    }
+
+    fn words(key: Key, live: Live, chosen: Option<(f64, f64)>) -> Vec<(OptionId, String)> {
+        let orders = key.orders(live, chosen, PathBuf::new);
+        let sets = orders.into_iter().map(|order| match order {
+            Order::Set(mut values) => match values.remove(0) {
+                (Knob::Option(id), value) => (id, value),
+                other => panic!("{other:?}"),
+            },
+            other => panic!("{other:?}"),
+        });
+        sets.collect()
+    }
+
+    #[test]
+    fn up_and_down_meet_again() {
+        let mut live = live();
+        let chosen = Some((0.03, 8.0));
+        let (id, value) = words(Key::Spread(true), live, chosen).remove(0);
+        assert_eq!((id, &*value), (OptionId::Separation, "0.033"));
+        let (id, value) = words(Key::Focus(false), live, chosen).remove(0);
+        assert_eq!((id, &*value), (OptionId::Convergence, "7.27273"));
+        live.camera = Camera::Eye {
+            spacing: 0.033,
+            focal_depth: 5.0,
+        };
+        let (id, value) = words(Key::Spread(false), live, chosen).remove(0);
+        assert_eq!((id, &*value), (OptionId::EyeSpacing, "0.03"));
+        live.hud_depth = 0.05;
+        let (_, value) = words(Key::HudDepth(false), live, None).remove(0);
+        assert_eq!(value, "0");
+    }
+
+    #[test]
+    fn outputs_go_round() {
+        let mut live = live();
+        let outputs = |live| {
+            words(Key::Output, live, None)
+                .into_iter()
+                .map(|(_, word)| word)
+        };
+        let next: Vec<_> = outputs(live).collect();
+        assert_eq!(next, ["quilt", "sbs", "anaglyph:red-cyan", "panel"]);
+        live.output = crate::config::Output::View(3);
+        assert_eq!(outputs(live).next().as_deref(), Some("panel"));
+    }
+
+    #[test]
+    fn cameras_that_are_not_chosen_are_asked_for() {
+        let orders = Key::Focus(true).orders(live(), None, PathBuf::new);
+        assert_eq!(orders, [Order::Get(Some("convergence".to_owned()))]);
+    }
+
+    #[test]
+    fn pictures_have_the_program_the_time_and_the_frame() {
+        assert_eq!(
+            picture_name("gears", 0, 1),
+            "gears-19700101-000000-000001.png"
+        );
+        // date -u -d @1709251199
+        assert_eq!(
+            picture_name("x", 1_709_251_199, 30),
+            "x-20240229-235959-000030.png"
+        );
+        assert_eq!(
+            picture_name("x", 1_735_689_600, 7),
+            "x-20250101-000000-000007.png"
+        );
+    }
+}

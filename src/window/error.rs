@@ -1,0 +1,70 @@
+//! Why there is no window; every message is one sentence with the remedy.
+#![forbid(unsafe_code)]
+
+use x11rb::errors::{ConnectError, ConnectionError, ReplyError, ReplyOrIdError};
+
+/// Why a picture cannot be shown.
+#[derive(Debug, thiserror::Error)]
+pub enum WindowError {
+    /// No X server.
+    #[error("no window can be opened: {0}; set DISPLAY to the X server that drives the panel")]
+    Connect(#[from] ConnectError),
+    /// The server or the way to it.
+    #[error("the X server has closed the window: {0}; start again")]
+    Server(String),
+    /// Colours are not bytes in a pixel of four.
+    #[error(
+        "the X screen has no 24-bit true colour; use one that has, as the panel shows nothing right without"
+    )]
+    Colours,
+    /// No such monitor.
+    #[error("--monitor '{wanted}': there is no such monitor; give one of {known}")]
+    Monitor {
+        /// As asked for.
+        wanted: String,
+        /// Names and sizes.
+        known: String,
+    },
+    /// A picture for another monitor.
+    #[error(
+        "the picture is {}x{} pixels and monitor {monitor} has {}x{}; give the --monitor that is the panel, or its --size",
+        picture.0, picture.1, size.0, size.1
+    )]
+    TooLarge {
+        /// Pixels.
+        picture: (u32, u32),
+        /// Its name.
+        monitor: String,
+        /// Pixels.
+        size: (u32, u32),
+    },
+}
+
+impl WindowError {
+    /// The exit status of the command.
+    #[must_use]
+    pub fn exit_status(&self) -> u8 {
+        match self {
+            Self::Connect(_) | Self::Server(_) | Self::Colours => 3,
+            Self::Monitor { .. } | Self::TooLarge { .. } => 2,
+        }
+    }
+}
+
+impl From<ConnectionError> for WindowError {
+    fn from(error: ConnectionError) -> Self {
+        Self::Server(error.to_string())
+    }
+}
+
+impl From<ReplyError> for WindowError {
+    fn from(error: ReplyError) -> Self {
+        Self::Server(error.to_string())
+    }
+}
+
+impl From<ReplyOrIdError> for WindowError {
+    fn from(error: ReplyOrIdError) -> Self {
+        Self::Server(error.to_string())
+    }
+}

@@ -1,0 +1,273 @@
+//! A window of our own that covers a monitor and shows a picture, pixel by pixel; and the keys that are pressed in it.
+//!
+//! Plain X11 without a toolkit: pixels have to reach the panel as they are. The picture is the window's background, so the server
+//! draws it again by itself where it was covered.
+#![forbid(unsafe_code)]
+
+mod error;
+mod monitor;
+
+pub use error::WindowError;
+pub use monitor::Monitor;
+
+use image::RgbImage;
+use std::borrow::Cow;
+use x11rb::connection::Connection;
+use x11rb::image::{BitsPerPixel, Image, ImageOrder, PixelLayout, ScanlinePad};
+use x11rb::protocol::Event as XEvent;
+use x11rb::protocol::xproto::{
+    AtomEnum, ChangeWindowAttributesAux, ConnectionExt as _, CreateGCAux, CreateWindowAux,
+    EventMask, Gcontext, GetKeyboardMappingReply, InputFocus, KeyButMask, PropMode, Window as Id,
+    WindowClass,
+};
+use x11rb::rust_connection::RustConnection;
+use x11rb::wrapper::ConnectionExt as _;
+
+x11rb::atom_manager! {
+    /// Names that window managers know.
+    Atoms: AtomsCookie {
+        WM_PROTOCOLS,
+        WM_DELETE_WINDOW,
+        _NET_WM_STATE,
+        _NET_WM_STATE_FULLSCREEN,
+        _NET_WM_BYPASS_COMPOSITOR,
+        _NET_SUPPORTING_WM_CHECK,
+        _MOTIF_WM_HINTS,
+        UTF8_STRING,
+        _NET_WM_NAME,
+    }
+}
+
+const DEPTH: u8 = 24;
+
+/// What happens to a window.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Event {
+    /// A key goes down: its keysym without Shift, and whether Shift is held.
+    Key(u32, bool),
+    /// The user closes the window.
+    Close,
+}
+
+/// An open window.
+#[derive(Debug)]
+pub struct Window {
+    connection: RustConnection,
+    id: Id,
+    gc: Gcontext,
+    atoms: Atoms,
+    layout: PixelLayout,
+    monitor: Monitor,
+    keys: GetKeyboardMappingReply,
+}
+
+impl Window {
+    /// Opens a black window over a monitor: the one that is wanted, else that of the panel's size, else the primary one.
+    pub fn open(
+        title: &str,
+        wanted: Option<&str>,
+        panel: Option<(u32, u32)>,
+    ) -> Result<Self, WindowError> {
+        let (connection, number) = RustConnection::connect(None)?;
+        let screen = connection.setup().roots.get(number).cloned();
+        let screen = screen.ok_or(WindowError::Colours)?;
+        let visuals = screen
+            .allowed_depths
+            .iter()
+            .flat_map(|depth| &depth.visuals);
+        let visual = visuals.copied().find(|v| v.visual_id == screen.root_visual);
+        let layout = visual.and_then(|visual| PixelLayout::from_visual_type(visual).ok());
+        let layout = layout.filter(|layout| layout.depth() == DEPTH);
+        let layout = layout
+            .filter(|_| screen.root_depth == DEPTH)
+            .ok_or(WindowError::Colours)?;
+        let monitor = monitor::choose(monitor::all(&connection, &screen)?, wanted, panel)?;
+        let atoms = Atoms::new(&connection)?.reply()?;
+        let (id, gc) = (connection.generate_id()?, connection.generate_id()?);
+        let (width, height) = monitor.size;
+        connection.create_window(
+            DEPTH,
+            id,
+            screen.root,
+            monitor.at.0,
+            monitor.at.1,
+            width as u16,
+            height as u16,
+            0,
+            WindowClass::INPUT_OUTPUT,
+            screen.root_visual,
+            &CreateWindowAux::new()
+                .background_pixel(screen.black_pixel)
+                .event_mask(EventMask::KEY_PRESS | EventMask::STRUCTURE_NOTIFY),
+        )?;
+        connection.create_gc(gc, id, &CreateGCAux::new())?;
+        let window = Self {
+            keys: mapping(&connection)?,
+            connection,
+            id,
+            gc,
+            atoms,
+            layout,
+            monitor,
+        };
+        window.introduce(title)?;
+        window.connection.map_window(id)?;
+        window.focus(screen.root)?;
+        Ok(window)
+    }
+
+    /// Tells a window manager what the window is to be: the whole monitor, undecorated, and not drawn by way of a compositor.
+    fn introduce(&self, title: &str) -> Result<(), WindowError> {
+        let (c, id, atoms) = (&self.connection, self.id, &self.atoms);
+        let string = AtomEnum::STRING;
+        c.change_property8(
+            PropMode::REPLACE,
+            id,
+            AtomEnum::WM_NAME,
+            string,
+            title.as_bytes(),
+        )?;
+        let (name, utf8) = (atoms._NET_WM_NAME, atoms.UTF8_STRING);
+        c.change_property8(PropMode::REPLACE, id, name, utf8, title.as_bytes())?;
+        let lists = [
+            (
+                atoms.WM_PROTOCOLS,
+                AtomEnum::ATOM.into(),
+                vec![atoms.WM_DELETE_WINDOW],
+            ),
+            (
+                atoms._NET_WM_STATE,
+                AtomEnum::ATOM.into(),
+                vec![atoms._NET_WM_STATE_FULLSCREEN],
+            ),
+            (
+                atoms._NET_WM_BYPASS_COMPOSITOR,
+                AtomEnum::CARDINAL.into(),
+                vec![1],
+            ),
+            // Flags: the decorations are given, and there are none.
+            (
+                atoms._MOTIF_WM_HINTS,
+                atoms._MOTIF_WM_HINTS,
+                vec![2, 0, 0, 0, 0],
+            ),
+            // Size hints with the user's own place: the window manager looks for no better one.
+            (
+                AtomEnum::WM_NORMAL_HINTS.into(),
+                AtomEnum::WM_SIZE_HINTS.into(),
+                {
+                    let mut hints = vec![0; 18];
+                    hints[0] = 1;
+                    hints
+                },
+            ),
+        ];
+        for (property, kind, values) in lists {
+            c.change_property32(PropMode::REPLACE, id, property, kind, &values)?;
+        }
+        Ok(())
+    }
+
+    /// Without a window manager nobody else gives the window the keys.
+    fn focus(&self, root: Id) -> Result<(), WindowError> {
+        let c = &self.connection;
+        let check = self.atoms._NET_SUPPORTING_WM_CHECK;
+        let managed = c.get_property(false, root, check, AtomEnum::WINDOW, 0, 1)?;
+        if managed.reply()?.value_len == 0 {
+            c.set_input_focus(InputFocus::PARENT, self.id, x11rb::CURRENT_TIME)?;
+        }
+        c.flush()?;
+        Ok(())
+    }
+
+    /// Where the window is.
+    pub fn monitor(&self) -> &Monitor {
+        &self.monitor
+    }
+
+    /// Refuses a picture that is larger than the monitor.
+    pub fn check(&self, picture: (u32, u32)) -> Result<(), WindowError> {
+        let (monitor, size) = (self.monitor.name.clone(), self.monitor.size);
+        if picture.0 > size.0 || picture.1 > size.1 {
+            return Err(WindowError::TooLarge {
+                picture,
+                monitor,
+                size,
+            });
+        }
+        Ok(())
+    }
+
+    /// Shows a picture from the left top corner of the monitor on; the rest is black. What reaches beyond is not seen.
+    pub fn show(&mut self, picture: &RgbImage) -> Result<(), WindowError> {
+        let (width, height) = self.monitor.size;
+        let mut data = vec![0; width as usize * height as usize * 4];
+        let rows = data.chunks_exact_mut(width as usize * 4);
+        for (row, out) in picture.rows().zip(rows) {
+            for (pixel, out) in row.zip(out.chunks_exact_mut(4)) {
+                let [r, g, b] = pixel.0.map(|v| u16::from(v) * 0x101);
+                out.copy_from_slice(&self.layout.encode((r, g, b)).to_le_bytes());
+            }
+        }
+        let (c, id) = (&self.connection, self.id);
+        let image = Image::new(
+            width as u16,
+            height as u16,
+            ScanlinePad::Pad32,
+            DEPTH,
+            BitsPerPixel::B32,
+            ImageOrder::LsbFirst,
+            Cow::Owned(data),
+        );
+        // A screen whose pixels are not four bytes each.
+        let image = image.map_err(|_| WindowError::Colours)?;
+        let image = image.native(c.setup()).map_err(|_| WindowError::Colours)?;
+        let pixmap = c.generate_id()?;
+        c.create_pixmap(DEPTH, pixmap, id, width as u16, height as u16)?;
+        image.put(c, pixmap, self.gc, 0, 0)?;
+        let background = ChangeWindowAttributesAux::new().background_pixmap(pixmap);
+        c.change_window_attributes(id, &background)?;
+        c.clear_area(false, id, 0, 0, 0, 0)?;
+        // The window keeps it.
+        c.free_pixmap(pixmap)?;
+        c.sync()?;
+        Ok(())
+    }
+
+    /// Waits for the next thing that happens.
+    pub fn wait(&mut self) -> Result<Event, WindowError> {
+        loop {
+            match self.connection.wait_for_event()? {
+                XEvent::KeyPress(key) => {
+                    let keys = &self.keys;
+                    let first = self.connection.setup().min_keycode;
+                    let at = usize::from(key.detail.saturating_sub(first))
+                        * usize::from(keys.keysyms_per_keycode);
+                    // The first keysym is the one without Shift.
+                    if let Some(&keysym) = keys.keysyms.get(at) {
+                        let shift = key.state.contains(KeyButMask::SHIFT);
+                        return Ok(Event::Key(keysym, shift));
+                    }
+                }
+                XEvent::MappingNotify(_) => self.keys = mapping(&self.connection)?,
+                XEvent::ClientMessage(message)
+                    if message.data.as_data32()[0] == self.atoms.WM_DELETE_WINDOW =>
+                {
+                    return Ok(Event::Close);
+                }
+                XEvent::DestroyNotify(_) => return Ok(Event::Close),
+                _ => {}
+            }
+        }
+    }
+}
+
+fn mapping(connection: &RustConnection) -> Result<GetKeyboardMappingReply, WindowError> {
+    let setup = connection.setup();
+    let count = setup
+        .max_keycode
+        .saturating_sub(setup.min_keycode)
+        .saturating_add(1);
+    let reply = connection.get_keyboard_mapping(setup.min_keycode, count)?;
+    Ok(reply.reply()?)
+}

@@ -1,0 +1,137 @@
+//! Which monitor is the panel.
+#![forbid(unsafe_code)]
+
+use super::WindowError;
+use x11rb::connection::Connection;
+use x11rb::protocol::randr::ConnectionExt as _;
+use x11rb::protocol::xproto::{ConnectionExt as _, Screen};
+
+/// A monitor of an X screen.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Monitor {
+    /// As `xrandr --listmonitors` says it.
+    pub name: String,
+    /// Left top corner on the X screen.
+    pub at: (i16, i16),
+    /// Pixels.
+    pub size: (u32, u32),
+    /// The one that the user calls primary.
+    pub primary: bool,
+}
+
+/// All monitors; the whole screen where the server knows of none.
+pub(super) fn all(
+    connection: &impl Connection,
+    screen: &Screen,
+) -> Result<Vec<Monitor>, WindowError> {
+    let mut found = Vec::new();
+    // A server without RandR 1.5 answers with an error.
+    if let Ok(reply) = connection
+        .randr_get_monitors(screen.root, true)
+        .map_err(x11rb::errors::ReplyError::from)
+        .and_then(|cookie| cookie.reply())
+    {
+        for monitor in reply.monitors {
+            let name = connection.get_atom_name(monitor.name)?.reply()?.name;
+            found.push(Monitor {
+                name: String::from_utf8_lossy(&name).into_owned(),
+                at: (monitor.x, monitor.y),
+                size: (monitor.width.into(), monitor.height.into()),
+                primary: monitor.primary,
+            });
+        }
+    }
+    if found.is_empty() {
+        found.push(Monitor {
+            name: "screen".to_owned(),
+            at: (0, 0),
+            size: (
+                screen.width_in_pixels.into(),
+                screen.height_in_pixels.into(),
+            ),
+            primary: true,
+        });
+    }
+    Ok(found)
+}
+
+/// The monitor that is asked for by name or number from 0; else the one of the panel's size, the primary one, the first.
+pub(super) fn choose(
+    mut monitors: Vec<Monitor>,
+    wanted: Option<&str>,
+    panel: Option<(u32, u32)>,
+) -> Result<Monitor, WindowError> {
+    let at = match wanted {
+        Some(wanted) => monitors
+            .iter()
+            .position(|monitor| monitor.name == wanted)
+            .or_else(|| wanted.parse().ok().filter(|&at| at < monitors.len()))
+            .ok_or_else(|| WindowError::Monitor {
+                wanted: wanted.to_owned(),
+                known: list(&monitors),
+            })?,
+        None => {
+            let of_size = |monitor: &Monitor| Some(monitor.size) == panel;
+            let primary = |monitor: &Monitor| monitor.primary;
+            let found = monitors.iter().position(of_size);
+            found
+                .or_else(|| monitors.iter().position(primary))
+                .unwrap_or(0)
+        }
+    };
+    Ok(monitors.swap_remove(at))
+}
+
+fn list(monitors: &[Monitor]) -> String {
+    let words = monitors.iter().enumerate().map(|(at, monitor)| {
+        let (width, height) = monitor.size;
+        format!("{at} or {} ({width}x{height})", monitor.name)
+    });
+    words.collect::<Vec<_>>().join(", ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn two() -> Vec<Monitor> {
+        let monitor = |name: &str, x, size, primary| Monitor {
+            name: name.to_owned(),
+            at: (x, 0),
+            size,
+            primary,
+        };
+        vec![
+            monitor("DP-1", 0, (1920, 1080), false),
+            monitor("eDP-1", 1920, (1280, 800), true),
+            monitor("HDMI-1", 3200, (3840, 2160), false),
+        ]
+    }
+
+    #[test]
+    fn the_panel_is_found_by_name_number_size_or_rank() {
+        let name = |wanted, panel| choose(two(), wanted, panel).unwrap().name;
+        assert_eq!(name(Some("DP-1"), Some((3840, 2160))), "DP-1");
+        assert_eq!(name(Some("2"), None), "HDMI-1");
+        assert_eq!(name(None, Some((3840, 2160))), "HDMI-1");
+        assert_eq!(name(None, Some((800, 600))), "eDP-1");
+        assert_eq!(name(None, None), "eDP-1");
+        let mut equals = two();
+        equals[1].primary = false;
+        assert_eq!(choose(equals, None, None).unwrap().name, "DP-1");
+    }
+
+    #[test]
+    fn another_monitor_is_refused_with_those_that_are_there() {
+        for wanted in ["DP-2", "3", "-1", ""] {
+            let error = choose(two(), Some(wanted), None).unwrap_err().to_string();
+            assert_eq!(
+                error,
+                format!(
+                    "--monitor '{wanted}': there is no such monitor; give one of 0 or DP-1 (1920x1080), \
+                     1 or eDP-1 (1280x800), 2 or HDMI-1 (3840x2160)"
+                )
+            );
+        }
+    }
+}

@@ -1,0 +1,149 @@
+//! `--keys`: keys that change the views of a running program, which gets them all the same.
+#![forbid(unsafe_code)]
+
+#[path = "control/running.rs"]
+mod running;
+mod support;
+#[path = "support/x.rs"]
+mod x;
+
+use running::{Running, same, until};
+use std::path::PathBuf;
+use support::{Screen, own_screen, rgb};
+use x::{ALT, CONTROL, User};
+
+const PAGE_UP: u32 = 0xff55;
+const PAGE_DOWN: u32 = 0xff56;
+const HOME: u32 = 0xff50;
+const END: u32 = 0xff57;
+const CAMERAS: [(&str, &str); 2] = [("SEPARATION", "0.03"), ("CONVERGENCE", "8")];
+
+/// A program, the user before it, and its window, which has no focus yet.
+fn start(screen: &Screen, options: &[(&str, &str)]) -> (Running, User, u32) {
+    let all = [options, &CAMERAS[..]].concat();
+    let running = Running::controlled(screen, &all);
+    let user = User::at(screen.display());
+    let window = until("a window", || user.windows().first().copied());
+    // Its first frame opens the keys, and an answer comes after a frame.
+    running.done(&["get"]);
+    (running, user, window)
+}
+
+fn value(running: &Running, name: &str) -> String {
+    running.done(&["get", name]).trim().to_owned()
+}
+
+fn letter(letter: char) -> u32 {
+    u32::from(letter)
+}
+
+#[test]
+fn keys_change_the_views_and_the_program_gets_them() {
+    let screen = own_screen();
+    let (mut running, user, window) = start(&screen, &[("KEYS", "1")]);
+    let separation = || value(&running, "separation");
+    let press = |key| user.press(&[CONTROL, ALT, key]);
+    press(PAGE_UP);
+    assert_eq!(separation(), "0.03", "the keys are somebody else's");
+    let other = user.open(user.root);
+    user.focus(other);
+    press(PAGE_UP);
+    assert_eq!(separation(), "0.03", "another window has the keys");
+
+    user.focus(window);
+    user.press(&[PAGE_UP]);
+    user.press(&[CONTROL, PAGE_UP]);
+    user.press(&[ALT, PAGE_UP]);
+    assert_eq!(separation(), "0.03", "not both of Ctrl and Alt");
+    press(PAGE_UP);
+    assert_eq!(separation(), "0.033");
+    press(PAGE_DOWN);
+    press(PAGE_DOWN);
+    assert_eq!(separation(), "0.0272727");
+    press(HOME);
+    assert_eq!(value(&running, "convergence"), "8.8");
+    press(END);
+    assert_eq!(value(&running, "convergence"), "8.0");
+    press(letter('k'));
+    assert_eq!(value(&running, "hud-depth"), "0.05");
+    press(letter('j'));
+    press(letter('j'));
+    assert_eq!(value(&running, "hud-depth"), "-0.05");
+    press(letter('o'));
+    assert_eq!(value(&running, "output"), "quilt");
+    press(letter('m'));
+    assert_eq!(value(&running, "layer"), "off");
+    press(letter('m'));
+    assert_eq!(value(&running, "layer"), "on");
+
+    let inside = user.open(window);
+    user.focus(inside);
+    press(PAGE_UP);
+    assert_eq!(separation(), "0.03", "a window within the program's");
+
+    let got = std::fs::read_to_string(running.path("keys")).expect("keys");
+    let got: Vec<_> = got.lines().filter(|key| !key.starts_with("ffe")).collect();
+    // The last one went to the window within, which is ours: X gives it to nobody else.
+    let expected = [
+        "ff55", "ff55", "ff55", "ff55", "ff56", "ff56", "ff50", "ff57", "6b", "6a", "6a", "6f",
+        "6d", "6d",
+    ];
+    assert_eq!(got, expected, "all that was pressed while it had the keys");
+    assert_eq!(running.end(), (Some(0), String::new()));
+}
+
+#[test]
+fn a_picture_is_named_by_program_time_and_frame() {
+    let screen = own_screen();
+    let (mut running, user, window) = start(&screen, &[("KEYS", "1")]);
+    user.focus(window);
+    let before = running.capture("output");
+    user.press(&[CONTROL, ALT, letter('c')]);
+    let written = || -> Option<PathBuf> {
+        let files = std::fs::read_dir(running.folder.path())
+            .expect("a folder")
+            .flatten();
+        let mut paths = files.map(|file| file.path());
+        paths.find(|path| path.extension().is_some_and(|extension| extension == "png"))
+    };
+    let path = until("a picture", written);
+    let name = path
+        .file_name()
+        .expect("a name")
+        .to_string_lossy()
+        .into_owned();
+    let parts: Vec<_> = name.trim_end_matches(".png").split('-').collect();
+    assert!(
+        matches!(parts[..], ["stays", day, time, frame] if day.len() == 8 && time.len() == 6 && frame.len() == 6),
+        "{name}"
+    );
+    same(&rgb(&path), &before, "the picture");
+    let (code, said) = running.end();
+    assert_eq!((code, said.lines().count()), (Some(0), 1), "{said}");
+    assert!(
+        said.starts_with("manyview: wrote ") && said.contains(&name),
+        "{said}"
+    );
+}
+
+#[test]
+fn without_the_option_nothing_is_opened_and_nothing_happens() {
+    let screen = own_screen();
+    let sockets = |running: &Running| {
+        let folder = format!("/proc/{}/fd", running.pid());
+        let links = std::fs::read_dir(folder).expect("a folder").flatten();
+        let targets = links.filter_map(|link| std::fs::read_link(link.path()).ok());
+        targets
+            .filter(|to| to.to_string_lossy().starts_with("socket:"))
+            .count()
+    };
+    let (mut with, _, _) = start(&screen, &[("KEYS", "1")]);
+    let most = sockets(&with);
+    assert_eq!(with.end(), (Some(0), String::new()));
+    let (mut running, user, window) = start(&screen, &[]);
+    assert_eq!(sockets(&running) + 1, most, "one connection more with keys");
+    user.focus(window);
+    user.press(&[CONTROL, ALT, PAGE_UP]);
+    assert_eq!(value(&running, "separation"), "0.03");
+    assert_eq!(running.end(), (Some(0), String::new()));
+}

@@ -1,0 +1,124 @@
+//! A user at an X server: keys that are pressed, windows that are looked at.
+#![forbid(unsafe_code)]
+#![allow(dead_code, reason = "each test file uses its part")]
+
+use image::{Rgb, RgbImage};
+use x11rb::connection::Connection;
+use x11rb::protocol::xproto::{
+    AtomEnum, ConnectionExt as _, CreateWindowAux, ImageFormat, InputFocus, KEY_PRESS_EVENT,
+    KEY_RELEASE_EVENT, Window, WindowClass,
+};
+use x11rb::protocol::xtest::ConnectionExt as _;
+use x11rb::rust_connection::RustConnection;
+use x11rb::wrapper::ConnectionExt as _;
+
+pub(crate) const SHIFT: u32 = 0xffe1;
+pub(crate) const CONTROL: u32 = 0xffe3;
+pub(crate) const ALT: u32 = 0xffe9;
+
+pub(crate) struct User {
+    pub(crate) connection: RustConnection,
+    pub(crate) root: Window,
+    keysyms: Vec<u32>,
+    per_code: usize,
+}
+
+impl User {
+    pub(crate) fn at(display: &str) -> Self {
+        let (connection, screen) = RustConnection::connect(Some(display)).expect("an X server");
+        let setup = connection.setup();
+        let root = setup.roots[screen].root;
+        let codes = setup.max_keycode - setup.min_keycode + 1;
+        let mapping = connection.get_keyboard_mapping(setup.min_keycode, codes);
+        let mapping = mapping.expect("sent").reply().expect("a keyboard");
+        User {
+            root,
+            keysyms: mapping.keysyms,
+            per_code: mapping.keysyms_per_keycode.into(),
+            connection,
+        }
+    }
+
+    fn code(&self, keysym: u32) -> u8 {
+        let mut first = self.keysyms.iter().step_by(self.per_code);
+        let at = first.position(|&found| found == keysym).expect("the key");
+        self.connection.setup().min_keycode + at as u8
+    }
+
+    /// Keys down in their order and up again.
+    pub(crate) fn press(&self, keys: &[u32]) {
+        let codes: Vec<_> = keys.iter().map(|&key| self.code(key)).collect();
+        let down = codes.iter().map(|&code| (KEY_PRESS_EVENT, code));
+        let up = codes.iter().rev().map(|&code| (KEY_RELEASE_EVENT, code));
+        for (kind, code) in down.chain(up) {
+            let sent = self
+                .connection
+                .xtest_fake_input(kind, code, 0, self.root, 0, 0, 0);
+            sent.expect("sent").check().expect("XTEST");
+        }
+        self.connection.sync().expect("a server");
+    }
+
+    /// The windows of the root.
+    pub(crate) fn windows(&self) -> Vec<Window> {
+        let tree = self.connection.query_tree(self.root).expect("sent").reply();
+        tree.expect("a tree").children
+    }
+
+    /// A window in another one, mapped.
+    pub(crate) fn open(&self, parent: Window) -> Window {
+        let id = self.connection.generate_id().expect("an id");
+        let about = CreateWindowAux::new().override_redirect(1);
+        let class = WindowClass::COPY_FROM_PARENT;
+        let made = self
+            .connection
+            .create_window(0, id, parent, 200, 200, 9, 9, 0, class, 0, &about);
+        made.expect("sent").check().expect("a window");
+        self.connection
+            .map_window(id)
+            .expect("sent")
+            .check()
+            .expect("mapped");
+        id
+    }
+
+    /// Gives a window the keys.
+    pub(crate) fn focus(&self, window: Window) {
+        let given =
+            self.connection
+                .set_input_focus(InputFocus::PARENT, window, x11rb::CURRENT_TIME);
+        given.expect("sent").check().expect("focus");
+    }
+
+    /// A window of the root by its name.
+    pub(crate) fn window(&self, name: &str) -> Option<Window> {
+        let named = |window: &Window| {
+            let property = (AtomEnum::WM_NAME, AtomEnum::STRING);
+            let cookie = self
+                .connection
+                .get_property(false, *window, property.0, property.1, 0, 99);
+            let value = cookie.expect("sent").reply();
+            value.is_ok_and(|found| found.value == name.as_bytes())
+        };
+        self.windows().into_iter().find(named)
+    }
+
+    /// What a window shows.
+    pub(crate) fn picture(&self, window: Window) -> RgbImage {
+        let about = self
+            .connection
+            .get_geometry(window)
+            .expect("sent")
+            .reply()
+            .expect("a window");
+        let (width, height) = (about.width, about.height);
+        let cookie =
+            self.connection
+                .get_image(ImageFormat::Z_PIXMAP, window, 0, 0, width, height, !0);
+        let data = cookie.expect("sent").reply().expect("a picture").data;
+        RgbImage::from_fn(width.into(), height.into(), |x, y| {
+            let at = 4 * (y as usize * usize::from(width) + x as usize);
+            Rgb([data[at + 2], data[at + 1], data[at]])
+        })
+    }
+}
