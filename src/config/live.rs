@@ -244,6 +244,7 @@ mod tests {
             "rows",
             "columns",
             "checker",
+            "quad",
             "rgbd",
             "anaglyph:red-cyan",
             "anaglyph:green-magenta-half",

@@ -8,6 +8,7 @@ mod copies;
 mod drawing;
 mod executed;
 mod explain;
+mod eyes;
 mod frame;
 mod framebuffer;
 mod frames;
