@@ -12,7 +12,7 @@ use std::os::unix::fs::{MetadataExt, PermissionsExt};
 use std::os::unix::net::UnixStream;
 use std::path::Path;
 use std::time::Duration;
-use support::{Compiled, Screen, bare, compiled, layered, own_screen, rgb, run};
+use support::{Compiled, Screen, bare, compiled, layered, library, own_screen, rgb, run};
 
 /// Cameras far enough apart to be seen in 96 pixels.
 const CAMERAS: [(&str, &str); 2] = [("SEPARATION", "0.03"), ("CONVERGENCE", "8")];
@@ -91,6 +91,54 @@ fn another_output_is_shown_as_if_started_with_it() {
         same(&captured, &started(&screen, &with, "output"), output);
     }
     same(&running.steady_window(), &panel, "panel again");
+    assert_eq!(running.end(), (Some(0), String::new()));
+}
+
+#[test]
+fn quad_is_not_for_a_window_without_stereo() {
+    let screen = own_screen();
+    let mut running = Running::controlled(&screen, &[("VIEWS", "3")]);
+    let (code, _, stderr) = running.ctl(&["set", "output", "quad", "hud-depth", "0.25"]);
+    assert_eq!(code, 2);
+    assert!(
+        stderr.contains("output is 'quad', but the window has no left and right buffer")
+            && stderr.contains("choose another output"),
+        "{stderr}"
+    );
+    assert_eq!(running.done(&["get", "output"]), "panel\n");
+    assert_eq!(running.done(&["get", "hud-depth"]), "0.0\n");
+    assert_eq!(running.end(), (Some(0), String::new()));
+    // Started with it, other values can be set.
+    let mut running = Running::controlled(&screen, &[("OUTPUT", "quad")]);
+    assert_eq!(running.done(&["get", "views"]), "2\n");
+    running.done(&["set", "hud-depth", "0.25"]);
+    running.done(&["set", "output", "half-sbs"]);
+    assert_eq!(running.ctl(&["set", "output", "quad"]).0, 2);
+    assert_eq!(running.end(), (Some(0), String::new()));
+}
+
+/// A library stands for a driver with stereo windows; X shows their left buffer.
+#[test]
+fn quad_goes_and_comes_back_where_the_window_has_stereo() {
+    let screen = own_screen();
+    let base = [&[("VIEWS", "3")][..], &CAMERAS[..]].concat();
+    let shown = |output| {
+        let with = [&base[..], &[("OUTPUT", output)]].concat();
+        Running::start(&screen, &with).steady_window()
+    };
+    let (first, beside) = (shown("view:0"), shown("half-sbs"));
+    let driver = compiled("stereo", Compiled::Library, &["-ldl"]);
+    let preload = format!("{}:{}", library().display(), driver.display());
+    let with = [&base[..], &[("CONTROL", "1"), ("OUTPUT", "quad")]].concat();
+    let mut command = layered(stays(), &with);
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut running = Running::start_in(folder, &screen, command.env("LD_PRELOAD", preload));
+    until("a socket", || running.socket().exists().then_some(()));
+    same(&running.steady_window(), &first, "the left eye");
+    running.done(&["set", "output", "half-sbs"]);
+    same(&running.steady_window(), &beside, "another output");
+    running.done(&["set", "output", "quad"]);
+    same(&running.steady_window(), &first, "the left eye again");
     assert_eq!(running.end(), (Some(0), String::new()));
 }
 

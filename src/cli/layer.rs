@@ -14,7 +14,7 @@ pub(crate) struct LayerArguments {
     /// Number of views, 1 to 256 [default: the panel's own]
     #[arg(long, value_name = "N", allow_hyphen_values = true)]
     views: Option<String>,
-    /// What the window shows: panel, quilt, sbs, half-sbs, tb, half-tb, rows, columns, checker, rgbd, anaglyph[:KIND] or view:I [default: panel]
+    /// What the window shows: panel, quilt, sbs, half-sbs, tb, half-tb, rows, columns, checker, quad, rgbd, anaglyph[:KIND] or view:I [default: panel]
     #[arg(long, value_name = "OUTPUT")]
     output: Option<String>,
     /// What a subpixel between two views shows on the panel: nearest, blend or gaussian [default: nearest]

@@ -347,6 +347,7 @@ mod tests {
             "rows",
             "columns",
             "checker",
+            "quad",
             "rgbd",
             "anaglyph:red-cyan",
             "anaglyph:green-magenta-half",

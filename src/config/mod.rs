@@ -126,6 +126,8 @@ pub enum Output {
     Interlaced(Interlace),
     /// Two eyes, through coloured glasses.
     Anaglyph(Anaglyph),
+    /// Two eyes, each with its own buffer of a stereo window.
+    Quad,
     /// The program's own view on the left, how near it is as grey on the right.
     Rgbd,
     /// One view.
@@ -137,7 +139,7 @@ impl Output {
     #[must_use]
     pub fn is_stereo(self) -> bool {
         match self {
-            Self::Interlaced(_) | Self::Anaglyph(_) | Self::TopBottom { .. } => true,
+            Self::Interlaced(_) | Self::Anaglyph(_) | Self::Quad | Self::TopBottom { .. } => true,
             Self::SideBySide { half } => half,
             Self::Panel | Self::Quilt | Self::Rgbd | Self::View(_) => false,
         }

@@ -117,7 +117,7 @@ pub const OPTIONS: &[OptionSpec] = &[
         "panel: a built-in name or a panel file; huebner8 unless given"),
     option!(Views, Some("views"), Some("views"), "MANYVIEW_VIEWS", "N", No,
         "number of views, 1 to 256; the panel's own unless given"),
-    option!(Output, Some("output"), Some("output"), "MANYVIEW_OUTPUT", "panel|quilt|sbs|half-sbs|tb|half-tb|rows|columns|checker|rgbd|anaglyph[:KIND]|view:I", No,
+    option!(Output, Some("output"), Some("output"), "MANYVIEW_OUTPUT", "panel|quilt|sbs|half-sbs|tb|half-tb|rows|columns|checker|quad|rgbd|anaglyph[:KIND]|view:I", No,
         "what the window shows; panel unless given"),
     option!(Filter, Some("filter"), Some("filter"), "MANYVIEW_FILTER", "nearest|blend|gaussian", No,
         "what a subpixel between two views shows on the panel; nearest unless given"),

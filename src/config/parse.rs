@@ -108,7 +108,7 @@ fn views(settings: &Settings, display: &Display, output: Output) -> Result<u32, 
     Ok(views)
 }
 
-const OUTPUT_CHOICES: &str = "panel, quilt, sbs, half-sbs, tb, half-tb, rows, columns, checker, rgbd, anaglyph:KIND and view:I, with KIND red-cyan, green-magenta or \
+const OUTPUT_CHOICES: &str = "panel, quilt, sbs, half-sbs, tb, half-tb, rows, columns, checker, quad, rgbd, anaglyph:KIND and view:I, with KIND red-cyan, green-magenta or \
                               amber-blue, and -half or -grey after it";
 
 const OUTPUTS: &[(&str, Output)] = &[
@@ -118,6 +118,7 @@ const OUTPUTS: &[(&str, Output)] = &[
     ("half-sbs", Output::SideBySide { half: true }),
     ("tb", Output::TopBottom { half: false }),
     ("half-tb", Output::TopBottom { half: true }),
+    ("quad", Output::Quad),
     ("rgbd", Output::Rgbd),
     ("rows", Output::Interlaced(Interlace::Rows)),
     ("columns", Output::Interlaced(Interlace::Columns)),

@@ -47,6 +47,7 @@ fn every_message_is_one_clear_sentence() {
         &[("MANYVIEW_VIEWS", "eight")],
         &[("MANYVIEW_OUTPUT", "anaglyph:blue")],
         &[("MANYVIEW_OUTPUT", "rows"), ("MANYVIEW_VIEWS", "1")],
+        &[("MANYVIEW_OUTPUT", "quad"), ("MANYVIEW_VIEWS", "1")],
         &[("MANYVIEW_FILTER", "smooth")],
         &[("MANYVIEW_FILTER", "blend"), ("MANYVIEW_VIEWS", "256")],
         &[("MANYVIEW_OUTPUT", "view:8")],

@@ -48,6 +48,11 @@ pub enum ControlError {
     /// A value that its option does not take.
     #[error(transparent)]
     Config(#[from] ConfigError),
+    /// The window has one buffer for both eyes.
+    #[error(
+        "output is 'quad', but the window has no left and right buffer (GL_STEREO); choose another output, such as anaglyph or half-sbs"
+    )]
+    NoStereo,
     /// A picture at a place that depends on who looks.
     #[error("'{}' is not an absolute path; begin it with /", .0.display())]
     RelativePath(PathBuf),

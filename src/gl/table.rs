@@ -4,7 +4,7 @@ use super::real::{Ptr, Real};
 use core::ffi::{CStr, c_ulong};
 
 /// Number of commands in the table.
-pub const COUNT: usize = 1253;
+pub const COUNT: usize = 1256;
 
 /// Index of each command in the table.
 pub mod slot {
@@ -1187,80 +1187,83 @@ pub mod slot {
     pub const glEnableVertexAttribArrayARB: usize = 1176;
     pub const glDisableVertexAttribArray: usize = 1177;
     pub const glDisableVertexAttribArrayARB: usize = 1178;
-    pub const glXSwapBuffers: usize = 1179;
-    pub const glXSwapBuffersMscOML: usize = 1180;
-    pub const glXMakeCurrent: usize = 1181;
-    pub const glXMakeContextCurrent: usize = 1182;
-    pub const glXMakeCurrentReadSGI: usize = 1183;
-    pub const glXCreateContext: usize = 1184;
-    pub const glXCreateNewContext: usize = 1185;
-    pub const glXCreateContextAttribsARB: usize = 1186;
-    pub const glXCreateContextWithConfigSGIX: usize = 1187;
-    pub const glXDestroyContext: usize = 1188;
-    pub const glXCreateWindow: usize = 1189;
-    pub const glXDestroyWindow: usize = 1190;
-    pub const glXGetProcAddress: usize = 1191;
-    pub const glXGetProcAddressARB: usize = 1192;
-    pub const glXQueryDrawable: usize = 1193;
-    pub const eglSwapBuffers: usize = 1194;
-    pub const eglSwapBuffersWithDamageKHR: usize = 1195;
-    pub const eglSwapBuffersWithDamageEXT: usize = 1196;
-    pub const eglMakeCurrent: usize = 1197;
-    pub const eglCreateContext: usize = 1198;
-    pub const eglDestroyContext: usize = 1199;
-    pub const eglReleaseThread: usize = 1200;
-    pub const eglGetDisplay: usize = 1201;
-    pub const eglGetPlatformDisplay: usize = 1202;
-    pub const eglGetPlatformDisplayEXT: usize = 1203;
-    pub const eglCreateWindowSurface: usize = 1204;
-    pub const eglCreatePlatformWindowSurface: usize = 1205;
-    pub const eglCreatePlatformWindowSurfaceEXT: usize = 1206;
-    pub const eglDestroySurface: usize = 1207;
-    pub const eglGetProcAddress: usize = 1208;
-    pub const eglQuerySurface: usize = 1209;
-    pub const eglQueryContext: usize = 1210;
-    pub const eglGetCurrentContext: usize = 1211;
-    pub const glXGetCurrentContext: usize = 1212;
-    pub const OSMesaMakeCurrent: usize = 1213;
-    pub const OSMesaCreateContext: usize = 1214;
-    pub const OSMesaCreateContextExt: usize = 1215;
-    pub const OSMesaCreateContextAttribs: usize = 1216;
-    pub const OSMesaDestroyContext: usize = 1217;
-    pub const OSMesaGetProcAddress: usize = 1218;
-    pub const glCopyImageSubData: usize = 1219;
-    pub const glGetString: usize = 1220;
-    pub const glGetStringi: usize = 1221;
-    pub const glGenQueries: usize = 1222;
-    pub const glTexImage2DMultisample: usize = 1223;
-    pub const glTexImage3DMultisample: usize = 1224;
-    pub const glCreateShader: usize = 1225;
-    pub const glShaderSource: usize = 1226;
-    pub const glCompileShader: usize = 1227;
-    pub const glGetShaderiv: usize = 1228;
-    pub const glGetShaderInfoLog: usize = 1229;
-    pub const glCreateProgram: usize = 1230;
-    pub const glAttachShader: usize = 1231;
-    pub const glLinkProgram: usize = 1232;
-    pub const glGetProgramiv: usize = 1233;
-    pub const glGetProgramInfoLog: usize = 1234;
-    pub const glDeleteShader: usize = 1235;
-    pub const glDeleteProgram: usize = 1236;
-    pub const glGetUniformLocation: usize = 1237;
-    pub const glFenceSync: usize = 1238;
-    pub const glClientWaitSync: usize = 1239;
-    pub const glDeleteSync: usize = 1240;
-    pub const glGetBufferSubData: usize = 1241;
-    pub const glGetUniformBlockIndex: usize = 1242;
-    pub const glUniformBlockBinding: usize = 1243;
-    pub const glBindBufferBase: usize = 1244;
-    pub const glBindBufferRange: usize = 1245;
-    pub const glGenBuffers: usize = 1246;
-    pub const glBindAttribLocation: usize = 1247;
-    pub const glProgramParameteri: usize = 1248;
-    pub const glGenVertexArrays: usize = 1249;
-    pub const glBindVertexArray: usize = 1250;
-    pub const glGenSamplers: usize = 1251;
-    pub const glBindSampler: usize = 1252;
+    pub const glXChooseVisual: usize = 1179;
+    pub const glXChooseFBConfig: usize = 1180;
+    pub const glXChooseFBConfigSGIX: usize = 1181;
+    pub const glXSwapBuffers: usize = 1182;
+    pub const glXSwapBuffersMscOML: usize = 1183;
+    pub const glXMakeCurrent: usize = 1184;
+    pub const glXMakeContextCurrent: usize = 1185;
+    pub const glXMakeCurrentReadSGI: usize = 1186;
+    pub const glXCreateContext: usize = 1187;
+    pub const glXCreateNewContext: usize = 1188;
+    pub const glXCreateContextAttribsARB: usize = 1189;
+    pub const glXCreateContextWithConfigSGIX: usize = 1190;
+    pub const glXDestroyContext: usize = 1191;
+    pub const glXCreateWindow: usize = 1192;
+    pub const glXDestroyWindow: usize = 1193;
+    pub const glXGetProcAddress: usize = 1194;
+    pub const glXGetProcAddressARB: usize = 1195;
+    pub const glXQueryDrawable: usize = 1196;
+    pub const eglSwapBuffers: usize = 1197;
+    pub const eglSwapBuffersWithDamageKHR: usize = 1198;
+    pub const eglSwapBuffersWithDamageEXT: usize = 1199;
+    pub const eglMakeCurrent: usize = 1200;
+    pub const eglCreateContext: usize = 1201;
+    pub const eglDestroyContext: usize = 1202;
+    pub const eglReleaseThread: usize = 1203;
+    pub const eglGetDisplay: usize = 1204;
+    pub const eglGetPlatformDisplay: usize = 1205;
+    pub const eglGetPlatformDisplayEXT: usize = 1206;
+    pub const eglCreateWindowSurface: usize = 1207;
+    pub const eglCreatePlatformWindowSurface: usize = 1208;
+    pub const eglCreatePlatformWindowSurfaceEXT: usize = 1209;
+    pub const eglDestroySurface: usize = 1210;
+    pub const eglGetProcAddress: usize = 1211;
+    pub const eglQuerySurface: usize = 1212;
+    pub const eglQueryContext: usize = 1213;
+    pub const eglGetCurrentContext: usize = 1214;
+    pub const glXGetCurrentContext: usize = 1215;
+    pub const OSMesaMakeCurrent: usize = 1216;
+    pub const OSMesaCreateContext: usize = 1217;
+    pub const OSMesaCreateContextExt: usize = 1218;
+    pub const OSMesaCreateContextAttribs: usize = 1219;
+    pub const OSMesaDestroyContext: usize = 1220;
+    pub const OSMesaGetProcAddress: usize = 1221;
+    pub const glCopyImageSubData: usize = 1222;
+    pub const glGetString: usize = 1223;
+    pub const glGetStringi: usize = 1224;
+    pub const glGenQueries: usize = 1225;
+    pub const glTexImage2DMultisample: usize = 1226;
+    pub const glTexImage3DMultisample: usize = 1227;
+    pub const glCreateShader: usize = 1228;
+    pub const glShaderSource: usize = 1229;
+    pub const glCompileShader: usize = 1230;
+    pub const glGetShaderiv: usize = 1231;
+    pub const glGetShaderInfoLog: usize = 1232;
+    pub const glCreateProgram: usize = 1233;
+    pub const glAttachShader: usize = 1234;
+    pub const glLinkProgram: usize = 1235;
+    pub const glGetProgramiv: usize = 1236;
+    pub const glGetProgramInfoLog: usize = 1237;
+    pub const glDeleteShader: usize = 1238;
+    pub const glDeleteProgram: usize = 1239;
+    pub const glGetUniformLocation: usize = 1240;
+    pub const glFenceSync: usize = 1241;
+    pub const glClientWaitSync: usize = 1242;
+    pub const glDeleteSync: usize = 1243;
+    pub const glGetBufferSubData: usize = 1244;
+    pub const glGetUniformBlockIndex: usize = 1245;
+    pub const glUniformBlockBinding: usize = 1246;
+    pub const glBindBufferBase: usize = 1247;
+    pub const glBindBufferRange: usize = 1248;
+    pub const glGenBuffers: usize = 1249;
+    pub const glBindAttribLocation: usize = 1250;
+    pub const glProgramParameteri: usize = 1251;
+    pub const glGenVertexArrays: usize = 1252;
+    pub const glBindVertexArray: usize = 1253;
+    pub const glGenSamplers: usize = 1254;
+    pub const glBindSampler: usize = 1255;
 }
 
 /// Name of each command.
@@ -2444,6 +2447,9 @@ pub static NAMES: [&CStr; COUNT] = [
     c"glEnableVertexAttribArrayARB",
     c"glDisableVertexAttribArray",
     c"glDisableVertexAttribArrayARB",
+    c"glXChooseVisual",
+    c"glXChooseFBConfig",
+    c"glXChooseFBConfigSGIX",
     c"glXSwapBuffers",
     c"glXSwapBuffersMscOML",
     c"glXMakeCurrent",
@@ -3700,6 +3706,9 @@ real_functions! {
     glEnableVertexAttribArrayARB(index: u32);
     glDisableVertexAttribArray(index: u32);
     glDisableVertexAttribArrayARB(index: u32);
+    glXChooseVisual(dpy: Ptr, screen: i32, attribs: Ptr) -> Ptr = core::ptr::null_mut();
+    glXChooseFBConfig(dpy: Ptr, screen: i32, attribs: Ptr, count: Ptr) -> Ptr = core::ptr::null_mut();
+    glXChooseFBConfigSGIX(dpy: Ptr, screen: i32, attribs: Ptr, count: Ptr) -> Ptr = core::ptr::null_mut();
     glXSwapBuffers(dpy: Ptr, drawable: c_ulong);
     glXSwapBuffersMscOML(dpy: Ptr, drawable: c_ulong, target_msc: i64, divisor: i64, remainder: i64) -> i64 = 0;
     glXMakeCurrent(dpy: Ptr, drawable: c_ulong, ctx: Ptr) -> i32 = 0;

@@ -51,6 +51,8 @@ impl<'a> Form<'a> {
             Output::Quilt => Self::Layout(Layout::quilt(config.views, config.display.facts.quilt)),
             Output::View(view) => Self::Layout(Layout::View(view)),
             Output::Anaglyph(anaglyph) => Self::Anaglyph(anaglyph),
+            // The left eye's; the right one's is shown beside it, in another buffer.
+            Output::Quad => Self::Layout(Layout::View(0)),
             Output::Rgbd => Self::Rgbd,
         }
     }

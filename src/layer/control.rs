@@ -66,6 +66,10 @@ impl Layer {
         match order {
             Order::Set(changes) => {
                 let live = self.live.with(self.config, &changes, self.rig.latched())?;
+                let chosen = live.output != self.live.output;
+                if chosen && live.output == Output::Quad && !self.state.window.stereo {
+                    return Err(ControlError::NoStereo);
+                }
                 self.adopt(live);
                 Ok(Ok(Answer::Values(self.values())))
             }

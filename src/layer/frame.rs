@@ -68,19 +68,28 @@ impl Layer {
             top_down: self.atlas.flipped,
             srgb: self.state.window.srgb,
         };
+        let pictures = self.pictures(output, image);
         let glass = Glass {
             display: self.fitted.as_ref().unwrap_or(&self.config.display),
             placement: self.placement(),
         };
-        if let Err(e) = self.interleaver.draw(
-            gl,
-            self.config,
-            &source,
-            &mut |view| tile(gl, &self.atlas, view),
-            output,
-            &glass,
-        ) {
-            self.report.note(e);
+        for (buffer, output) in pictures {
+            if let Some(buffer) = buffer {
+                gl.draw_buffer(buffer);
+            }
+            if let Err(e) = self.interleaver.draw(
+                gl,
+                self.config,
+                &source,
+                &mut |view| tile(gl, &self.atlas, view),
+                output,
+                &glass,
+            ) {
+                self.report.note(e);
+            }
+            if buffer.is_some() {
+                gl.draw_buffer(self.state.window.default_buffer);
+            }
         }
         self.capture(gl, &source);
         self.follow_depths(gl);
@@ -197,27 +206,27 @@ impl Layer {
             }
             _ => wanted.path_for(frame),
         };
-        let views = || -> Vec<RgbImage> {
-            (0..self.config.views)
-                .map(|v| tile(gl, &self.atlas, v))
-                .collect()
-        };
+        let last = self.config.views - 1;
         // Layouts are written at the full size of their tiles, whatever the window's size.
-        let whole = |layout: Layout| {
+        let whole = |views: &[u32], layout: Layout| {
             let size = layout.native_size(
-                self.config.views,
+                views.len() as u32,
                 (self.atlas.tiles.width, self.atlas.tiles.height),
             );
-            reference::arrange(&views(), layout, size)
+            let views: Vec<_> = views.iter().map(|&v| tile(gl, &self.atlas, v)).collect();
+            reference::arrange(&views, layout, size)
                 .map_err(|e| e.to_string())
                 .and_then(|i| capture::write(&i, &path))
         };
+        let all: Vec<u32> = (0..self.config.views).collect();
+        let row = Layout::SideBySide { half: false };
         let written = match wanted.what {
+            CaptureWhat::Output if self.output() == Output::Quad => whole(&[0, last], row),
             CaptureWhat::Output => match form {
-                Form::Layout(layout) => whole(layout),
+                Form::Layout(layout) => whole(&all, layout),
                 Form::Rgbd => {
                     let own = tile(gl, &self.atlas, source.tiles.own());
-                    let size = Layout::SideBySide { half: false }.native_size(2, own.dimensions());
+                    let size = row.native_size(2, own.dimensions());
                     rgbd(&own, &self.own_depth(gl), size)
                         .map_err(|e| e.to_string())
                         .and_then(|i| capture::write(&i, &path))
@@ -227,7 +236,7 @@ impl Layer {
                     capture::write(&capture::read_rgb(gl, 0, 0, width, height), &path)
                 }
             },
-            CaptureWhat::Atlas => whole(Layout::SideBySide { half: false }),
+            CaptureWhat::Atlas => whole(&all, row),
             CaptureWhat::View(v) => capture::write(&tile(gl, &self.atlas, v), &path),
             CaptureWhat::Depth => {
                 self.atlas.resolve(gl, true, c::DEPTH_BUFFER_BIT);

@@ -9,6 +9,7 @@ mod copies;
 mod drawing;
 mod executed;
 mod explain;
+mod eyes;
 mod frame;
 mod framebuffer;
 mod frames;

@@ -191,6 +191,7 @@ mod tests {
             width: 640,
             height: 480,
             double_buffered: true,
+            stereo: false,
             bits: [8, 8, 8, 0, 24, 8],
             samples: 0,
             srgb_capable: false,

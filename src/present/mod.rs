@@ -3,5 +3,7 @@
 
 pub mod capture;
 mod saved;
+mod stereo;
 
 pub use saved::Saved;
+pub use stereo::Attributes;

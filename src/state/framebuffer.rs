@@ -11,6 +11,8 @@ pub struct Window {
     pub height: u32,
     /// Has a back buffer.
     pub double_buffered: bool,
+    /// Has a left and a right buffer.
+    pub stereo: bool,
     /// Bits of red, green, blue, alpha, depth, stencil.
     pub bits: [u32; 6],
     /// Samples per pixel, 0 for none.
@@ -76,6 +78,7 @@ impl Window {
             width,
             height,
             double_buffered,
+            stereo: gl.get_integer(c::STEREO) != 0,
             accumulation: match compatibility {
                 true => [0, 1, 2, 3].map(|i| bit(c::ACCUM_RED_BITS + i)),
                 false => [0; 4],

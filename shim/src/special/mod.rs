@@ -10,10 +10,12 @@ mod drawing;
 mod framebuffer;
 mod queries;
 mod state;
+mod visuals;
 mod window;
 
 pub(crate) use drawing::*;
 pub(crate) use framebuffer::*;
 pub(crate) use queries::*;
 pub(crate) use state::*;
+pub(crate) use visuals::*;
 pub(crate) use window::*;

@@ -3,7 +3,7 @@
 
 enum { WIDTH = 96, HEIGHT = 64 };
 
-static void bars(void)
+static inline void bars(void)
 {
     glClearColor(0.1f, 0.2f, 0.3f, 1);
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);

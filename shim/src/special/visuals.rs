@@ -1,0 +1,46 @@
+//! What a program asks of its window, under GLX: one with a left and a right buffer too, where the output shows both.
+
+use crate::context::guarded;
+use crate::provider::Provider;
+use crate::switch::{self, Mode};
+use manyview_core::config::Output;
+use manyview_core::gl::Ptr;
+use manyview_core::present::Attributes;
+
+/// The program's list with a stereo window asked for as well, where that changes something.
+///
+/// # Safety
+/// A list as GLX takes it, or null.
+unsafe fn with_stereo(kind: Attributes, attribs: Ptr) -> Option<Vec<i32>> {
+    let quad = switch::config().is_some_and(|config| config.output == Output::Quad);
+    if !quad || switch::mode() != Mode::Active {
+        return None;
+    }
+    if attribs.is_null() {
+        // glXChooseFBConfig takes that for an empty list, glXChooseVisual has to be asked.
+        return (kind == Attributes::Config)
+            .then(|| kind.with_stereo([]))
+            .flatten();
+    }
+    let list = attribs.cast::<i32>();
+    // SAFETY: read one by one up to the end of the list, which it has (contract).
+    kind.with_stereo((0..).map(|i| unsafe { list.add(i).read() }))
+}
+
+/// Asks the driver for a stereo window, and where it has none for what the program wants.
+macro_rules! choose {
+    ($name:ident($($count:ident)?), $kind:expr) => {
+        pub(crate) unsafe fn $name(dpy: Ptr, screen: i32, attribs: Ptr $(, $count: Ptr)?) -> Ptr {
+            // SAFETY: the program's own call, with its own list or a longer one that ends as it should.
+            let ask = |list: Ptr| guarded(|| unsafe { Provider::Gl.real().$name(dpy, screen, list $(, $count)?) });
+            // SAFETY: the program's list.
+            let stereo = unsafe { with_stereo($kind, attribs) };
+            let found = stereo.map(|mut list| ask(list.as_mut_ptr().cast()));
+            found.filter(|found| !found.is_null()).unwrap_or_else(|| ask(attribs))
+        }
+    };
+}
+
+choose!(glXChooseVisual(), Attributes::Visual);
+choose!(glXChooseFBConfig(count), Attributes::Config);
+choose!(glXChooseFBConfigSGIX(count), Attributes::Config);

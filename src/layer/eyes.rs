@@ -1,0 +1,34 @@
+//! What is drawn to which buffer of the true framebuffer 0: a stereo window has one for each eye.
+
+use super::Layer;
+use crate::config::Output;
+use crate::gl::consts as c;
+use crate::state::FRONT;
+
+const NO_STEREO: &str = "output is 'quad', but the window has no left and right buffer (GL_STEREO, which no window of EGL has): the first view is shown; \
+                         choose another output, such as anaglyph or half-sbs";
+
+impl Layer {
+    /// The buffers of an output with what each of them shows; none is the buffer that is drawn to already. `image` is the one of the
+    /// atlas that is shown.
+    pub(super) fn pictures(&mut self, output: Output, image: u32) -> Vec<(Option<u32>, Output)> {
+        let window = &self.state.window;
+        if output != Output::Quad {
+            return vec![(None, output)];
+        }
+        if !window.stereo {
+            self.report.note(NO_STEREO.into());
+            return vec![(None, Output::View(0))];
+        }
+        let [left, right] = if image == FRONT || !window.double_buffered {
+            [c::FRONT_LEFT, c::FRONT_RIGHT]
+        } else {
+            [c::BACK_LEFT, c::BACK_RIGHT]
+        };
+        let last = self.config.views - 1;
+        vec![
+            (Some(left), Output::View(0)),
+            (Some(right), Output::View(last)),
+        ]
+    }
+}

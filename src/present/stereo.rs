@@ -1,0 +1,155 @@
+//! Windows with a left and a right buffer: what a program's list of GLX attributes has to say to get one.
+
+/// GLX_STEREO
+const STEREO: i32 = 6;
+
+/// How a list of GLX attributes is written. Both end with 0 where an attribute could stand.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Attributes {
+    /// glXChooseVisual: some are wanted where their name stands, the others have a value.
+    Visual,
+    /// glXChooseFBConfig: each has a value.
+    Config,
+}
+
+impl Attributes {
+    fn has_value(self, name: i32) -> bool {
+        // GLX_USE_GL, GLX_RGBA, GLX_DOUBLEBUFFER, GLX_STEREO
+        self == Self::Config || ![1, 4, 5, STEREO].contains(&name)
+    }
+
+    /// A program's list with a stereo window asked for as well; `None` where the program asks for one itself. Nothing is read of
+    /// `list` after its end.
+    pub fn with_stereo(self, list: impl IntoIterator<Item = i32>) -> Option<Vec<i32>> {
+        let mut list = list.into_iter();
+        let mut changed = Vec::new();
+        let mut asked = false;
+        while let Some(name) = list.next().filter(|&name| name != 0) {
+            let value = if self.has_value(name) {
+                list.next()
+            } else {
+                None
+            };
+            if name == STEREO {
+                // Of two values GLX takes the last.
+                asked = value.is_none_or(|value| value == 1);
+                continue;
+            }
+            changed.push(name);
+            changed.extend(value);
+        }
+        changed.push(STEREO);
+        if self.has_value(STEREO) {
+            changed.push(1);
+        }
+        changed.push(0);
+        (!asked).then_some(changed)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Attributes::{Config, Visual};
+    use super::*;
+
+    const USE_GL: i32 = 1;
+    const BUFFER_SIZE: i32 = 2;
+    const LEVEL: i32 = 3;
+    const RGBA: i32 = 4;
+    const DOUBLEBUFFER: i32 = 5;
+    const RED_SIZE: i32 = 8;
+    const DEPTH_SIZE: i32 = 12;
+    const DRAWABLE_TYPE: i32 = 0x8010;
+    const DONT_CARE: i32 = -1;
+
+    /// The lists of programs go on in memory that is not theirs.
+    fn changed(kind: Attributes, list: &[i32]) -> Option<Vec<i32>> {
+        let beyond = std::iter::from_fn(|| panic!("read past its end"));
+        kind.with_stereo(list.iter().copied().chain(beyond))
+    }
+
+    #[test]
+    fn an_empty_list_asks_for_stereo_alone() {
+        assert_eq!(changed(Visual, &[0]), Some(vec![STEREO, 0]));
+        assert_eq!(changed(Config, &[0]), Some(vec![STEREO, 1, 0]));
+        // Where a program gives glXChooseFBConfig no list at all.
+        assert_eq!(Config.with_stereo([]), Some(vec![STEREO, 1, 0]));
+    }
+
+    #[test]
+    fn what_a_program_asks_for_stays() {
+        assert_eq!(
+            changed(
+                Visual,
+                &[RGBA, DEPTH_SIZE, 16, DOUBLEBUFFER, RED_SIZE, 8, 0]
+            ),
+            Some(vec![
+                RGBA,
+                DEPTH_SIZE,
+                16,
+                DOUBLEBUFFER,
+                RED_SIZE,
+                8,
+                STEREO,
+                0
+            ])
+        );
+        assert_eq!(
+            changed(
+                Config,
+                &[DOUBLEBUFFER, 1, DRAWABLE_TYPE, 1, DEPTH_SIZE, 16, 0]
+            ),
+            Some(vec![
+                DOUBLEBUFFER,
+                1,
+                DRAWABLE_TYPE,
+                1,
+                DEPTH_SIZE,
+                16,
+                STEREO,
+                1,
+                0
+            ])
+        );
+    }
+
+    #[test]
+    fn a_value_is_neither_an_end_nor_a_name() {
+        // GLX_LEVEL 0 is not the end, a depth or a size of 6 bits is not GLX_STEREO.
+        for list in [
+            vec![USE_GL, LEVEL, 0, DEPTH_SIZE, STEREO, RGBA, 0],
+            vec![BUFFER_SIZE, STEREO, 0],
+        ] {
+            let mut expected = list.clone();
+            expected.insert(list.len() - 1, STEREO);
+            assert_eq!(changed(Visual, &list), Some(expected));
+        }
+        let list = [DOUBLEBUFFER, 0, DEPTH_SIZE, STEREO, 0];
+        assert_eq!(
+            changed(Config, &list),
+            Some(vec![DOUBLEBUFFER, 0, DEPTH_SIZE, STEREO, STEREO, 1, 0])
+        );
+    }
+
+    #[test]
+    fn a_program_that_asks_itself_gets_its_own_list() {
+        assert_eq!(changed(Visual, &[RGBA, STEREO, DEPTH_SIZE, 1, 0]), None);
+        assert_eq!(changed(Visual, &[STEREO, 0]), None);
+        assert_eq!(changed(Config, &[STEREO, 1, DEPTH_SIZE, 1, 0]), None);
+        assert_eq!(changed(Config, &[STEREO, 0, STEREO, 1, 0]), None);
+    }
+
+    #[test]
+    fn a_program_that_wants_none_or_either_gets_stereo() {
+        for value in [0, DONT_CARE] {
+            assert_eq!(
+                changed(Config, &[STEREO, value, DEPTH_SIZE, 1, 0]),
+                Some(vec![DEPTH_SIZE, 1, STEREO, 1, 0])
+            );
+        }
+        assert_eq!(
+            changed(Config, &[STEREO, 1, STEREO, DONT_CARE, 0]),
+            Some(vec![STEREO, 1, 0])
+        );
+    }
+}
