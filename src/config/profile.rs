@@ -176,7 +176,12 @@ pub fn beside(library: &Path) -> Option<PathBuf> {
 #[must_use]
 pub fn this_program() -> Option<String> {
     let path = std::env::current_exe().ok()?;
-    Some(path.file_name()?.to_string_lossy().into_owned())
+    Some(program_name(&path.file_name()?.to_string_lossy()).to_owned())
+}
+
+/// Without what Linux appends to the name of a program that has been replaced since it was started, as updates do.
+pub(super) fn program_name(link: &str) -> &str {
+    link.strip_suffix(" (deleted)").unwrap_or(link)
 }
 
 /// The profiles in a folder, in the order of their names.
