@@ -9906,13 +9906,13 @@ export! { 583, glProvokingVertexEXT, first_glProvokingVertexEXT, hook_glProvokin
     unsafe { gl.glProvokingVertexEXT(mode) };
 } }
 export! { 584, glClipControl, first_glClipControl, hook_glClipControl, (origin: u32, depth: u32) -> (), {
-    hooks::touch(Touch::FIXED);
+    hooks::touch(Touch::FIXED | Touch::RANGE);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glClipControl(origin, depth) };
 } }
 export! { 585, glClipControlEXT, first_glClipControlEXT, hook_glClipControlEXT, (origin: u32, depth: u32) -> (), {
-    hooks::touch(Touch::FIXED);
+    hooks::touch(Touch::FIXED | Touch::RANGE);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glClipControlEXT(origin, depth) };

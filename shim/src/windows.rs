@@ -76,16 +76,30 @@ pub(crate) fn egl_display(display: Ptr, platform: u32, native: Ptr) {
     windows.displays.push((display as usize, native));
 }
 
+/// Whether there is memory at an address: programs give EGL numbers as displays too.
+fn is_mapped(address: Ptr) -> bool {
+    // SAFETY: sysconf has no conditions.
+    let page = unsafe { libc::sysconf(libc::_SC_PAGESIZE) } as usize;
+    let start = address as usize & !page.wrapping_sub(1);
+    let mut resident = 0u8;
+    // SAFETY: the address is only asked about; one page has one byte of answer.
+    let known = unsafe { libc::mincore(start as Ptr, 1, &raw mut resident) };
+    start != 0 && known == 0
+}
+
 /// Whether an untyped native display is one of X, told as Mesa does: by EGL_PLATFORM, else because it does not begin as those of
 /// Wayland and GBM do.
 ///
 /// # Safety
-/// At least one pointer can be read there.
+/// Nobody takes away the memory that is there, if some is.
 unsafe fn is_xlib(native: Ptr) -> bool {
     if let Some(platform) = std::env::var_os("EGL_PLATFORM") {
         return platform == "x11";
     }
-    // SAFETY: forwarded.
+    if !is_mapped(native) {
+        return false;
+    }
+    // SAFETY: forwarded, and something is there.
     let first = unsafe { native.cast::<Ptr>().read_unaligned() };
     let others: [(&CStr, &CStr); 2] = [
         (c"libwayland-client.so.0", c"wl_display_interface"),

@@ -55,10 +55,13 @@ impl Atlas {
     /// Takes a picture of the depths as they are now; false where there is room for no more. Changes the framebuffer bindings;
     /// state must be as [`crate::present::Saved::take`] leaves it.
     pub fn take_depths(&mut self, gl: &Gl) -> bool {
+        if self.depths.as_ref().is_none_or(|d| d.taken == PICTURES) {
+            return false;
+        }
         self.resolve(gl, true, c::DEPTH_BUFFER_BIT);
         let (from, x) = self.readable(self.tiles.own());
         let window = [self.tiles.width, self.tiles.height].map(|n| n as i32);
-        let Some(depths) = self.depths.as_mut().filter(|d| d.taken < PICTURES) else {
+        let Some(depths) = &mut self.depths else {
             return false;
         };
         depths.small.shrink(gl, from, x, window);

@@ -313,6 +313,15 @@ pub(super) fn camera(settings: &Settings) -> Result<Camera, ConfigError> {
     }
     let given = |id| settings.field(id).map(number).transpose();
     if measured {
+        if let (Some((field, value)), None) =
+            (settings.field(Convergence), settings.field(Separation))
+            && number((field.clone(), value))? <= 0.0
+        {
+            return Err(ConfigError::NotPositive {
+                field,
+                value: value.to_owned(),
+            });
+        }
         let kept = match (
             given(Separation)?,
             given(Convergence)?,

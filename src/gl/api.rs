@@ -130,7 +130,6 @@ impl Gl {
         gen_framebuffer = glGenFramebuffers, Framebuffer;
         gen_query = glGenQueries, Query;
         gen_vertex_array = glGenVertexArrays, VertexArray;
-        gen_buffer = glGenBuffers, Buffer;
     }
 
     /// glIsEnabled

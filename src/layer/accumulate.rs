@@ -25,16 +25,15 @@ impl Layer {
     /// glClear; `call` is the program's own.
     pub fn clear(&mut self, gl: &Gl, mask: u32, call: &mut dyn FnMut()) {
         let accumulation = mask & c::ACCUM_BUFFER_BIT != 0 && mask & !BUFFERS == 0;
-        if !accumulation {
-            return self.draw(gl, Kind::Clear, call);
-        }
-        if self.compiles() {
+        if accumulation && self.compiles() {
             self.compile(gl, Command::Of(Run::ClearAll), Touch::NONE);
             call();
             return self.compiled_names(&[mask]);
         }
+        self.clears_depths(mask & c::DEPTH_BUFFER_BIT != 0);
         self.draw(gl, Kind::Clear, call);
-        if self.accumulates(gl) {
+        self.clears_depths(true);
+        if accumulation && self.accumulates(gl) {
             let values = gl.get_floats(c::ACCUM_CLEAR_VALUE);
             self.accumulate(gl, Operation::Clear(values));
         }

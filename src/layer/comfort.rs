@@ -1,7 +1,7 @@
 //! Cameras by what is in the depth buffer, and what disparities there are: which depths are looked at, and when.
 
 use super::{Layer, keep_bindings};
-use crate::config::{Camera, Class, Config, DepthState};
+use crate::config::{Camera, Class, Config, DepthState, Viewport};
 use crate::display::Budget;
 use crate::gl::{Gl, consts as c};
 use crate::plan::depths::{Distances, Way};
@@ -16,8 +16,8 @@ pub(super) struct Comfort {
     /// Depths are looked at: the cameras go by them, or the report tells of them.
     on: bool,
     reported: bool,
-    /// Whether the driver has glClipControl, once it was asked.
-    clip_control: Option<bool>,
+    /// There are views to differ.
+    several: bool,
     cameras: comfort::Comfort,
     /// Found, and in force from the next frame on.
     next: Option<(f64, f64)>,
@@ -28,11 +28,15 @@ pub(super) struct Comfort {
     pending: bool,
     /// The last projection of the frame's scene.
     projection: Option<[f32; 16]>,
+    /// The clear that is made leaves the depths alone.
+    shallow: bool,
     /// Something flat has written depths since the scene.
     spoilt: bool,
     /// Pictures of this frame, and those of the one before that were not read yet.
     taken: Vec<Taken>,
     sent: Vec<Taken>,
+    /// Those were taken for other cameras, an unknown time ago.
+    stale: bool,
 }
 
 /// What belongs to one picture of depths.
@@ -52,16 +56,18 @@ impl Comfort {
         let mut comfort = Comfort {
             on: false,
             reported: config.report.is_some(),
-            clip_control: None,
+            several: config.views > 1,
             cameras: comfort::Comfort::new(None),
             next: None,
             ways: Ways::default(),
             begun: false,
             pending: false,
             projection: None,
+            shallow: false,
             spoilt: false,
             taken: Vec::new(),
             sent: Vec::new(),
+            stale: false,
         };
         comfort.change(camera);
         comfort
@@ -72,11 +78,13 @@ impl Comfort {
         let measured = match camera {
             Camera::Measured(kept) => {
                 self.cameras = comfort::Comfort::new(kept);
+                self.next = None;
+                self.stale = !self.sent.is_empty();
                 true
             }
             _ => false,
         };
-        self.on = measured || self.reported;
+        self.on = self.several && (measured || self.reported);
     }
 }
 
@@ -91,6 +99,7 @@ impl Layer {
         }
         match (kind, classed.class) {
             (Kind::Accum, _) | (_, Class::OffScreen) => {}
+            (Kind::Clear, _) if self.comfort.shallow => {}
             (Kind::Clear, _) => {
                 self.save_depths(gl);
                 // A part of the window that is cleared has a picture of its own.
@@ -111,19 +120,25 @@ impl Layer {
             }
             (_, Class::Scene) => {
                 self.state.look(gl, Touch::RANGE | Touch::DEPTH);
-                self.comfort.projection = Some(self.state.projection);
+                let viewport = self.state.viewport_kind();
+                if viewport == Viewport::Main && kind != Kind::Pixels {
+                    self.comfort.projection = Some(self.state.projection);
+                }
                 if self.state.look.depth != DepthState::On {
                     return;
                 }
-                let zero_to_one = self.zero_to_one(gl);
-                let p = &self.state.projection;
-                if let Some(ramp) = Ramp::of(p, self.state.look.depths, zero_to_one) {
-                    let viewport = self.state.viewport_kind();
-                    self.comfort.pending |= viewport == crate::config::Viewport::Main;
+                let (p, look) = (&self.state.projection, &self.state.look);
+                if let Some(ramp) = Ramp::of(p, look.depths, look.zero_to_one) {
+                    self.comfort.pending |= viewport == Viewport::Main;
                     self.comfort.ways.drawn(ramp, p, classed.focal, viewport);
                 }
             }
         }
+    }
+
+    /// Whether the clears that follow clear depths; they do unless somebody says.
+    pub(super) fn clears_depths(&mut self, clears: bool) {
+        self.comfort.shallow = !clears;
     }
 
     /// Looks at the depths of the frame before, if they are there already: with a driver that is a frame behind they are not, and
@@ -146,14 +161,6 @@ impl Layer {
                 self.rig.place_by(cameras, farthest);
             }
         }
-    }
-
-    /// Whether normalised depths begin at 0.
-    pub(super) fn zero_to_one(&mut self, gl: &Gl) -> bool {
-        let there = self.comfort.clip_control.get_or_insert_with(|| {
-            gl.version() >= (4, 5) || gl.has_extension("GL_ARB_clip_control")
-        });
-        *there && gl.get_integer(c::CLIP_DEPTH_MODE) as u32 == c::ZERO_TO_ONE
     }
 
     /// Within a frame, before what is about to be drawn or cleared.
@@ -222,7 +229,7 @@ impl Layer {
         }
         if measured
             && self.comfort.next.is_none()
-            && let Some(p) = self.comfort.projection
+            && let Some(p) = self.comfort.projection.filter(|p| !parallax::flat(p))
         {
             let (_, scale) = parallax::lens(&p);
             let planes = parallax::planes(&p).map(|distance| distance * scale);
@@ -244,7 +251,8 @@ impl Layer {
         }
         let pictures = self.atlas.read_depths(gl);
         // The atlas is another one since the window has another size.
-        if pictures.len() != sent.len() {
+        let stale = std::mem::take(&mut self.comfort.stale);
+        if stale || pictures.len() != sent.len() {
             return;
         }
         let mut all = Distances::default();
@@ -282,9 +290,14 @@ impl Layer {
     fn find_cameras(&mut self, p: &[f32; 16], seen: &comfort::Seen) {
         if let Camera::Measured(_) = self.live.camera {
             let (budget, lens) = (self.budget(), parallax::lens(p));
+            // A projection that turns the picture by a right angle has no A to measure by.
+            let orthoscopic = match (lens.0 * budget.neighbours).abs() {
+                0.0 => f64::INFINITY,
+                separation => separation,
+            };
             let limits = comfort::Limits {
                 budget: budget.px / self.half_width(),
-                orthoscopic: lens.0 * budget.neighbours,
+                orthoscopic,
                 lens,
             };
             self.comfort.next = self.comfort.cameras.follow(seen, &limits);

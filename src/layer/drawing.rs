@@ -186,9 +186,9 @@ impl Layer {
         if classed.class == Class::Scene {
             self.rig.latch(&self.state.projection);
             if self.output() == Output::Rgbd && self.frame.nearer_is_larger.is_none() {
-                let range = gl.get_floats(c::DEPTH_RANGE);
-                let zero_to_one = self.zero_to_one(gl);
-                let ramp = Ramp::of(&self.state.projection, range, zero_to_one);
+                self.state.look(gl, Touch::RANGE);
+                let look = &self.state.look;
+                let ramp = Ramp::of(&self.state.projection, look.depths, look.zero_to_one);
                 self.frame.nearer_is_larger = ramp.map(|ramp| ramp.nearer_is_larger());
             }
         }

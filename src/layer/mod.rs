@@ -121,6 +121,7 @@ impl Layer {
             Window::ask(gl, width, height, support.compatibility),
             support.compatibility,
         );
+        state.clip_control = gl.version() >= (4, 5) || gl.has_extension("GL_ARB_clip_control");
         state.keep_errors(gl);
         let mut names = Names::default();
         let atlas = make_atlas(gl, &mut names, config, &state, &support)?;
@@ -231,7 +232,7 @@ impl Layer {
     pub fn owns_framebuffer(&self, name: u32) -> bool {
         let accumulation = self.accumulated.buffer.as_ref();
         name != 0
-            && (self.atlas.targets().any(|t| t == name)
+            && (self.atlas.framebuffers().any(|t| t == name)
                 || accumulation.is_some_and(|a| a.framebuffer() == name))
     }
 

@@ -6,7 +6,7 @@
 //! near suddenly comes before it.
 //!
 //! Cameras that follow every frame's depths would make the scene breathe. They move only when the scene has changed by
-//! [`SLACK`], then slowly outwards and faster inwards, and at once only where a disparity would come near the end of the budget: the
+//! an eighth, then slowly outwards and faster inwards, and at once only where a disparity would come near the end of the budget: the
 //! convergence first, which leaves the depth of the scene as it is.
 
 use crate::config::Kept;
@@ -18,6 +18,9 @@ const BEFORE: f64 = 0.25;
 /// Parts of it that the last measured depths never leave.
 const LIMIT_BEHIND: f64 = 0.9;
 const LIMIT_BEFORE: f64 = 0.5;
+/// The separation at most, in budgets: what is infinitely far has so much. A scene of little depth gets more than one, until
+/// something appears behind it.
+const MOST: f64 = 4.0;
 /// Change of separation or convergence, as a logarithm, from which the cameras move, and at which they stop.
 const SLACK: f64 = 0.12;
 const ARRIVED: f64 = 0.01;
@@ -98,6 +101,11 @@ impl Comfort {
             let apart = |from: f64, to: f64| (to / from).ln();
             let (ds, dc) = (apart(s, separation), apart(c, convergence));
             let most = ds.abs().max(dc.abs());
+            // From or to nothing there is no way.
+            if !most.is_finite() {
+                self.cameras = Some(goal);
+                return self.cameras;
+            }
             self.moving = most > if self.moving { ARRIVED } else { SLACK };
             let (step, along) = match self.moving {
                 false => (0.0, 0.0),
@@ -166,7 +174,8 @@ impl Comfort {
             let [behind, before] = seen.reach(convergence);
             let behind = behind.max(1.0 - convergence * far);
             let most = (BEHIND / behind).min(BEFORE / before);
-            (most * limits.budget).min(limits.orthoscopic)
+            let most = most.min(MOST) * limits.budget;
+            most.min(limits.orthoscopic)
         });
         (separation.is_finite() && convergence.is_finite() && convergence > 0.0)
             .then_some((separation, convergence))
@@ -207,8 +216,16 @@ mod tests {
 
     #[test]
     fn a_flat_scene_is_not_made_deeper_than_it_is() {
-        let cameras = Comfort::new(None).follow(&scene(9.99, 10.01), &LIMITS);
-        assert_eq!(cameras.map(|c| c.0), Some(LIMITS.orthoscopic));
+        let separation = |orthoscopic| {
+            let limits = Limits {
+                orthoscopic,
+                ..LIMITS
+            };
+            let cameras = Comfort::new(None).follow(&scene(9.99, 10.01), &limits);
+            cameras.map(|c| c.0)
+        };
+        assert_eq!(separation(0.012), Some(0.012));
+        assert_eq!(separation(0.05), Some(MOST * LIMITS.budget));
     }
 
     #[test]
@@ -299,6 +316,24 @@ mod tests {
             [2.0, 50.0].map(|w| disparity((separation, convergence), w) / LIMITS.budget);
         assert!((near + BEFORE).abs() < 1e-12 || (far - BEHIND).abs() < 1e-12);
         assert!(near >= -BEFORE - 1e-12 && far <= BEHIND + 1e-12);
+    }
+
+    #[test]
+    fn cameras_that_were_nothing_are_left_at_once() {
+        let mut comfort = Comfort::new(None);
+        let nothing = Limits {
+            orthoscopic: 0.0,
+            ..LIMITS
+        };
+        for _ in 0..3 {
+            let cameras = comfort.follow(&scene(2.0, 50.0), &nothing);
+            assert_eq!(cameras.map(|c| c.0), Some(0.0));
+        }
+        let cameras = comfort.follow(&scene(2.0, 50.0), &LIMITS);
+        assert_eq!(
+            cameras,
+            Comfort::new(None).follow(&scene(2.0, 50.0), &LIMITS)
+        );
     }
 
     #[test]

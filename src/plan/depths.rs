@@ -5,7 +5,7 @@
 
 use crate::config::Viewport;
 
-/// One sample in so many, at the far and at the near end, does not count: a spark that flies by moves no cameras.
+/// One sample in so many, at the far and at the near end, does not count.
 const SPECKS: usize = 200;
 
 /// How many ways of drawing depth are told apart in one picture.
@@ -47,6 +47,13 @@ impl Ramp {
     /// Whether what is nearer has larger depths.
     pub fn nearer_is_larger(&self) -> bool {
         self.slope > 0.0
+    }
+
+    fn is_like(&self, other: &Ramp) -> bool {
+        let near = |a: f64, b: f64| (a - b).abs() <= 1e-5 * b.abs();
+        self.range == other.range
+            && near(self.slope, other.slope)
+            && near(self.offset, other.offset)
     }
 
     fn holds(&self, depth: f64) -> bool {
@@ -91,7 +98,8 @@ impl Ways {
         if viewport == Viewport::Inset {
             return;
         }
-        let same = |w: &&mut Way| w.ramp == ramp && w.focal == focal;
+        // A camera that is multiplied into the projection leaves roundings.
+        let same = |w: &&mut Way| w.ramp.is_like(&ramp) && w.focal == focal;
         if let Some(way) = self.ways.iter_mut().rev().find(same) {
             way.draws = way.draws.saturating_add(1);
         } else if self.ways.len() < MOST {
@@ -173,7 +181,8 @@ impl Distances {
         self.sky |= other.sky;
     }
 
-    /// Farthest, middle and nearest of the scene, but for [`SPECKS`] at either end.
+    /// Farthest, middle and nearest of the scene, but for one sample in 200 at either end: a spark that flies by moves no
+    /// cameras.
     pub fn scene(&self) -> Option<[f64; 3]> {
         let (count, specks) = (self.scene.len(), self.scene.len() / SPECKS);
         let at = |index: usize| self.scene.get(index).copied();

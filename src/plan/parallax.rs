@@ -58,8 +58,10 @@ impl Rig {
 
     /// Other cameras from now on; `flat`: all of them stand where the program's own does.
     pub fn change(&mut self, camera: Camera, flat: bool) {
+        if camera != self.camera {
+            self.farthest = FARTHEST;
+        }
         (self.camera, self.flat) = (camera, flat);
-        self.farthest = FARTHEST;
     }
 
     /// Separation and convergence for [`Camera::Measured`], as [`super::Comfort`] finds them; nothing is shifted before.

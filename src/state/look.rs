@@ -13,6 +13,8 @@ pub struct Look {
     pub range: DepthRange,
     /// GL_DEPTH_RANGE, as it is.
     pub depths: [f32; 2],
+    /// Normalised depths begin at 0, by glClipControl.
+    pub zero_to_one: bool,
     /// The 2D texture that the active unit samples; 0 for none.
     pub texture: u32,
     /// GL_MODELVIEW_MATRIX.
@@ -25,6 +27,7 @@ impl Default for Look {
             depth: DepthState::Off,
             range: DepthRange::Whole,
             depths: [0.0, 1.0],
+            zero_to_one: false,
             texture: 0,
             modelview: glam::Mat4::IDENTITY.to_cols_array(),
         }
@@ -48,6 +51,8 @@ impl State {
         if stale(Touch::RANGE) {
             self.look.depths = gl.get_floats(c::DEPTH_RANGE);
             self.look.range = depth_range(self.look.depths);
+            self.look.zero_to_one =
+                self.clip_control && gl.get_integer(c::CLIP_DEPTH_MODE) as u32 == c::ZERO_TO_ONE;
         }
         if stale(Touch::TEXTURE) {
             // Programs sample without it being enabled.

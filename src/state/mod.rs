@@ -117,6 +117,8 @@ pub struct State {
     pub errors: std::collections::VecDeque<u32>,
     /// Whether the context has the fixed-function pipeline.
     pub compatibility: bool,
+    /// Whether it has glClipControl.
+    pub clip_control: bool,
 }
 
 impl State {
@@ -139,6 +141,7 @@ impl State {
             program: 0,
             errors: std::collections::VecDeque::new(),
             compatibility,
+            clip_control: false,
         }
     }
 
