@@ -8,6 +8,8 @@
 
 mod support;
 
+#[path = "programs/depth.rs"]
+mod depth;
 #[path = "programs/judge.rs"]
 mod judge;
 #[path = "programs/repeat.rs"]
@@ -111,6 +113,20 @@ fn programs_are_compatible() {
         "fix what fails, or give it a `known` in programs.toml with the cause; take out the `known` of what no longer fails:\n{}",
         unexplained.join("\n")
     );
+}
+
+#[test]
+#[ignore = "minutes: make programs"]
+fn programs_stay_within_the_budget_of_the_display() {
+    assert!(has("apitrace") && has("glretrace"), "make packages");
+    let table = table::read();
+    let screen = own_screen();
+    let games = depth::GAMES.map(|name| table.iter().find(|program| program.name == name));
+    let wrong = games
+        .into_iter()
+        .map(|game| depth::judge(game.expect("a game of the table"), &screen));
+    let wrong: Vec<_> = wrong.flatten().collect();
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
 #[test]
