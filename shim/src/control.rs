@@ -2,7 +2,7 @@
 //!
 //! The descriptors live in the program's table; see [`crate::socket`].
 
-use crate::live;
+use crate::live::{self, free};
 use crate::socket::{self, Checked};
 use crate::switch::{config, say};
 use manyview_core::config::Capture;
@@ -13,7 +13,7 @@ use std::os::fd::AsRawFd;
 use std::os::unix::fs::MetadataExt;
 use std::os::unix::net::{UnixListener, UnixStream};
 use std::path::PathBuf;
-use std::sync::{Mutex, MutexGuard, TryLockError};
+use std::sync::Mutex;
 
 /// Askers at the same time.
 const CLIENTS: usize = 8;
@@ -60,21 +60,12 @@ fn wanted() -> bool {
     config().is_some_and(|config| config.control)
 }
 
-/// None while another thread is here.
-fn state() -> Option<MutexGuard<'static, State>> {
-    match STATE.try_lock() {
-        Ok(state) => Some(state),
-        Err(TryLockError::Poisoned(error)) => Some(error.into_inner()),
-        Err(TryLockError::WouldBlock) => None,
-    }
-}
-
 /// Before a frame is shown: hands over the picture that is asked for.
 pub(crate) fn before(layer: &mut Layer) {
     if !wanted() {
         return;
     }
-    if let Some(mut state) = state()
+    if let Some(mut state) = free(&STATE)
         && let State::Open(server) = &mut *state
         && server.pid == std::process::id()
         && let Some(wanted) = server.wanted.take()
@@ -88,7 +79,9 @@ pub(crate) fn after(layer: &mut Layer) {
     if !wanted() {
         return;
     }
-    let Some(mut state) = state() else { return };
+    let Some(mut state) = free(&STATE) else {
+        return;
+    };
     if let State::Unopened = *state {
         *state = match Server::open() {
             Ok(server) => State::Open(server),
@@ -111,7 +104,9 @@ pub(crate) fn close(next: State) {
     if !wanted() {
         return;
     }
-    let Some(mut state) = state() else { return };
+    let Some(mut state) = free(&STATE) else {
+        return;
+    };
     if let State::Open(server) = &*state
         && server.pid == std::process::id()
         && server.file.is_some()

@@ -4,7 +4,7 @@
 //! A connection of our own selects the raw key events of the root window, which the server sends besides everything that the program
 //! gets. Only a key of ours with Ctrl and Alt held is followed by questions: whether a window of the program has the focus.
 
-use crate::live;
+use crate::live::{self, free};
 use crate::socket::{self, Checked};
 use crate::switch::{config, say};
 use manyview_core::config::{Capture, profile};
@@ -15,7 +15,7 @@ use std::io;
 use std::os::fd::{AsRawFd, FromRawFd};
 use std::os::unix::net::UnixStream;
 use std::path::PathBuf;
-use std::sync::{Mutex, MutexGuard, TryLockError};
+use std::sync::Mutex;
 use std::time::{SystemTime, UNIX_EPOCH};
 use x11rb::connection::Connection;
 use x11rb::protocol::Event;
@@ -66,21 +66,12 @@ fn wanted() -> bool {
     config().is_some_and(|config| config.keys)
 }
 
-/// None while another thread is here.
-fn state() -> Option<MutexGuard<'static, State>> {
-    match STATE.try_lock() {
-        Ok(state) => Some(state),
-        Err(TryLockError::Poisoned(error)) => Some(error.into_inner()),
-        Err(TryLockError::WouldBlock) => None,
-    }
-}
-
 /// Before a frame is shown: hands over the picture that is asked for.
 pub(crate) fn before(layer: &mut Layer) {
     if !wanted() {
         return;
     }
-    if let Some(mut state) = state()
+    if let Some(mut state) = free(&STATE)
         && let State::Open(keyboard) = &mut *state
         && keyboard.pid == std::process::id()
         && !layer.awaits_picture()
@@ -96,7 +87,9 @@ pub(crate) fn after(layer: &mut Layer, window: impl FnOnce() -> Option<(String, 
     if !wanted() {
         return;
     }
-    let Some(mut state) = state() else { return };
+    let Some(mut state) = free(&STATE) else {
+        return;
+    };
     let outcome = match &mut *state {
         State::Closed => return,
         State::Unopened => match window() {

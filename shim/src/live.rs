@@ -1,8 +1,8 @@
-//! The values that all contexts of the process are to have.
+//! What all contexts of the process share: the values that they are to have, and locks that nobody waits for.
 
 use manyview_core::config::Live;
 use manyview_core::layer::Layer;
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Mutex, MutexGuard, PoisonError, TryLockError};
 
 /// None as long as nobody has changed them.
 static LIVE: Mutex<Option<Live>> = Mutex::new(None);
@@ -21,5 +21,14 @@ pub(crate) fn adopt(layer: &mut Layer) {
 pub(crate) fn changed(layer: &Layer, before: Live) {
     if layer.live() != before {
         *LIVE.lock().unwrap_or_else(PoisonError::into_inner) = Some(layer.live());
+    }
+}
+
+/// What a lock holds; none while another thread is there, for which no frame waits.
+pub(crate) fn free<T>(lock: &Mutex<T>) -> Option<MutexGuard<'_, T>> {
+    match lock.try_lock() {
+        Ok(held) => Some(held),
+        Err(TryLockError::Poisoned(error)) => Some(error.into_inner()),
+        Err(TryLockError::WouldBlock) => None,
     }
 }

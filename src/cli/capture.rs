@@ -5,7 +5,7 @@ use super::layer::LayerArguments;
 use super::{Outcome, print, tell};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
-use manyview::config::{Capture, Config, OptionId, Origin, Output};
+use manyview::config::{Capture, Config, OptionId, Output};
 use manyview::launch::{CaptureJob, Launch, LaunchError};
 use std::ffi::OsString;
 use std::path::Path;
@@ -59,11 +59,7 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
             &Some(status.to_string_lossy().into_owned()),
         ),
     ];
-    for (id, value) in given {
-        if let Some(value) = value {
-            settings.set(id, value, Origin::CommandLine);
-        }
-    }
+    settings.give(given);
     let quilt = Config::from_settings(&settings)?.output == Output::Quilt
         && matches!(arguments.what.as_deref(), None | Some("output"));
     if let Some(out) = settings.get(OptionId::CaptureOut).filter(|_| quilt) {

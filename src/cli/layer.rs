@@ -93,11 +93,7 @@ impl LayerArguments {
             (OptionId::Config, &self.config),
         ];
         let mut settings = Settings::default();
-        for (id, value) in given {
-            if let Some(value) = value {
-                settings.set(id, value, Origin::CommandLine);
-            }
-        }
+        settings.give(given);
         for (id, on) in [
             (OptionId::AutoDepth, self.auto_depth),
             (OptionId::Control, self.control),

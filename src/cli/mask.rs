@@ -3,7 +3,7 @@
 
 use super::{Outcome, tell};
 use clap::Args;
-use manyview::config::{Config, OptionId, Origin, Settings, panel};
+use manyview::config::{Config, OptionId, Settings, panel};
 use manyview::launch::{LaunchError, writable};
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -29,14 +29,10 @@ pub(crate) struct Arguments {
 
 pub(crate) fn run(arguments: &Arguments) -> Outcome {
     let mut settings = Settings::default();
-    for (id, value) in [
+    settings.give([
         (OptionId::Display, &arguments.display),
         (OptionId::Views, &arguments.views),
-    ] {
-        if let Some(value) = value {
-            settings.set(id, value, Origin::CommandLine);
-        }
-    }
+    ]);
     let config = Config::from_settings(&settings)?;
     let size = size(&arguments.size).ok_or_else(|| LaunchError::Size(arguments.size.clone()))?;
     writable("the mask", &arguments.out)?;

@@ -5,7 +5,7 @@ use super::{Outcome, tell};
 use clap::Args;
 use image::{DynamicImage, ImageFormat, RgbImage};
 use indicatif::{ProgressBar, ProgressStyle};
-use manyview::config::{Config, OptionId, Origin, Settings};
+use manyview::config::{Config, OptionId, Settings};
 use manyview::display::Facts;
 use manyview::launch::writable;
 use manyview::simulate::{Eye, Optics, Setup, SimulateError, see, strip};
@@ -66,14 +66,10 @@ pub(crate) struct Arguments {
 
 pub(crate) fn run(arguments: &Arguments) -> Outcome {
     let mut settings = Settings::default();
-    for (id, value) in [
+    settings.give([
         (OptionId::Display, &arguments.display),
         (OptionId::Views, &arguments.views),
-    ] {
-        if let Some(value) = value {
-            settings.set(id, value, Origin::CommandLine);
-        }
-    }
+    ]);
     let config = Config::from_settings(&settings)?;
     let eye = eye(&arguments.eye)?;
     let eyes = arguments.strip.as_deref().map(eyes).transpose()?;

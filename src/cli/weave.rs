@@ -39,15 +39,11 @@ pub(crate) struct Arguments {
 
 pub(crate) fn run(arguments: &Arguments) -> Outcome {
     let mut settings = Settings::default();
-    for (id, value) in [
+    settings.give([
         (OptionId::Display, &arguments.display),
         (OptionId::Views, &arguments.views),
         (OptionId::Filter, &arguments.filter),
-    ] {
-        if let Some(value) = value {
-            settings.set(id, value, Origin::CommandLine);
-        }
-    }
+    ]);
     settings.set(OptionId::Output, "panel", Origin::CommandLine);
     let display = Config::from_settings(&settings)?.display;
     let wanted = match &arguments.size {

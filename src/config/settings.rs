@@ -39,6 +39,15 @@ impl Settings {
         );
     }
 
+    /// Sets what the command line gives of these options.
+    pub fn give<'a>(&mut self, given: impl IntoIterator<Item = (OptionId, &'a Option<String>)>) {
+        for (id, value) in given {
+            if let Some(value) = value {
+                self.set(id, value, Origin::CommandLine);
+            }
+        }
+    }
+
     /// The value of one option.
     #[must_use]
     pub fn get(&self, id: OptionId) -> Option<&Setting> {

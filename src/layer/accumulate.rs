@@ -30,9 +30,8 @@ impl Layer {
             call();
             return self.compiled_names(&[mask]);
         }
-        self.clears_depths(mask & c::DEPTH_BUFFER_BIT != 0);
-        self.draw(gl, Kind::Clear, call);
-        self.clears_depths(true);
+        let depths = mask & c::DEPTH_BUFFER_BIT != 0;
+        self.draw(gl, Kind::Clear { depths }, call);
         if accumulation && self.accumulates(gl) {
             let values = gl.get_floats(c::ACCUM_CLEAR_VALUE);
             self.accumulate(gl, Operation::Clear(values));

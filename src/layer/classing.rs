@@ -24,7 +24,7 @@ impl Layer {
     /// Classes the draw that is about to be made; [`crate::state::State::refresh`] has been called.
     pub(super) fn classify(&mut self, gl: &Gl, kind: Kind) -> (Facts, Classed) {
         let shown = self.state.draws_to_window();
-        let clear = matches!(kind, Kind::Clear | Kind::Accum);
+        let clear = matches!(kind, Kind::Clear { .. } | Kind::Accum);
         if clear && shown {
             self.frame.deep = false;
         }

@@ -15,9 +15,6 @@ use crate::state::Touch;
 pub(super) struct Comfort {
     /// Depths are looked at: the cameras go by them, or the report tells of them.
     on: bool,
-    reported: bool,
-    /// There are views to differ.
-    several: bool,
     cameras: comfort::Comfort,
     /// Found, and in force from the next frame on.
     next: Option<(f64, f64)>,
@@ -28,8 +25,6 @@ pub(super) struct Comfort {
     pending: bool,
     /// The last projection of the frame's scene.
     projection: Option<[f32; 16]>,
-    /// The clear that is made leaves the depths alone.
-    shallow: bool,
     /// Something flat has written depths since the scene.
     spoilt: bool,
     /// Pictures of this frame, and those of the one before that were not read yet.
@@ -55,26 +50,23 @@ impl Comfort {
     pub(super) fn new(config: &Config, camera: Camera) -> Self {
         let mut comfort = Comfort {
             on: false,
-            reported: config.report.is_some(),
-            several: config.views > 1,
             cameras: comfort::Comfort::new(None),
             next: None,
             ways: Ways::default(),
             begun: false,
             pending: false,
             projection: None,
-            shallow: false,
             spoilt: false,
             taken: Vec::new(),
             sent: Vec::new(),
             stale: false,
         };
-        comfort.change(camera);
+        comfort.change(config, camera);
         comfort
     }
 
     /// Other cameras are asked for.
-    pub(super) fn change(&mut self, camera: Camera) {
+    pub(super) fn change(&mut self, config: &Config, camera: Camera) {
         let measured = match camera {
             Camera::Measured(kept) => {
                 self.cameras = comfort::Comfort::new(kept);
@@ -84,7 +76,7 @@ impl Comfort {
             }
             _ => false,
         };
-        self.on = self.several && (measured || self.reported);
+        self.on = config.views > 1 && (measured || config.report.is_some());
     }
 }
 
@@ -98,9 +90,8 @@ impl Layer {
             self.begin_frame(gl);
         }
         match (kind, classed.class) {
-            (Kind::Accum, _) | (_, Class::OffScreen) => {}
-            (Kind::Clear, _) if self.comfort.shallow => {}
-            (Kind::Clear, _) => {
+            (Kind::Accum | Kind::Clear { depths: false }, _) | (_, Class::OffScreen) => {}
+            (Kind::Clear { .. }, _) => {
                 self.save_depths(gl);
                 // A part of the window that is cleared has a picture of its own.
                 if !self.state.scissor_test {
@@ -134,11 +125,6 @@ impl Layer {
                 }
             }
         }
-    }
-
-    /// Whether the clears that follow clear depths; they do unless somebody says.
-    pub(super) fn clears_depths(&mut self, clears: bool) {
-        self.comfort.shallow = !clears;
     }
 
     /// Looks at the depths of the frame before, if they are there already: with a driver that is a frame behind they are not, and
@@ -322,7 +308,7 @@ impl Layer {
             sky: all.sky,
         };
         self.find_cameras(p, &seen);
-        if !self.comfort.reported {
+        if self.config.report.is_none() {
             return;
         }
         let (budget, px) = (self.budget(), self.half_width());

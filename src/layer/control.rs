@@ -36,7 +36,7 @@ impl Layer {
     /// Other values from the next draw on; to be called between frames, so that none is drawn with both.
     pub fn adopt(&mut self, live: Live) {
         if live.camera != self.live.camera {
-            self.comfort.change(live.camera);
+            self.comfort.change(self.config, live.camera);
         }
         if let Some(lens) = live.lens
             && live.lens != self.live.lens

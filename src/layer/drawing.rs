@@ -46,7 +46,7 @@ fn method_name(m: Method) -> &'static str {
 /// The run of a display list that a draw belongs to.
 fn run(kind: Kind) -> Run {
     match kind {
-        Kind::Clear => Run::Clear,
+        Kind::Clear { .. } => Run::Clear,
         Kind::Pixels => Run::Raster,
         Kind::Begin(_)
         | Kind::Arrays(_)
@@ -77,7 +77,7 @@ impl Layer {
             return self.once(gl, call);
         }
         let again = match kind {
-            Kind::Clear => Again::Clear,
+            Kind::Clear { .. } => Again::Clear,
             // The position moves, and the projection matters no more.
             Kind::Pixels if plan.class == Class::Scene => {
                 plan.shear = None;

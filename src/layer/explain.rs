@@ -79,7 +79,7 @@ impl Layer {
             return;
         }
         if let Some(explained) = &mut self.explained {
-            let clear = matches!(facts.kind, Kind::Clear | Kind::Accum);
+            let clear = matches!(facts.kind, Kind::Clear { .. } | Kind::Accum);
             if !clear {
                 explained.draws.push((*facts, *classed));
             }
@@ -235,7 +235,7 @@ fn kind(kind: Kind) -> String {
         Kind::Other => "other arrays, glRect".to_owned(),
         Kind::List => "display list".to_owned(),
         Kind::Pixels => "pixels".to_owned(),
-        Kind::Clear => "clear".to_owned(),
+        Kind::Clear { .. } => "clear".to_owned(),
         Kind::Accum => "accumulation".to_owned(),
     }
 }

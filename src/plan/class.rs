@@ -148,7 +148,7 @@ impl Classifier {
 
     /// The groups of state that a draw's class may depend on, beside those that every draw needs. `first` as in [`Facts`].
     pub fn needs(&self, kind: Kind, projection: Projection, first: bool) -> Touch {
-        if matches!(kind, Kind::Clear | Kind::Accum) {
+        if matches!(kind, Kind::Clear { .. } | Kind::Accum) {
             return Touch::NONE;
         }
         let rule = |asks: fn(&Rule) -> bool| {
@@ -190,7 +190,7 @@ impl Classifier {
             }
             Target::Nothing => return classed(Class::OffScreen, Why::NoPicture),
         }
-        if matches!(facts.kind, Kind::Clear | Kind::Accum) {
+        if matches!(facts.kind, Kind::Clear { .. } | Kind::Accum) {
             return classed(Class::Flat, Why::Whole);
         }
         if let Some((number, rule)) = self.rules.iter().find(|(_, rule)| matches(rule, facts)) {

@@ -6,7 +6,7 @@
 use crate::config::Viewport;
 
 /// One sample in so many, at the far and at the near end, does not count.
-const SPECKS: usize = 200;
+pub const SPECKS: usize = 200;
 
 /// How many ways of drawing depth are told apart in one picture.
 const MOST: usize = 8;

@@ -25,7 +25,10 @@ pub enum Kind {
     /// Any other draw from arrays, rectangles, evaluator meshes.
     Other,
     /// glClear and its kin.
-    Clear,
+    Clear {
+        /// Depths as well; taken for granted where the call does not say it.
+        depths: bool,
+    },
     /// Display lists.
     List,
     /// At the raster position.
@@ -109,7 +112,7 @@ pub fn plan(kind: Kind, state: &State, rig: &Rig, means: &Means, classed: &Class
             reason: None,
         };
     }
-    let shear = if matches!(kind, Kind::Clear | Kind::Accum) {
+    let shear = if matches!(kind, Kind::Clear { .. } | Kind::Accum) {
         None
     } else {
         let p = &state.projection;
@@ -153,7 +156,7 @@ fn method(kind: Kind, state: &State, means: &Means) -> Result<Method, Option<Rea
         Strategy::Auto => return Err(None),
     };
     match kind {
-        Kind::Clear | Kind::Pixels | Kind::Accum => return Err(None),
+        Kind::Clear { .. } | Kind::Pixels | Kind::Accum => return Err(None),
         Kind::List => return Err(Some(Reason::Kind("display lists"))),
         Kind::Other => {
             return Err(Some(Reason::Kind(

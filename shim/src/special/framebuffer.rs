@@ -308,7 +308,12 @@ pub(crate) unsafe fn glBlitNamedFramebuffer(
 /// A clear of framebuffer 0 by name: as if it were bound. Answers whether it was done.
 fn clear_zero(framebuffer: u32, call: &mut dyn FnMut()) -> bool {
     framebuffer == 0
-        && enter(|gl, l| l.with_bound(gl, 0, None, |l| l.draw(gl, Kind::Clear, call))).is_some()
+        && enter(|gl, l| {
+            l.with_bound(gl, 0, None, |l| {
+                l.draw(gl, Kind::Clear { depths: true }, call)
+            })
+        })
+        .is_some()
 }
 
 /// A hook of glClearNamedFramebuffer*: `zero` is the same clear of what is bound.

@@ -78,7 +78,7 @@ fn the_state_tells_what_a_draw_is() {
         ),
         (
             Facts {
-                kind: Kind::Clear,
+                kind: Kind::Clear { depths: true },
                 ..sky
             },
             Class::Flat,
@@ -252,7 +252,7 @@ fn state_is_asked_for_only_where_it_may_decide() {
         Touch::TEXTURE
     );
     assert_eq!(
-        textures.needs(Kind::Clear, Projection::Perspective, true),
+        textures.needs(Kind::Clear { depths: true }, Projection::Perspective, true),
         Touch::NONE
     );
 }
