@@ -38,7 +38,10 @@ fn bad_options_are_one_line_and_status_2() {
             "this version knows panel, quilt, sbs, ",
         ),
         (&["--strategy", "magic"], "replay"),
-        (&["--view-scale", "auto"], "leave it out or give 1"),
+        (
+            &["--view-scale", "0"],
+            "give auto, or a number from 0.05 to 1",
+        ),
         (&["--config", "no-such.toml"], "No such file"),
         (&["--report", "no-such-folder/r.json"], "there is no folder"),
     ] {

@@ -14,7 +14,7 @@
 mod support;
 
 use image::{Rgb, RgbImage, imageops};
-use manyview::atlas::{Limits, Tiles};
+use manyview::atlas::{Grid, Limits, Tiles};
 use manyview::config::AtlasLayout;
 use manyview::metric::{Comparison, Gate, triptych};
 use std::collections::{BTreeMap, HashMap};
@@ -325,7 +325,8 @@ fn check(name: &str, api: &str, views: &[u32], strategies: &[&'static str]) {
                     "replay" => kind,
                     _ => AtlasLayout::Layers,
                 };
-                let tiles = Tiles::new(views, WIDTH, HEIGHT, kind, LIMITS).expect("fits");
+                let tiles =
+                    Tiles::new(views, [WIDTH, HEIGHT], Grid::FULL, kind, LIMITS).expect("fits");
                 let row = rows.entry((strategy, layout)).or_default();
                 let run = Run {
                     views,

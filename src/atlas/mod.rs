@@ -3,12 +3,15 @@
 
 mod depths;
 mod front;
+mod grid;
 mod names;
 mod single;
+mod spread;
 mod tiles;
 
 use depths::Depths;
 use front::Front;
+pub use grid::Grid;
 pub use names::Names;
 use single::Single;
 pub use tiles::{Limits, Tiles, TilesError};
@@ -366,7 +369,11 @@ impl Atlas {
     pub fn take_single(&mut self, gl: &Gl, view: u32, read: u32) {
         let (from, x) = self.target(view);
         if let Some(single) = self.singles.first() {
-            single.take(gl, from, x);
+            if self.tiles.grid.is_full() {
+                single.take(gl, from, x);
+            } else {
+                self.spread(gl, view, single.framebuffer());
+            }
             gl.bind_framebuffer(c::READ_FRAMEBUFFER, single.framebuffer());
             gl.read_buffer(read);
             // No layer is bound for drawing now.

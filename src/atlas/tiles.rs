@@ -1,5 +1,6 @@
 //! Where each view lies.
 
+use super::Grid;
 use crate::config::AtlasLayout;
 
 /// Places of N tiles in an array texture: `columns` beside each other in each of `rows` layers. Side by side is one row (several
@@ -8,13 +9,17 @@ use crate::config::AtlasLayout;
 /// View i lies in slot(i): the program's own (middle) view in slot 0, at the origin of layer 0, so that what the program reads
 /// back was rasterised where its own window would have had it; view 0 takes the middle's slot, the others their own. Rows are
 /// layers rather than higher parts of one texture, because float rounding moves with the offset in y as well.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tiles {
     /// N.
     pub views: u32,
-    /// Pixels.
+    /// Width and height of the window, pixels.
+    pub window: [u32; 2],
+    /// What of the window a tile shows.
+    pub grid: Grid,
+    /// Of a tile, pixels.
     pub width: u32,
-    /// Pixels.
+    /// Of a tile, pixels.
     pub height: u32,
     /// Pixels from tile to tile: the width rounded up to 32, so that polygon stipple and dither keep their phase.
     pub stride: u32,
@@ -58,15 +63,16 @@ pub struct Limits {
 }
 
 impl Tiles {
-    /// Places N tiles of a size.
+    /// Places N tiles of a window of a size.
     pub fn new(
         views: u32,
-        width: u32,
-        height: u32,
+        window: [u32; 2],
+        grid: Grid,
         layout: AtlasLayout,
         limits: Limits,
     ) -> Result<Tiles, TilesError> {
-        let (width, height) = (width.max(1), height.max(1));
+        let window = window.map(|side| side.max(1));
+        let (grid, [width, height]) = grid.fit(window, views);
         let stride = width.next_multiple_of(32);
         if width > limits.side || height > limits.side {
             return Err(TilesError::Window(width, height, limits.side));
@@ -87,6 +93,8 @@ impl Tiles {
         }
         Ok(Tiles {
             views,
+            window,
+            grid,
             width,
             height,
             stride,
@@ -146,8 +154,14 @@ mod tests {
                 (AtlasLayout::SideBySide, 1500),
                 (AtlasLayout::Layers, 16384),
             ] {
-                let t = Tiles::new(views, 500, 300, layout, Limits { side, layers: 2048 })
-                    .expect("fits");
+                let t = Tiles::new(
+                    views,
+                    [500, 300],
+                    Grid::FULL,
+                    layout,
+                    Limits { side, layers: 2048 },
+                )
+                .expect("fits");
                 assert_eq!(t.place(t.own()), (0, 0));
                 let mut places: Vec<_> = (0..views).map(|v| t.place(v)).collect();
                 places.sort_unstable();
@@ -175,18 +189,18 @@ mod tests {
             (5, vec![2, 1, 0, 3, 4]),
             (8, vec![3, 1, 2, 0, 4, 5, 6, 7]),
         ] {
-            let t = Tiles::new(views, 8, 8, AtlasLayout::Layers, BIG).expect("fits");
+            let t = Tiles::new(views, [8, 8], Grid::FULL, AtlasLayout::Layers, BIG).expect("fits");
             assert_eq!((0..views).map(|v| t.slot(v)).collect::<Vec<_>>(), slots);
         }
     }
 
     #[test]
     fn what_does_not_fit_is_said() {
-        assert!(Tiles::new(9, 20000, 10, AtlasLayout::SideBySide, BIG).is_err());
+        assert!(Tiles::new(9, [20000, 10], Grid::FULL, AtlasLayout::SideBySide, BIG).is_err());
         let e = Tiles::new(
             200,
-            640,
-            480,
+            [640, 480],
+            Grid::FULL,
             AtlasLayout::Layers,
             Limits {
                 side: 16384,

@@ -98,10 +98,8 @@ pub enum ConfigError {
         /// Its value.
         second_value: String,
     },
-    /// Views are drawn at the size of the window in this version.
-    #[error(
-        "{field} is '{value}', but this version draws views at the size of the window; leave it out or give 1"
-    )]
+    /// No size of a view.
+    #[error("{field} is '{value}'; give auto, or a number from 0.05 to 1 such as 0.5")]
     ViewScale {
         /// The option.
         field: Field,

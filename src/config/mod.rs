@@ -53,8 +53,8 @@ pub struct Config {
     pub strategy: Strategy,
     /// Where the views lie in memory.
     pub atlas: AtlasLayout,
-    /// Size of a tile over the size of the window, in (0, 1].
-    pub view_scale: f64,
+    /// Size of a tile over the size of the window.
+    pub view_scale: ViewScale,
     /// Where flat draws stand that no rule places: 0 on the panel, 1 infinitely far; a fraction of the separation at infinity.
     pub hud_depth: Option<f64>,
     /// What the program's draws are, where the state does not say it.
@@ -258,6 +258,15 @@ pub enum Strategy {
     Instanced,
     /// One draw through a generated geometry shader.
     Geometry,
+}
+
+/// How finely views are drawn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ViewScale {
+    /// Size of a tile over the size of the window, in (0, 1].
+    Fixed(f64),
+    /// As finely as the output shows a view.
+    Auto,
 }
 
 /// Where the views lie.

@@ -136,7 +136,7 @@ pub const OPTIONS: &[OptionSpec] = &[
     option!(Atlas, Some("atlas"), Some("atlas"), "MANYVIEW_ATLAS", "side-by-side|layers", No,
         "where the views lie in memory; side-by-side unless given"),
     option!(ViewScale, Some("view-scale"), Some("view-scale"), "MANYVIEW_VIEW_SCALE", "F", No,
-        "size of a view over the size of the window, above 0 and at most 1; 1 unless given"),
+        "size of a view over that of the window, from 0.05 to 1, or auto: as much as the output shows; 1 unless given"),
     option!(HudDepth, Some("hud-depth"), Some("hud-depth"), "MANYVIEW_HUD_DEPTH", "D", No,
         "where flat draws stand: 0 on the panel, 1 infinitely far, below 0 before the panel; 0 unless given"),
     option!(Profile, Some("profile"), Some("profile"), "MANYVIEW_PROFILE", "NAME|FILE|none", ProfileOrFile,

@@ -6,7 +6,7 @@ use super::options::{Field, OptionId, Origin};
 use super::settings::Settings;
 use super::{
     Anaglyph, AtlasLayout, Camera, Capture, CaptureWhat, Config, Explain, Filter, Glasses,
-    Interlace, Kept, MAX_VIEWS, Mixture, Output, Profile, Strategy, panel, profile,
+    Interlace, Kept, MAX_VIEWS, Mixture, Output, Profile, Strategy, ViewScale, panel, profile,
 };
 use crate::display::{Display, Kind, MAX_FINE_VIEWS, MaskError};
 use std::fmt;
@@ -386,12 +386,16 @@ fn number((field, value): (Field, &str)) -> Result<f64, ConfigError> {
     }
 }
 
-fn view_scale(settings: &Settings) -> Result<f64, ConfigError> {
+/// Of a view over the window.
+const SMALLEST_SCALE: f64 = 0.05;
+
+fn view_scale(settings: &Settings) -> Result<ViewScale, ConfigError> {
     let Some((field, value)) = settings.field(OptionId::ViewScale) else {
-        return Ok(1.0);
+        return Ok(ViewScale::Fixed(1.0));
     };
-    match value.parse::<f64>() {
-        Ok(scale) if scale == 1.0 => Ok(scale),
+    match (value, value.parse::<f64>()) {
+        ("auto", _) => Ok(ViewScale::Auto),
+        (_, Ok(scale)) if (SMALLEST_SCALE..=1.0).contains(&scale) => Ok(ViewScale::Fixed(scale)),
         _ => Err(ConfigError::ViewScale {
             field,
             value: value.to_owned(),

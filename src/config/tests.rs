@@ -33,7 +33,7 @@ fn nothing_set_gives_the_defaults() {
     );
     assert_eq!(
         (config.view_scale, config.report, config.capture),
-        (1.0, None, None)
+        (ViewScale::Fixed(1.0), None, None)
     );
     assert_eq!(config.display.name, panel::DEFAULT);
 }
@@ -82,7 +82,7 @@ fn every_message_is_one_clear_sentence() {
         ],
         &[("MANYVIEW_STRATEGY", "magic")],
         &[("MANYVIEW_ATLAS", "cube")],
-        &[("MANYVIEW_VIEW_SCALE", "auto")],
+        &[("MANYVIEW_VIEW_SCALE", "0.01")],
         &[("MANYVIEW_VIEW_SCALE", "0")],
         &[("MANYVIEW_VIEW_SCALE", "2")],
         &[("MANYVIEW_VIEW_SCALE", "NaN")],

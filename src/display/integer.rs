@@ -6,6 +6,7 @@
 #![forbid(unsafe_code)]
 
 use super::lattice::{Lattice, Row, Way, by_colour};
+use super::turns::Phase;
 use super::{GUARD, Mask, MaskError, Placement, SubpixelOrder};
 
 /// The steps.
@@ -34,6 +35,16 @@ impl Integer {
             Some(view) if view >= views => Err(MaskError::Table { view, views }),
             _ => Ok(()),
         }
+    }
+
+    pub(super) fn phase(&self) -> Option<Phase> {
+        let turn = self.modulus as f64;
+        self.table.is_empty().then(|| Phase {
+            start: (self.offset + self.subpixel) as f64 / turn,
+            right: self.horizontal as f64 / turn,
+            down: self.vertical as f64 / turn,
+            colour: self.subpixel as f64 / turn,
+        })
     }
 
     pub(super) fn mask(&self, placement: &Placement, views: u32) -> Result<Mask, MaskError> {

@@ -11,6 +11,7 @@
 
 use super::lattice::{Lattice, Row, Way};
 use super::number::in_units;
+use super::turns::Phase;
 use super::{Mask, MaskError, Number, Placement};
 
 /// The numbers of a panel; all in views.
@@ -29,6 +30,20 @@ pub struct Leia {
 }
 
 impl Leia {
+    pub(super) fn phase(&self, native: u32) -> Option<Phase> {
+        if self.colour_slant.to_f64() != 0.0 {
+            return None;
+        }
+        let turn = f64::from(native);
+        Some(Phase {
+            // The top row; G adds 1.
+            start: (2.0 + self.offset.to_f64() - self.p_over_dv.to_f64()) / turn,
+            right: self.p_over_du.to_f64() / turn,
+            down: -self.p_over_dv.to_f64() / turn,
+            colour: if self.colour_inversion { -1.0 } else { 1.0 } / turn,
+        })
+    }
+
     pub(super) fn mask(
         &self,
         placement: &Placement,

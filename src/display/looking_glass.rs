@@ -14,6 +14,7 @@
 #![forbid(unsafe_code)]
 
 use super::lattice::{Lattice, Row, Way};
+use super::turns::Phase;
 use super::{Mask, MaskError, Placement};
 
 /// What a device is calibrated to; lengths in pixels unless said otherwise.
@@ -116,6 +117,28 @@ impl LookingGlass {
     pub fn tilt(&self) -> f64 {
         let tilt = f64::from(self.height) / (f64::from(self.width) * self.slope);
         if self.flip_x { -tilt } else { tilt }
+    }
+
+    pub(super) fn phase(&self) -> Option<Phase> {
+        if !self.cells.is_empty() {
+            return None;
+        }
+        let (width, height) = (f64::from(self.width), f64::from(self.height));
+        let (lenses, climb) = (self.lenses(), self.lenses() * self.tilt());
+        let (first, down) = if self.flip_y {
+            (0.5 / height, climb / height)
+        } else {
+            (1.0 - 0.5 / height, -climb / height)
+        };
+        let sign = if self.inverted { -1.0 } else { 1.0 };
+        let stripe = lenses / (3.0 * width) * if self.flip_x { -1.0 } else { 1.0 };
+        let start = lenses * 0.5 / width + climb * first - self.center + stripe;
+        Some(Phase {
+            start: sign * start,
+            right: sign * lenses / width,
+            down: sign * down,
+            colour: sign * if self.flip_subpixels { -stripe } else { stripe },
+        })
     }
 
     pub(super) fn mask(&self, placement: &Placement, views: u32) -> Result<Mask, MaskError> {

@@ -34,6 +34,7 @@ mod rotation;
 mod slanted;
 #[cfg(test)]
 mod tests;
+mod turns;
 mod written;
 
 pub use bias::Bias;
@@ -51,6 +52,7 @@ pub use pattern::Pattern;
 pub use quilt::{QuiltError, QuiltName};
 pub use rotation::Rotation;
 pub use slanted::Slanted;
+pub use turns::Turns;
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;

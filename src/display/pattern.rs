@@ -1,6 +1,7 @@
 //! Patterns written by hand, repeated from the screen's top left corner: interlaced stereo panels, barriers with black guards.
 #![forbid(unsafe_code)]
 
+use super::turns::Phase;
 use super::{GUARD, Mask, MaskError, Placement};
 
 /// Rows of cells.
@@ -42,6 +43,23 @@ impl Pattern {
         let views = self.rows.iter().flatten();
         let last = views.filter(|&&view| view != GUARD).max();
         last.map_or(1, |&view| u32::from(view) + 1)
+    }
+
+    /// Of rows, columns and checkers of two views.
+    pub(super) fn phase(&self) -> Option<Phase> {
+        let step = |steps: bool| if steps { 0.5 } else { 0.0 };
+        let (right, down) = match (self.subpixels, self.rows.as_slice()) {
+            (false, [row]) if row[..] == [0, 1] => (true, false),
+            (false, [first, second]) if first[..] == [0] && second[..] == [1] => (false, true),
+            (false, [first, second]) if first[..] == [0, 1] && second[..] == [1, 0] => (true, true),
+            _ => return None,
+        };
+        Some(Phase {
+            start: 0.0,
+            right: step(right),
+            down: step(down),
+            colour: 0.0,
+        })
     }
 
     pub(super) fn check_views(&self, views: u32) -> Result<(), MaskError> {

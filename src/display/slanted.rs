@@ -6,6 +6,7 @@
 
 use super::lattice::{Lattice, Row, Way, by_colour};
 use super::number::{are_exact, in_units};
+use super::turns::Phase;
 use super::{Bias, Mask, MaskError, Number, Placement, SubpixelOrder};
 
 /// The optics of a slanted lens or barrier.
@@ -45,6 +46,20 @@ impl Slanted {
     /// True when no number has to be rounded for the mask.
     pub fn is_exact(&self) -> bool {
         are_exact(self.numbers())
+    }
+
+    pub(super) fn phase(&self) -> Option<Phase> {
+        if self.bias.is_some() {
+            return None;
+        }
+        let turn = self.pitch.to_f64() * if self.inverted { -1.0 } else { 1.0 };
+        let mean = self.colours.iter().map(|c| c.to_f64()).sum::<f64>() / 3.0;
+        Some(Phase {
+            start: (1.0 + self.offset.to_f64() + mean) / turn,
+            right: 3.0 / turn,
+            down: self.slant.to_f64() / turn,
+            colour: 1.0 / turn,
+        })
     }
 
     fn numbers(&self) -> [Number; 6] {

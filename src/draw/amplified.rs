@@ -77,6 +77,11 @@ impl Programs {
         material: bool,
         atlas: &Atlas,
     ) -> Result<Amplified, Reason> {
+        if !atlas.tiles.grid.is_full() {
+            return Err(Reason::Kind(
+                "draws to tiles with other pixels than the window's",
+            ));
+        }
         let modelview = gl.get_floats::<16>(c::MODELVIEW_MATRIX);
         let (mut key, around) = fixed.for_mode(mode, &modelview, material);
         let geometry = method == Method::Geometry;

@@ -5,6 +5,7 @@ mod amplified;
 mod current;
 mod fixed_state;
 mod replay;
+mod tuned;
 
 pub use amplified::{Amplified, Programs};
 pub use current::Current;

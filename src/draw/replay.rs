@@ -1,7 +1,8 @@
 //! The draw itself again, per view, with P_i and the tile's viewport and scissor. Needs no shader.
 
 use super::current::Current;
-use crate::atlas::Atlas;
+use super::tuned::Tuned;
+use crate::atlas::{Atlas, Grid, Tiles};
 use crate::gl::{Gl, consts as c};
 use crate::plan::{Rig, Shear};
 use crate::state::{Effect, State};
@@ -71,14 +72,24 @@ pub fn replay(
         gl.get_floats::<4>(c::CURRENT_COLOR);
     }
     let tiles = atlas.tiles;
-    let size = size(atlas);
-    let beside = tiles.columns > 1;
+    let beside = tiles.columns > 1 || !tiles.grid.is_full();
     let own = tiles.own();
+    let tuned = Tuned::enter(
+        gl,
+        state,
+        &tiles.grid,
+        matches!(again, Again::Anything { .. }),
+    );
     let current = match again {
         Again::Current(e) | Again::Anything { current: e, .. } => Current::take(gl, e, saves != 0),
         _ => Current::default(),
     };
-    let projection = Projection { gl, state, shear };
+    let projection = Projection {
+        gl,
+        state,
+        shear,
+        grid: tiles.grid,
+    };
     let raster = match again {
         Again::Raster(Some(shear)) => Some(Raster::at(gl, state, shear)),
         _ => None,
@@ -87,7 +98,7 @@ pub fn replay(
         let x = atlas.enter(gl, view);
         let free = view == own && matches!(again, Again::Anything { rects: true, .. });
         if beside && !free {
-            place(gl, state, x, size);
+            place(gl, state, &tiles, view, x);
         } else if beside {
             unplace(gl, state);
         }
@@ -100,7 +111,11 @@ pub fn replay(
             }
         );
         if view == own {
-            projection.load(if keeps { rig.place(view) } else { 0.0 });
+            if keeps {
+                projection.load(rig.place(view));
+            } else {
+                projection.restore();
+            }
             current.put(gl);
             match &raster {
                 Some(raster) => raster.own(gl, rig.place(own), &mut || call(view)),
@@ -109,9 +124,10 @@ pub fn replay(
             if beside && !free {
                 unplace(gl, state);
             }
-            if rig.place(own) != 0.0 && keeps {
-                projection.load(0.0);
+            if keeps && (rig.place(own) != 0.0 || projection.leans()) {
+                projection.restore();
             }
+            tuned.leave(gl);
             break;
         }
         if saves != 0 {
@@ -151,13 +167,19 @@ pub fn replay(
 
 /// The program's own view, for what the driver is about to draw there; [`others`] ends it.
 pub fn enter_own(gl: &Gl, atlas: &mut Atlas, state: &State, rig: &Rig, shear: Option<Shear>) {
-    let own = atlas.tiles.own();
-    let x = atlas.enter(gl, own);
-    if atlas.tiles.columns > 1 {
-        place(gl, state, x, size(atlas));
+    let tiles = atlas.tiles;
+    let x = atlas.enter(gl, tiles.own());
+    if tiles.columns > 1 || !tiles.grid.is_full() {
+        place(gl, state, &tiles, tiles.own(), x);
     }
-    if rig.place(own) != 0.0 {
-        Projection { gl, state, shear }.load(rig.place(own));
+    let projection = Projection {
+        gl,
+        state,
+        shear,
+        grid: tiles.grid,
+    };
+    if rig.place(tiles.own()) != 0.0 || projection.leans() {
+        projection.load(rig.place(tiles.own()));
     }
 }
 
@@ -171,12 +193,18 @@ pub fn others(
     wanted: bool,
     call: &mut dyn FnMut(u32),
 ) {
-    let (own, beside) = (atlas.tiles.own(), atlas.tiles.columns > 1);
-    let projection = Projection { gl, state, shear };
-    for view in atlas.tiles.order().filter(|&v| wanted && v != own) {
+    let tiles = atlas.tiles;
+    let (own, beside) = (tiles.own(), tiles.columns > 1 || !tiles.grid.is_full());
+    let projection = Projection {
+        gl,
+        state,
+        shear,
+        grid: tiles.grid,
+    };
+    for view in tiles.order().filter(|&v| wanted && v != own) {
         let x = atlas.enter(gl, view);
         if beside {
-            place(gl, state, x, size(atlas));
+            place(gl, state, &tiles, view, x);
         }
         projection.load(rig.place(view));
         call(view);
@@ -185,38 +213,41 @@ pub fn others(
     if beside {
         unplace(gl, state);
     }
-    projection.load(0.0);
+    projection.restore();
 }
 
-fn size(atlas: &Atlas) -> [i32; 2] {
-    [atlas.tiles.width as i32, atlas.tiles.height as i32]
-}
-
-/// Viewport and scissor of the program, moved by a tile's offset and cut to the tile.
-pub fn place(gl: &Gl, state: &State, offset: i32, size: [i32; 2]) {
-    let [x, y, w, h] = state.viewport;
-    gl.viewport(x + offset, y, w, h);
+/// Viewport and scissor of the program in the tile of a view, which begins at an offset in pixels, cut to the tile.
+pub fn place(gl: &Gl, state: &State, tiles: &Tiles, view: u32, offset: i32) {
+    if tiles.grid.is_full() {
+        let [x, y, w, h] = state.viewport;
+        gl.viewport(x + offset, y, w, h);
+    } else {
+        gl.viewport_f(tiles.grid.viewport(view, offset, state.viewport));
+    }
     if !state.scissor_test {
         gl.enable(c::SCISSOR_TEST);
     }
-    let [x, y, w, h] = cut(state, offset, size);
+    let [x, y, w, h] = cut(state, tiles, view, offset);
     gl.scissor(x, y, w, h);
 }
 
 /// What may be drawn in a tile: all of it, or what the program's scissor leaves.
-pub fn cut(state: &State, offset: i32, size: [i32; 2]) -> [i32; 4] {
+pub fn cut(state: &State, tiles: &Tiles, view: u32, offset: i32) -> [i32; 4] {
+    let size = [tiles.width as i32, tiles.height as i32];
     if !state.scissor_test {
         return [offset, 0, size[0], size[1]];
     }
     let [x, y, w, h] = state.scissor;
-    let end = |a: i32, b: i32, max: i32| a.saturating_add(b).clamp(0, max);
-    let (x0, y0) = (x.clamp(0, size[0]), y.clamp(0, size[1]));
-    [
-        x0 + offset,
-        y0,
-        (end(x, w, size[0]) - x0).max(0),
-        (end(y, h, size[1]) - y0).max(0),
-    ]
+    let [[x0, x1], [y0, y1]] = [(x, w, 0), (y, h, 1)].map(|(from, length, axis)| {
+        let ends = [from, from.saturating_add(length)];
+        let ends = if tiles.grid.is_full() {
+            ends
+        } else {
+            tiles.grid.texels(view, axis, ends[0], ends[1])
+        };
+        ends.map(|end| end.clamp(0, size[axis]))
+    });
+    [x0 + offset, y0, (x1 - x0).max(0), (y1 - y0).max(0)]
 }
 
 /// The program's own viewport and scissor.
@@ -323,18 +354,43 @@ struct Projection<'a> {
     gl: &'a Gl,
     state: &'a State,
     shear: Option<Shear>,
+    grid: Grid,
 }
 
 impl Projection<'_> {
-    /// Loads P_i of the view at a place; nothing for a flat draw. The matrix mode stays the program's.
+    /// Whether views need another projection than P_i.
+    fn leans(&self) -> bool {
+        self.grid.shear != 0.0
+    }
+
+    /// Loads P_i of the view at a place, as its tile needs it; nothing for a flat draw. The matrix mode stays the program's.
     fn load(&self, place: f64) {
-        let Some(shear) = &self.shear else { return };
+        let p = &self.state.projection;
+        let p = match &self.shear {
+            Some(shear) => shear.projection(p, place),
+            None if self.leans() => *p,
+            None => return,
+        };
+        self.put(&if self.leans() {
+            self.grid.lean(self.state.viewport, &p)
+        } else {
+            p
+        });
+    }
+
+    /// The program's own again.
+    fn restore(&self) {
+        if self.shear.is_some() || self.leans() {
+            self.put(&self.state.projection);
+        }
+    }
+
+    fn put(&self, p: &[f32; 16]) {
         let mode = self.state.matrix_mode;
         if mode != c::PROJECTION {
             self.gl.matrix_mode(c::PROJECTION);
         }
-        self.gl
-            .load_matrix(&shear.projection(&self.state.projection, place));
+        self.gl.load_matrix(p);
         if mode != c::PROJECTION {
             self.gl.matrix_mode(mode);
         }

@@ -35,6 +35,10 @@ plain! {
     end = glEnd();
     matrix_mode = glMatrixMode(mode: u32);
     viewport = glViewport(x: i32, y: i32, w: i32, h: i32);
+    viewport_indexed_f = glViewportIndexedf(index: u32, x: f32, y: f32, w: f32, h: f32);
+    tex_envf = glTexEnvf(target: u32, name: u32, value: f32);
+    line_width = glLineWidth(width: f32);
+    point_size = glPointSize(size: f32);
     scissor = glScissor(x: i32, y: i32, w: i32, h: i32);
     enable = glEnable(cap: u32);
     disable = glDisable(cap: u32);
@@ -191,6 +195,11 @@ impl Gl {
     pub fn get_string(&self, name: u32) -> String {
         // SAFETY: a context is current; the driver's string is static.
         text(unsafe { self.real.glGetString(name) })
+    }
+
+    /// glViewportIndexedf of the first viewport: x, y, width, height in fractions of pixels.
+    pub fn viewport_f(&self, [x, y, width, height]: [f32; 4]) {
+        self.viewport_indexed_f(0, x, y, width, height);
     }
 
     /// Whether the context has an extension, by glGetStringi where there is GL 3, else by the one long string.

@@ -15,6 +15,14 @@ impl Gl {
         v[0]
     }
 
+    /// glGetTexEnvfv of one value.
+    pub fn get_tex_env(&self, target: u32, name: u32) -> f32 {
+        let mut v = [0f32; 4];
+        // SAFETY: room for the most values that a name has.
+        unsafe { self.real.glGetTexEnvfv(target, name, v.as_mut_ptr().cast()) };
+        v[0]
+    }
+
     /// glGetTexLevelParameteriv
     pub fn get_tex_level_parameter(&self, target: u32, level: i32, name: u32) -> i32 {
         let mut v = 0i32;

@@ -201,6 +201,7 @@ impl Interleaver {
                 Form::Anaglyph(anaglyph) => anaglyph.matrices(),
                 _ => Default::default(),
             },
+            grid: t.grid.follows_lenses().then_some(t.grid),
             depth: source.depth.map_or([0.0; 2], |(_, depth)| depth.ends),
         };
         program.bind(gl, &uniforms.words());

@@ -22,6 +22,7 @@ pub use gpu::{Glass, Interleaver, Source, glsl_version};
 pub use layout::Layout;
 pub use program::Program;
 
+use crate::atlas::Grid;
 use crate::config::{Anaglyph, Config, Filter, Interlace, Output};
 use crate::display::{Display, DisplayError, Mask, Placement};
 
@@ -54,6 +55,46 @@ impl<'a> Form<'a> {
             // The left eye's; the right one's is shown beside it, in another buffer.
             Output::Quad => Self::Layout(Layout::View(0)),
             Output::Rgbd => Self::Rgbd,
+        }
+    }
+
+    /// Tiles with a column, or a row, for each lens of a picture at a place; none where there are no lenses in rank and file.
+    pub fn lenses(&self, placement: &Placement, views: u32) -> Option<Grid> {
+        let window = [placement.width, placement.height];
+        match self {
+            Self::Panel(display, Filter::Nearest) => {
+                let turns = display.turns(placement, views)?;
+                Grid::lenses(&turns, window, f64::from(views), 1.0)
+            }
+            Self::Eyes(interlace) => {
+                let display = Display::named(interlace.display()).ok()?;
+                let turns = display.turns(placement, 2)?;
+                // The right eye's is the last view.
+                Grid::lenses(&turns, window, 2.0, 1.0 / f64::from(views.max(2) - 1))
+            }
+            _ => None,
+        }
+    }
+
+    /// Size of a tile over that of the picture, width and height, which has as many texels as the picture shows of a view.
+    pub fn share(&self, views: u32) -> [f64; 2] {
+        let n = f64::from(views);
+        match self {
+            Self::Panel(display, _) => {
+                let whole = Placement::full_screen(1, 1);
+                let turns = display.turns(&whole, views);
+                // Each colour of a pixel may show another view.
+                let shown = turns.map_or(3.0, |turns| if turns.colour == 0.0 { 1.0 } else { 3.0 });
+                [(shown / n).sqrt().min(1.0); 2]
+            }
+            Self::Eyes(Interlace::Rows) => [1.0, 0.5],
+            Self::Eyes(Interlace::Columns) => [0.5, 1.0],
+            Self::Eyes(Interlace::Checkerboard) => [0.5_f64.sqrt(); 2],
+            Self::Layout(layout) => {
+                let (columns, rows) = layout.grid(views);
+                [1.0 / f64::from(columns), 1.0 / f64::from(rows)]
+            }
+            Self::Anaglyph(_) | Self::Rgbd => [1.0; 2],
         }
     }
 

@@ -7,6 +7,7 @@
 
 use super::Layout;
 use super::anaglyph::Matrix;
+use crate::atlas::Grid;
 use crate::config::Filter;
 use naga::back::glsl;
 use naga::valid::{Capabilities, ValidationFlags, Validator};
@@ -200,16 +201,18 @@ pub struct Uniforms {
     pub matrices: (Matrix, Matrix),
     /// White and black as values of the depth buffer; only the RGBD pass reads them.
     pub depth: [f32; 2],
+    /// Where the picture's pixels lie in the tiles, if not simply stretched.
+    pub grid: Option<Grid>,
 }
 
 impl Uniforms {
     /// In the order and alignment of the WGSL struct.
-    pub fn words(&self) -> [u32; 44] {
+    pub fn words(&self) -> [u32; 52] {
         let [tile_x, tile_y] = self.tile;
         let [out_x, out_y] = self.picture;
         let (grid_x, grid_y) = self.layout.grid(self.views);
         let (columns, views) = (self.columns.max(1), self.views.max(1));
-        let mut words = [0; 44];
+        let mut words = [0; 52];
         let whole = [
             tile_x,
             tile_y,
@@ -230,6 +233,7 @@ impl Uniforms {
                 Filter::Blend => 1,
                 Filter::Gaussian => 2,
             },
+            u32::from(self.grid.is_some()),
         ];
         for (word, value) in words.iter_mut().zip(whole) {
             *word = value;
@@ -243,6 +247,13 @@ impl Uniforms {
         }
         for (word, value) in words.iter_mut().skip(40).zip(self.depth) {
             *word = value.to_bits();
+        }
+        if let Some(grid) = self.grid {
+            let [[x, y], [step_x, step_y]] = [grid.origin, grid.step];
+            let lenses = [grid.across, grid.shear, x, step_x, 0.0, grid.up, y, step_y];
+            for (word, value) in words.iter_mut().skip(44).zip(lenses) {
+                *word = (value as f32).to_bits();
+            }
         }
         words
     }

@@ -223,7 +223,7 @@ fn every_pass_translates_for_every_version() {
             for texture in &fragment.textures {
                 assert!(fragment.source.contains(&format!(" {};", texture.name)));
             }
-            assert_eq!(fragment.uniforms.len(), 20);
+            assert_eq!(fragment.uniforms.len(), 22);
             assert!(!fragment.source.contains("std140"), "no uniform block");
 
             let vertex = translate(pass, Stage::Vertex, version).unwrap();
@@ -255,6 +255,13 @@ fn uniforms_are_found_by_name() {
         filter: Filter::Gaussian,
         matrices: ([[1.0; 3]; 3], [[2.0; 3]; 3]),
         depth: [3.0, 4.0],
+        grid: Some(Grid {
+            across: 5.0,
+            shear: 6.0,
+            up: 7.0,
+            origin: [8.0, 9.0],
+            step: [10.0, 11.0],
+        }),
     };
     let version = GlslVersion::Desktop(330);
     let got = translate(Pass::Layout, Stage::Fragment, version).unwrap();
@@ -271,6 +278,8 @@ fn uniforms_are_found_by_name() {
         .collect();
     let (one, two) = (1.0f32.to_bits(), 2.0f32.to_bits());
     let (left, right) = ([one, one, one, 0], [two, two, two, 0]);
+    let column = [5.0f32, 6.0, 8.0, 10.0].map(f32::to_bits);
+    let row = [0.0f32, 7.0, 9.0, 11.0].map(f32::to_bits);
     let expected: [(&str, &[u32]); 17] = [
         ("tile", &[1, 2]),
         ("picture", &[5, 6]),
@@ -284,7 +293,7 @@ fn uniforms_are_found_by_name() {
         ("eyes", &[1]),
         ("linear", &[0]),
         ("filtered", &[2]),
-        ("pad", &[0]),
+        ("lenses", &[1]),
         ("left_red", &left),
         ("left_green", &left),
         ("left_blue", &left),
@@ -293,6 +302,8 @@ fn uniforms_are_found_by_name() {
     assert_eq!(of[..17], expected);
     let ends = [3.0f32.to_bits(), 4.0f32.to_bits(), 0, 0];
     assert_eq!(of[19], ("depth", &ends[..]));
+    assert_eq!(of[20], ("column", &column[..]));
+    assert_eq!(of[21], ("row", &row[..]));
 }
 
 #[test]

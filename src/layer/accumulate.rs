@@ -136,7 +136,7 @@ impl Layer {
         let size = self.tile_size();
         let cut = tiles.order().map(|view| {
             let (row, x) = tiles.place(view);
-            let [x, y, w, h] = crate::draw::cut(&self.state, x as i32, size);
+            let [x, y, w, h] = crate::draw::cut(&self.state, &tiles, view, x as i32);
             let y = if self.atlas.flipped {
                 size[1] - y - h
             } else {

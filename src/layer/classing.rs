@@ -2,7 +2,7 @@
 
 use super::Layer;
 use crate::config::{DepthRange, DepthState, Projection};
-use crate::gl::Gl;
+use crate::gl::{Gl, consts as c};
 use crate::plan::class::Target;
 use crate::plan::{Classed, Facts, Kind};
 use crate::state::Touch;
@@ -59,9 +59,10 @@ impl Layer {
 
     /// The call once, in the program's own view only.
     pub(super) fn once(&mut self, gl: &Gl, call: &mut dyn FnMut()) {
-        if self.state.draws_to_window() {
+        // What is fed back or hit is not drawn, and is told in the program's own viewport.
+        if self.state.draws_to_window() && self.state.render_mode == c::RENDER {
             // The tiles beside it are others' views.
-            self.scissored(gl, 0, call);
+            self.scissored(gl, self.atlas.tiles.own(), 0, call);
         } else {
             call();
         }

@@ -182,6 +182,7 @@ impl Layer {
     pub(super) fn plan(&mut self, gl: &Gl, kind: Kind) -> Plan {
         self.explain_last(gl);
         self.state.refresh(gl);
+        self.hold(gl, kind);
         let (facts, classed) = self.classify(gl, kind);
         if classed.class == Class::Scene {
             self.rig.latch(&self.state.projection);

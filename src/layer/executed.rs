@@ -20,6 +20,7 @@ pub(super) struct Own {
 impl Layer {
     /// Before the driver begins the list of a run that draws.
     pub(super) fn start_own(&mut self, gl: &Gl) {
+        self.hold_everything(gl, "draws while it compiles a display list");
         let plan = self.plan(gl, Kind::List);
         self.queries.drawn();
         if !self.state.draws_to_window() {

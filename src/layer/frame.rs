@@ -47,6 +47,7 @@ impl Layer {
         self.rebind(gl);
         self.queries.put_condition(gl);
         self.queries.resume(gl);
+        self.follow_lenses(gl);
         self.drawn = false;
         self.frame = Default::default();
     }
@@ -141,7 +142,7 @@ impl Layer {
     }
 
     /// Where the window's picture lies on the screen; a window system that does not tell leaves it in the corner.
-    fn placement(&self) -> Placement {
+    pub(super) fn placement(&self) -> Placement {
         let (width, height) = self.size();
         let on_screen = self.on_screen.unwrap_or(OnScreen {
             screen: (width, height),
@@ -240,9 +241,10 @@ impl Layer {
             CaptureWhat::View(v) => capture::write(&tile(gl, &self.atlas, v), &path),
             CaptureWhat::Depth => {
                 self.atlas.resolve(gl, true, c::DEPTH_BUFFER_BIT);
-                let (from, x) = self.atlas.readable(source.tiles.own());
+                let t = &source.tiles;
+                let (from, x) = self.atlas.readable(t.own());
                 gl.bind_framebuffer(c::READ_FRAMEBUFFER, from);
-                capture::write(&capture::read_depth(gl, x, 0, width, height), &path)
+                capture::write(&capture::read_depth(gl, x, 0, t.width, t.height), &path)
             }
         };
         gl.bind_framebuffer(c::FRAMEBUFFER, 0);

@@ -235,11 +235,19 @@ impl Layer {
 
     /// Draw and read buffers are kept in each framebuffer object of the atlas.
     pub(super) fn apply_buffers(&mut self, gl: &Gl) {
-        if self.state.framebuffers.uses_front() && !self.atlas.has_front() {
+        if self.state.framebuffers.uses_front()
+            && !self.atlas.has_front()
+            && self.atlas.tiles.grid.is_full()
+        {
             let (names, window) = (&mut self.names, &self.state.window);
             let swapped = self.report.frames() > 0;
             let make = || self.atlas.make_front(gl, names, window, swapped);
             as_they_are(gl, || keep_bindings(gl, make));
+        }
+        let f = &self.state.framebuffers;
+        if f.uses_front() && !self.atlas.tiles.grid.is_full() {
+            // Which comes back here for the new one.
+            return self.hold_everything(gl, "uses the front buffer");
         }
         let f = &self.state.framebuffers;
         let (draw, read) = (f.draw_images(), f.read_image());
@@ -324,7 +332,8 @@ impl Layer {
         }
         // What lies to the right of the window must not be another view.
         let beside = self.atlas.tiles.columns > 1 && x.saturating_add(width) > self.tile_size()[0];
-        if self.state.framebuffers.read != 0 || !(self.atlas.multisampled() || beside) {
+        let other = self.atlas.multisampled() || !self.atlas.tiles.grid.is_full();
+        if self.state.framebuffers.read != 0 || !(other || beside) {
             return call();
         }
         self.state.refresh(gl);
@@ -408,7 +417,7 @@ impl Layer {
             if view == own {
                 self.queries.resume(gl);
             }
-            self.scissored(gl, x, &mut || {
+            self.scissored(gl, view, x, &mut || {
                 if view == own {
                     return call();
                 }
@@ -436,6 +445,7 @@ impl Layer {
             return blit(0, 0);
         }
         self.state.refresh(gl);
+        self.hold_everything(gl, "copies pictures into the window");
         let images = self.state.framebuffers.draw_images();
         let single = match images[..] {
             [image] if image != c::NONE => Some(image),
@@ -453,7 +463,7 @@ impl Layer {
                 let (from, _) = self.atlas.target(view);
                 gl.bind_framebuffer(c::READ_FRAMEBUFFER, from);
             }
-            self.scissored(gl, x, &mut || blit(if read { x } else { 0 }, x));
+            self.scissored(gl, view, x, &mut || blit(if read { x } else { 0 }, x));
         }
         self.rebind(gl);
     }
@@ -481,11 +491,11 @@ impl Layer {
     }
 
     /// Runs a call with the scissor cut to a tile, where tiles lie beside each other.
-    pub(super) fn scissored(&self, gl: &Gl, x: i32, call: &mut dyn FnMut()) {
-        if self.atlas.tiles.columns == 1 {
+    pub(super) fn scissored(&self, gl: &Gl, view: u32, x: i32, call: &mut dyn FnMut()) {
+        if self.atlas.tiles.columns == 1 && self.atlas.tiles.grid.is_full() {
             return call();
         }
-        crate::draw::place(gl, &self.state, x, self.tile_size());
+        crate::draw::place(gl, &self.state, &self.atlas.tiles, view, x);
         call();
         crate::draw::unplace(gl, &self.state);
     }

@@ -224,7 +224,8 @@ impl Layer {
             let touch = segments().fold(Touch::NONE, |t, s| t | s.touch);
             let current = segments().fold(Effect::NONE, |e, s| e | s.immediate.sets());
             let primitives = segments().all(|s| s.primitives);
-            return self.run(gl, run, touch, (current, primitives), &mut || {
+            let thin = segments().any(|s| s.thin);
+            return self.run(gl, run, touch, (current, primitives, thin), &mut || {
                 settle(gl, current);
                 call();
             });
@@ -311,7 +312,11 @@ impl Layer {
                     gl,
                     run,
                     segment.touch,
-                    (segment.immediate.must_restore(), segment.primitives),
+                    (
+                        segment.immediate.must_restore(),
+                        segment.primitives,
+                        segment.thin,
+                    ),
                     &mut || {
                         settle(gl, sets);
                         gl.call_list(segment.name);
@@ -380,6 +385,7 @@ impl Layer {
 
     /// A list of which only the driver knows what is in it.
     fn unknown_list(&mut self, gl: &Gl, call: &mut dyn FnMut()) {
+        self.hold_everything(gl, "calls display lists that were compiled elsewhere");
         let plan = self.plan(gl, Kind::List);
         if plan.method == Method::Once {
             self.once(gl, call);
@@ -395,13 +401,13 @@ impl Layer {
     }
 
     /// Executes one run, or several of a kind. `drawing`: the current values that it starts from and changes, and whether it is
-    /// nothing but primitives.
+    /// nothing but primitives, with lines and points among them.
     fn run(
         &mut self,
         gl: &Gl,
         run: Run,
         touch: Touch,
-        drawing: (Effect, bool),
+        drawing: (Effect, bool, bool),
         call: &mut dyn FnMut(),
     ) {
         match run {
@@ -417,18 +423,26 @@ impl Layer {
             | Run::DrawBuffers
             | Run::ReadBuffer(_) => call(),
             Run::Draw => {
+                // The list changes the current matrix, and that is the projection.
+                let projection =
+                    touch.has(Touch::MATRIX) && self.state.matrix_mode == c::PROJECTION;
+                if projection || touch.has(Touch::RECTS) {
+                    self.hold_everything(
+                        gl,
+                        "changes the projection or the viewport in a display list",
+                    );
+                } else {
+                    self.hold_list(gl, drawing.2);
+                }
                 let plan = self.plan(gl, Kind::List);
                 if plan.method == Method::Once {
                     self.once(gl, call);
                     return self.state.touch(touch);
                 }
-                // The list changes the current matrix, and that is the projection.
-                let projection =
-                    touch.has(Touch::MATRIX) && self.state.matrix_mode == c::PROJECTION;
                 let again = match drawing {
-                    (Effect::NONE, true) => Again::Same,
-                    (current, true) => Again::Current(current),
-                    (current, false) => Again::Anything {
+                    (Effect::NONE, true, _) => Again::Same,
+                    (current, true, _) => Again::Current(current),
+                    (current, false, _) => Again::Anything {
                         rects: touch.has(Touch::RECTS),
                         projection,
                         current,

@@ -15,6 +15,7 @@ mod framebuffer;
 mod frames;
 mod lists;
 mod queries;
+mod sampling;
 pub mod support;
 
 pub use control::Pictured;
@@ -23,9 +24,9 @@ pub use frames::Frames;
 pub use lists::is_scaled;
 pub use queries::Answer;
 
-use crate::atlas::{Atlas, AtlasError, Names, Tiles};
+use crate::atlas::{Atlas, AtlasError, Grid, Names, Tiles};
 use crate::config::{AtlasLayout, Config, Live, Projection, Strategy, profile};
-use crate::display::Display;
+use crate::display::{Display, Placement};
 use crate::draw::{Driver, FixedState, Programs};
 use crate::gl::{Count, Ends, Gl, Held, Recording, consts as c};
 use crate::interleave::Interleaver;
@@ -92,6 +93,7 @@ pub struct Layer {
     picture: control::Picture,
     made: Count,
     on_screen: Option<OnScreen>,
+    detail: sampling::Detail,
     /// Counts for `--report`.
     pub report: Report,
     drawn: bool,
@@ -124,7 +126,6 @@ impl Layer {
         state.clip_control = gl.version() >= (4, 5) || gl.has_extension("GL_ARB_clip_control");
         state.keep_errors(gl);
         let mut names = Names::default();
-        let atlas = make_atlas(gl, &mut names, config, &state, &support)?;
         let mut report = Report::default();
         support.notes().into_iter().for_each(|n| report.note(n));
         let programs = Programs::new(crate::draw::limits(gl, support.glsl));
@@ -139,6 +140,22 @@ impl Layer {
         }
         sweep(gl, &lists);
         let live = Live::new(config);
+        let detail = if support.viewports {
+            sampling::Detail::Lenses
+        } else {
+            sampling::Detail::Full
+        };
+        let placement = Placement::full_screen(state.window.width, state.window.height);
+        let shader = interleaver.note().is_none();
+        let grid = sampling::grid(
+            config,
+            &config.display,
+            live.output,
+            &placement,
+            detail,
+            shader,
+        );
+        let atlas = make_atlas(gl, &mut names, config, &state, &support, grid)?;
         let mut layer = Layer {
             config,
             rig: Rig::new(config.views, live.camera, config.profile.focal_depth),
@@ -176,6 +193,7 @@ impl Layer {
             fitted: None,
             picture: control::Picture::None,
             made: Count::default(),
+            detail,
             report,
             drawn: false,
         };
@@ -192,7 +210,9 @@ impl Layer {
         }
         self.state.window.width = width;
         self.state.window.height = height;
-        let atlas = make_atlas(gl, &mut self.names, self.config, &self.state, &self.support)?;
+        let grid = self.grid();
+        let (names, config, state) = (&mut self.names, self.config, &self.state);
+        let atlas = make_atlas(gl, names, config, state, &self.support, grid)?;
         std::mem::replace(&mut self.atlas, atlas).delete(gl);
         if let Some(old) = std::mem::take(&mut self.accumulated).buffer {
             old.delete(gl);
@@ -292,13 +312,21 @@ impl Layer {
     /// Puts a new atlas with the same contents in the place of the old one.
     fn remake(&mut self, gl: &Gl) -> bool {
         self.state.refresh(gl);
-        let Ok(mut atlas) =
-            make_atlas(gl, &mut self.names, self.config, &self.state, &self.support)
-        else {
+        let grid = self.grid();
+        let (names, config, state) = (&mut self.names, self.config, &self.state);
+        let Ok(mut atlas) = make_atlas(gl, names, config, state, &self.support, grid) else {
             return false;
         };
         as_they_are(gl, || {
-            self.reading(gl, BACK, |layer| atlas.copy(gl, &layer.atlas));
+            self.reading(gl, BACK, |layer| {
+                if atlas.tiles.grid == layer.atlas.tiles.grid {
+                    return atlas.copy(gl, &layer.atlas);
+                }
+                let (names, window) = (&mut layer.names, &layer.state.window);
+                keep_bindings(gl, || {
+                    atlas.copy_spread(gl, &mut layer.atlas, names, window)
+                });
+            });
             if self.atlas.has_front() {
                 let (names, window) = (&mut self.names, &self.state.window);
                 keep_bindings(gl, || atlas.make_front(gl, names, window, false));
@@ -434,12 +462,13 @@ fn make_atlas(
     config: &Config,
     state: &State,
     support: &Support,
+    grid: Grid,
 ) -> Result<Atlas, LayerError> {
     let w = &state.window;
     let tiles = Tiles::new(
         config.views,
-        w.width,
-        w.height,
+        [w.width, w.height],
+        grid,
         layout(config, support),
         support.limits,
     )

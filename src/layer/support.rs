@@ -21,6 +21,8 @@ pub struct Support {
     pub clip_distances: u32,
     /// Whether a generated vertex shader can choose the layer that it draws to.
     pub layers: bool,
+    /// Whether viewports can begin and end between pixels (GL_ARB_viewport_array).
+    pub viewports: bool,
     /// How large an atlas may be.
     pub limits: Limits,
 }
@@ -61,6 +63,7 @@ impl Support {
             glsl,
             clip_distances,
             layers: clip_distances >= 2 && crate::draw::limits(gl, glsl).vertex_layer.is_some(),
+            viewports: version >= (4, 1) || gl.has_extension("GL_ARB_viewport_array"),
             limits: Limits {
                 side: side.max(1).unsigned_abs(),
                 layers: gl
@@ -147,6 +150,7 @@ mod tests {
             glsl,
             clip_distances,
             layers: true,
+            viewports: true,
             limits: Limits {
                 side: 4096,
                 layers: 256,

@@ -89,6 +89,8 @@ pub struct Segment {
     pub immediate: Immediate,
     /// Of a run that draws: nothing but primitives and current values.
     pub primitives: bool,
+    /// There may be lines or points among them.
+    pub thin: bool,
     /// Levels of attributes that it pops and has not pushed.
     pub pops: u32,
     /// The masks of those that it pushes and leaves.
@@ -307,6 +309,7 @@ fn fresh(name: u32) -> Segment {
         names: Arc::default(),
         immediate: Immediate::default(),
         primitives: true,
+        thin: false,
         pops: 0,
         pushes: Vec::new(),
         opens: None,
@@ -413,6 +416,12 @@ impl Compiling {
             _ => touch,
         };
         self.open.touch = self.open.touch | touch;
+        self.open.thin |= match command {
+            Command::Begin(mode) => mode <= c::LINE_STRIP,
+            // Which mode arrays are drawn in is not known here.
+            Command::Of(Run::Draw) => true,
+            _ => false,
+        };
         match command {
             Command::MatrixMode(mode) => self.matrix_mode = Some(mode),
             Command::PushMatrix => self.matrices += 1,

@@ -8,6 +8,7 @@ use std::fs;
 
 mod fuzz;
 mod kinds;
+mod turns;
 mod vectors;
 mod written;
 

@@ -1,0 +1,84 @@
+//! State that is counted in pixels, where those of the tiles are larger than the window's: widths of lines and points, and the level
+//! of detail of textures.
+
+use crate::atlas::Grid;
+use crate::gl::{Gl, consts as c};
+use crate::state::State;
+
+/// What the program has, to be put back.
+#[derive(Debug, Default)]
+pub(super) struct Tuned {
+    /// Of lines and points.
+    widths: Option<[f32; 2]>,
+    /// By texture unit: GL_TEXTURE_LOD_BIAS.
+    biases: Vec<(u32, f32)>,
+    /// GL_ACTIVE_TEXTURE.
+    active: u32,
+}
+
+/// Texture units of fixed function that are looked at.
+const UNITS: u32 = 8;
+
+const TARGETS: [u32; 5] = [
+    c::TEXTURE_2D,
+    c::TEXTURE_CUBE_MAP,
+    c::TEXTURE_3D,
+    c::TEXTURE_1D,
+    c::TEXTURE_RECTANGLE,
+];
+
+impl Tuned {
+    /// `unknown`: the draw may use any texture units.
+    pub(super) fn enter(gl: &Gl, state: &State, grid: &Grid, unknown: bool) -> Tuned {
+        if grid.is_full() {
+            return Tuned::default();
+        }
+        let widths = [c::LINE_WIDTH, c::POINT_SIZE].map(|w| gl.get_floats::<1>(w)[0]);
+        let [line, point] = widths.map(|width| width / grid.spacing() as f32);
+        gl.line_width(line);
+        gl.point_size(point);
+        let mut tuned = Tuned {
+            widths: Some(widths),
+            ..Tuned::default()
+        };
+        if state.compatibility {
+            tuned.sharpen(gl, grid, unknown);
+        }
+        tuned
+    }
+
+    fn sharpen(&mut self, gl: &Gl, grid: &Grid, unknown: bool) {
+        let bias = grid.level_bias() as f32;
+        self.active = gl.get_integer(c::ACTIVE_TEXTURE) as u32;
+        let units = gl.get_integer(c::MAX_TEXTURE_UNITS).max(0) as u32;
+        let mut now = self.active;
+        for unit in (0..units.min(UNITS)).map(|unit| c::TEXTURE0 + unit) {
+            if unit != now {
+                gl.active_texture(unit);
+                now = unit;
+            }
+            if unknown || TARGETS.iter().any(|&target| gl.is_enabled(target)) {
+                let was = gl.get_tex_env(c::TEXTURE_FILTER_CONTROL, c::TEXTURE_LOD_BIAS);
+                gl.tex_envf(c::TEXTURE_FILTER_CONTROL, c::TEXTURE_LOD_BIAS, was + bias);
+                self.biases.push((unit, was));
+            }
+        }
+        if now != self.active {
+            gl.active_texture(self.active);
+        }
+    }
+
+    pub(super) fn leave(&self, gl: &Gl) {
+        if let Some([line, point]) = self.widths {
+            gl.line_width(line);
+            gl.point_size(point);
+        }
+        for &(unit, was) in &self.biases {
+            gl.active_texture(unit);
+            gl.tex_envf(c::TEXTURE_FILTER_CONTROL, c::TEXTURE_LOD_BIAS, was);
+        }
+        if !self.biases.is_empty() {
+            gl.active_texture(self.active);
+        }
+    }
+}

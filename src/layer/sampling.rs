@@ -1,0 +1,153 @@
+//! How finely the views are drawn: as few texels as the output shows, and the window's own pixels as soon as the program does what
+//! others cannot hold.
+
+use super::Layer;
+use crate::atlas::Grid;
+use crate::config::{Config, Output, ViewScale};
+use crate::display::{Display, Placement};
+use crate::gl::{Gl, consts as c};
+use crate::interleave::Form;
+use crate::plan::Kind;
+
+/// What a program has left of it. Each holds more kinds of draws than the one before.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Detail {
+    /// Triangles over the whole window.
+    #[default]
+    Lenses,
+    /// Anything that has a size in the window's pixels.
+    Scaled,
+    /// Everything.
+    Full,
+}
+
+/// The texels of the views. `shader`: the output is made on the GPU, which can look tiles up by lenses.
+pub(super) fn grid(
+    config: &Config,
+    display: &Display,
+    output: Output,
+    placement: &Placement,
+    detail: Detail,
+    shader: bool,
+) -> Grid {
+    let window = [placement.width, placement.height];
+    let scaled = |share: [f64; 2]| {
+        let tile = [0, 1].map(|i| ((f64::from(window[i]) * share[i]).round() as u32).max(1));
+        Grid::scaled(tile, window)
+    };
+    match (config.view_scale, detail) {
+        (_, Detail::Full) => Grid::FULL,
+        (ViewScale::Fixed(scale), _) => scaled([scale; 2]),
+        (ViewScale::Auto, detail) => {
+            let form = Form::of(config, display, output);
+            (detail == Detail::Lenses && shader)
+                .then(|| form.lenses(placement, config.views))
+                .flatten()
+                .unwrap_or_else(|| scaled(form.share(config.views)))
+        }
+    }
+}
+
+impl Layer {
+    pub(super) fn grid(&self) -> Grid {
+        grid(
+            self.config,
+            self.fitted.as_ref().unwrap_or(&self.config.display),
+            self.output(),
+            &self.placement(),
+            self.detail,
+            self.interleaver.note().is_none(),
+        )
+    }
+
+    /// Before a draw: the grid has to be able to hold it.
+    pub(super) fn hold(&mut self, gl: &Gl, kind: Kind) {
+        let grid = self.atlas.tiles.grid;
+        if grid.is_full() || !self.state.draws_to_window() {
+            return;
+        }
+        match kind {
+            Kind::Pixels => return self.hold_everything(gl, "draws pixels or bitmaps"),
+            Kind::Accum => return self.hold_everything(gl, "uses the accumulation buffer"),
+            Kind::Clear { .. } => return self.hold_rects(gl),
+            _ => {}
+        }
+        if self.state.program != 0 {
+            return self.hold_everything(gl, "has shaders of its own");
+        }
+        if gl.is_enabled(c::POLYGON_STIPPLE) {
+            return self.hold_everything(gl, "draws stippled polygons");
+        }
+        if grid.follows_lenses() {
+            let thin = match kind {
+                Kind::Begin(mode) | Kind::Arrays(mode) | Kind::Elements(mode) => {
+                    mode <= c::LINE_STRIP
+                }
+                _ => false,
+            };
+            if thin || gl.get_integers::<2>(c::POLYGON_MODE) != [c::FILL as i32; 2] {
+                return self.give_up(gl, Detail::Scaled, "draws lines or points");
+            }
+            self.hold_rects(gl);
+        }
+    }
+
+    /// Before a run of a display list; `thin`: it may have lines or points.
+    pub(super) fn hold_list(&mut self, gl: &Gl, thin: bool) {
+        if thin && self.atlas.tiles.grid.follows_lenses() {
+            self.give_up(
+                gl,
+                Detail::Scaled,
+                "may draw lines or points in display lists",
+            );
+        }
+    }
+
+    /// Edges of a part of the window cannot be upright in tiles that lean.
+    fn hold_rects(&mut self, gl: &Gl) {
+        let window = &self.state.window;
+        let whole = [0, 0, window.width as i32, window.height as i32];
+        let part =
+            self.state.viewport != whole || self.state.scissor_test && self.state.scissor != whole;
+        if part && self.atlas.tiles.grid.shear != 0.0 {
+            self.give_up(gl, Detail::Scaled, "draws to parts of the window");
+        }
+    }
+
+    /// Only the window's own pixels can hold what comes.
+    pub(super) fn hold_everything(&mut self, gl: &Gl, what: &str) {
+        if !self.atlas.tiles.grid.is_full() {
+            self.give_up(gl, Detail::Full, what);
+        }
+    }
+
+    fn give_up(&mut self, gl: &Gl, detail: Detail, what: &str) {
+        self.detail = detail;
+        let now = match self.grid() {
+            grid if grid.is_full() => "at the size of the window",
+            _ => "with fewer pixels, but not lens by lens",
+        };
+        self.report
+            .note(format!("views are drawn {now}, because the program {what}"));
+        self.remake(gl);
+    }
+
+    /// After a frame: the window may have moved, or the output be another one.
+    pub(super) fn follow_lenses(&mut self, gl: &Gl) {
+        if self.config.view_scale == ViewScale::Fixed(1.0) {
+            return;
+        }
+        let tiles = &mut self.atlas.tiles;
+        let (views, window, old) = (tiles.views, tiles.window, tiles.grid);
+        let (grid, size) = self.grid().fit(window, views);
+        let tiles = &mut self.atlas.tiles;
+        if grid == old {
+            return;
+        }
+        if size == [tiles.width, tiles.height] {
+            tiles.grid = grid;
+        } else {
+            self.remake(gl);
+        }
+    }
+}
