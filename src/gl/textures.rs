@@ -66,6 +66,17 @@ impl Gl {
         v[0]
     }
 
+    /// glGetTexEnviv of one value of GL_TEXTURE_ENV.
+    pub fn get_tex_env(&self, name: u32) -> i32 {
+        let mut v = [0i32; 4];
+        // SAFETY: room for 4 elements.
+        unsafe {
+            self.real
+                .glGetTexEnviv(c::TEXTURE_ENV, name, v.as_mut_ptr().cast())
+        };
+        v[0]
+    }
+
     /// glTexImage3D of an array texture without data.
     pub fn tex_storage_3d(&self, internal: u32, w: i32, h: i32, d: i32, format: u32, kind: u32) {
         // SAFETY: no data.
