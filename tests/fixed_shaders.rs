@@ -4,12 +4,18 @@
 
 #[path = "fixed/cases.rs"]
 mod cases;
+#[path = "fixed/check.rs"]
+mod check;
+#[path = "fixed/matrices.rs"]
+mod matrices;
+#[path = "fixed/random.rs"]
+mod random;
 
 use cases::{Case, case};
+use check::Difference;
 use manyview::fixed::{Limits, Primitive, VertexLayer, generate};
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
-use std::process::Command;
+use std::path::Path;
 
 /// Random cases. The first third of the numbers is as good a sample as any, so shorten here when in a hurry.
 const CASES: usize = 300;
@@ -26,88 +32,23 @@ fn limits() -> Limits {
     }
 }
 
-/// One line of `ffcheck`.
-#[derive(Clone, Copy, Debug, Default)]
-struct Difference {
-    worst: u64,
-    over1: u64,
-    over8: u64,
-    differ: u64,
-    coverage: u64,
-    covered: u64,
-    pixels: u64,
+/// The gate. One view of filled polygons or points: every pixel covered by the same draw, at most 2 steps off, and
+/// at most 0.03 % of the pixels more than one. A view that is shifted and moved to its tile has its vertices rounded
+/// otherwise than those of a matrix of its own, so a pixel where two surfaces meet may show the other one; lines
+/// (one pixel wide, by the diamond-exit rule) may gain or lose a pixel. Those are judged by their sum.
+fn passes(found: &Difference, case: &Case) -> bool {
+    let lines = case.key.target.primitive == Primitive::Lines;
+    if lines || case.views > 1 {
+        return found.over1 * 1_000 <= found.pixels;
+    }
+    found.worst <= 2 && found.coverage == 0 && found.over1 * 10_000 <= found.pixels * 3
 }
 
-impl Difference {
-    fn parse(line: &str) -> Option<(usize, Self)> {
-        let mut words = line.split(' ');
-        let number = words.next()?.parse().ok()?;
-        let mut found = Self::default();
-        for word in words {
-            let (name, value) = word.split_once('=')?;
-            let value = value.parse().ok()?;
-            match name {
-                "worst" => found.worst = value,
-                "over1" => found.over1 = value,
-                "over8" => found.over8 = value,
-                "differ" => found.differ = value,
-                "coverage" => found.coverage = value,
-                "covered" => found.covered = value,
-                "pixels" => found.pixels = value,
-                _ => return None,
-            }
-        }
-        Some((number, found))
-    }
-
-    /// The gate. One view of filled polygons or points: every pixel covered by the same draw, at most 2 steps off, and
-    /// at most 0.03 % of the pixels more than one. A view that is shifted and moved to its tile has its vertices rounded
-    /// otherwise than those of a matrix of its own, so a pixel where two surfaces meet may show the other one; lines
-    /// (one pixel wide, by the diamond-exit rule) may gain or lose a pixel. Those are judged by their sum.
-    fn passes(&self, case: &Case) -> bool {
-        let lines = case.key.target.primitive == Primitive::Lines;
-        if lines || case.views > 1 {
-            return self.over1 * 1_000 <= self.pixels;
-        }
-        self.worst <= 2 && self.coverage == 0 && self.over1 * 10_000 <= self.pixels * 3
-    }
-
-    /// The gate of a class of cases. Pixels gained or lost, and those more than 8 steps off, in parts per million.
-    fn sum_passes(&self, coverage: u64, outliers: u64) -> bool {
-        self.over1 * 10_000 <= self.pixels * 3
-            && self.over8 * 1_000_000 <= self.pixels * outliers
-            && self.coverage * 1_000_000 <= self.pixels * coverage
-    }
-
-    fn add(&mut self, other: Self) {
-        self.worst = self.worst.max(other.worst);
-        self.over1 += other.over1;
-        self.over8 += other.over8;
-        self.differ += other.differ;
-        self.coverage += other.coverage;
-        self.covered += other.covered;
-        self.pixels += other.pixels;
-    }
-}
-
-/// Builds `ffcheck`, anew when its source is younger.
-fn ffcheck() -> PathBuf {
-    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/fixed/ffcheck.c");
-    let binary = Path::new(env!("CARGO_TARGET_TMPDIR")).join("ffcheck");
-    let time = |path: &Path| path.metadata().and_then(|data| data.modified()).ok();
-    if time(&binary).is_none_or(|built| time(&source).is_none_or(|written| written > built)) {
-        let status = Command::new("cc")
-            .args(["-std=c11", "-D_GNU_SOURCE", "-O1", "-Wall", "-Wextra", "-o"])
-            .args([&binary, &source])
-            .args(["-lEGL", "-lGL", "-lm"])
-            .status()
-            .expect("cc runs");
-        assert!(
-            status.success(),
-            "ffcheck does not compile: are the headers of EGL and OpenGL installed?"
-        );
-    }
-    binary
+/// The gate of a class of cases. Pixels gained or lost, and those more than 8 steps off, in parts per million.
+fn sum_passes(found: &Difference, coverage: u64, outliers: u64) -> bool {
+    found.over1 * 10_000 <= found.pixels * 3
+        && found.over8 * 1_000_000 <= found.pixels * outliers
+        && found.coverage * 1_000_000 <= found.pixels * coverage
 }
 
 fn write(directory: &Path, number: usize, case: &Case) {
@@ -142,21 +83,10 @@ fn random_state_looks_like_fixed_function() {
     for (number, case) in cases.iter().enumerate() {
         write(folder.path(), number, case);
     }
-    let mut command = Command::new(ffcheck());
-    command.arg(folder.path()).arg(CASES.to_string());
-    command
-        .env("LIBGL_ALWAYS_SOFTWARE", "1")
-        .env("GALLIUM_DRIVER", "llvmpipe")
-        .env_remove("LD_PRELOAD");
-    let output = command.output().expect("ffcheck runs");
-    let errors = String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success(), "ffcheck failed:\n{errors}");
-    let text = String::from_utf8_lossy(&output.stdout);
+    let (lines, errors) = check::run(folder.path(), CASES);
     let mut sums: BTreeMap<String, (usize, Difference)> = BTreeMap::new();
     let mut bad = Vec::new();
-    for line in text.lines() {
-        let (number, found) =
-            Difference::parse(line).unwrap_or_else(|| panic!("ffcheck said: {line}"));
+    for (number, found) in lines {
         let case = &cases[number];
         let shifted = if case.views == 1 { "one view" } else { "views" };
         let class = match case.key.target.primitive {
@@ -173,7 +103,7 @@ fn random_state_looks_like_fixed_function() {
             *count += 1;
             sum.add(found);
         }
-        if !found.passes(case) {
+        if !passes(&found, case) {
             bad.push(format!("{number:04} {found:?} {:?}", case.key.target));
         }
     }
@@ -184,7 +114,7 @@ fn random_state_looks_like_fixed_function() {
     // Lines: 11 pixels of 1.9 million gained or lost, 17 more than 8 steps off (llvmpipe, Mesa 22.3.6).
     for (class, coverage, outliers) in [("all but lines", 0, 2), ("lines", 10, 15)] {
         let (_, sum) = sums[class];
-        if !sum.sum_passes(coverage, outliers) {
+        if !sum_passes(&sum, coverage, outliers) {
             bad.push(format!("{class}: {sum:?}"));
         }
     }

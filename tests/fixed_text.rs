@@ -1,9 +1,11 @@
 //! The generator's text and decisions, without a driver.
 
 use manyview::fixed::{
-    Amplifier, ColorMaterial, Diagonal, Dialect, FixedKey, FogSource, Light, Lighting, Limits,
-    MaterialFace, MaterialMode, NormalScaling, PointSize, Primitive, Rasterised, Surroundings,
-    Target, TexGen, TextureUnit, Tiles, Unsupported, VertexLayer, batch, generate,
+    Amplifier, Argument, BaseFormat, Clip, ColorMaterial, Combine, Combiner, Diagonal, Dialect,
+    Environment, FixedKey, FogMode, FogSource, FragmentKey, FragmentUnit, Function, Light,
+    Lighting, Limits, MaterialFace, MaterialMode, NormalScaling, Operand, PointSize, Primitive,
+    Rasterised, Source, Surroundings, Target, TexGen, TextureTarget, TextureUnit, Tiles,
+    Unsupported, VertexLayer, batch, generate, generate_fragment,
 };
 
 fn limits() -> Limits {
@@ -17,6 +19,7 @@ fn target(amplifier: Amplifier, tiles: Tiles, primitive: Primitive, views: u8) -
     Target {
         amplifier,
         tiles,
+        clip: Clip::Distances,
         primitive,
         diagonal: Diagonal::OneThree,
         views,
@@ -144,6 +147,123 @@ fn attenuated_points_by_invocations() {
         ),
         point: PointSize::Attenuated,
         color_sum: true,
+        ..FixedKey::default()
+    };
+    insta::assert_snapshot!(text(&key));
+}
+
+/// A fragment stage, for a snapshot.
+fn fragment(key: &FragmentKey) -> String {
+    generate_fragment(key, &limits()).expect("these keys are supported")
+}
+
+fn unit(target: TextureTarget, format: BaseFormat, environment: Environment) -> FragmentUnit {
+    FragmentUnit {
+        target,
+        format,
+        detail: true,
+        environment,
+    }
+}
+
+#[test]
+fn fragments_of_a_game() {
+    let mut key = FragmentKey {
+        fog: FogMode::Exp2,
+        grid: true,
+        dialect: Dialect::Mesa,
+        ..FragmentKey::default()
+    };
+    let two = TextureTarget::TwoD;
+    key.units[0] = Some(unit(two, BaseFormat::Rgb, Environment::Modulate));
+    key.units[1] = Some(unit(two, BaseFormat::LuminanceAlpha, Environment::Blend));
+    insta::assert_snapshot!(fragment(&key));
+}
+
+#[test]
+fn combined_fragments_within_limits() {
+    let argument = |source, operand| Argument { source, operand };
+    let bump = Combine {
+        rgb: Combiner {
+            function: Function::Dot3Rgb,
+            arguments: [
+                argument(Source::Texture, Operand::Color),
+                argument(Source::Primary, Operand::OneMinusColor),
+                argument(Source::Unit(7), Operand::Alpha),
+            ],
+            scale: 1,
+        },
+        alpha: Combiner {
+            function: Function::Interpolate,
+            arguments: [
+                argument(Source::Unit(3), Operand::Alpha),
+                argument(Source::Previous, Operand::Alpha),
+                argument(Source::Constant, Operand::OneMinusAlpha),
+            ],
+            scale: 0,
+        },
+    };
+    let vertex = FixedKey {
+        target: Target {
+            clip: Clip::Discard,
+            ..Target::default()
+        },
+        color_sum: true,
+        fog: FogSource::Coordinate,
+        ..FixedKey::default()
+    };
+    let mut key = FragmentKey {
+        fog: FogMode::Linear,
+        ..FragmentKey::default()
+    };
+    let (cube, line) = (TextureTarget::Cube, TextureTarget::OneD);
+    key.units[0] = Some(unit(cube, BaseFormat::Rgba, Environment::Combine(bump)));
+    key.units[3] = Some(unit(line, BaseFormat::Alpha, Environment::Add));
+    insta::assert_snapshot!(fragment(&key.after(&vertex)));
+    let shaders = generate(&vertex, &limits()).expect("supported");
+    insta::assert_snapshot!("limits_of_a_view", shaders.vertex);
+    key.units[3] = None;
+    assert_eq!(
+        generate_fragment(&key, &limits()),
+        Err(Unsupported::TextureEnvironment),
+        "the texture of unit 3 is read and not there"
+    );
+}
+
+#[test]
+fn fragments_forget_what_does_not_matter() {
+    let mut key = FragmentKey {
+        grid: true,
+        dialect: Dialect::Mesa,
+        ..FragmentKey::default()
+    };
+    let rectangle = TextureTarget::Rectangle;
+    key.units[2] = Some(unit(rectangle, BaseFormat::Rgb, Environment::Decal));
+    let canonical = key.canonical();
+    assert!(!canonical.grid, "a rectangle has one level");
+    assert_eq!(canonical.dialect, Dialect::Specification);
+    assert_eq!(canonical.canonical(), canonical, "canonical is final");
+    assert_eq!(canonical.sampled().collect::<Vec<_>>(), [2]);
+    key.units[2] = Some(unit(rectangle, BaseFormat::Alpha, Environment::Decal));
+    assert_eq!(
+        generate_fragment(&key, &limits()),
+        Err(Unsupported::TextureEnvironment),
+        "a decal without colour"
+    );
+}
+
+#[test]
+fn triangles_left_out_in_a_loop() {
+    let key = FixedKey {
+        target: Target {
+            clip: Clip::Both,
+            ..target(
+                Amplifier::GeometryLoop,
+                Tiles::ClipLeftRight,
+                Primitive::Triangles,
+                4,
+            )
+        },
         ..FixedKey::default()
     };
     insta::assert_snapshot!(text(&key));

@@ -41,6 +41,9 @@ pub(crate) struct LayerArguments {
     /// Where the views lie in memory [default: side-by-side]
     #[arg(long, value_name = "side-by-side|layers")]
     atlas: Option<String>,
+    /// Put the views of instanced and geometry side by side, and keep them apart so [default: views lie in layers]
+    #[arg(long, value_name = "distances|discard|both")]
+    clip: Option<String>,
     /// Size of a view over the size of the window, above 0 and at most 1 [default: 1]
     #[arg(long, value_name = "F", allow_hyphen_values = true)]
     view_scale: Option<String>,
@@ -84,6 +87,7 @@ impl LayerArguments {
             (OptionId::Convergence, &self.convergence),
             (OptionId::Strategy, &self.strategy),
             (OptionId::Atlas, &self.atlas),
+            (OptionId::Clip, &self.clip),
             (OptionId::ViewScale, &self.view_scale),
             (OptionId::HudDepth, &self.hud_depth),
             (OptionId::Profile, &self.profile),

@@ -53,6 +53,8 @@ pub struct Config {
     pub strategy: Strategy,
     /// Where the views lie in memory.
     pub atlas: AtlasLayout,
+    /// What keeps views beside each other apart where one draw makes several; views lie in layers unless it is given.
+    pub clip: Option<Clip>,
     /// Size of a tile over the size of the window.
     pub view_scale: ViewScale,
     /// Where flat draws stand that no rule places: 0 on the panel, 1 infinitely far; a fraction of the separation at infinity.
@@ -267,6 +269,19 @@ pub enum ViewScale {
     Fixed(f64),
     /// As finely as the output shows a view.
     Auto,
+}
+
+/// What keeps a view within its tile. All but the first are variants of F. de Sorbier et al.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Clip {
+    /// Two clip distances per vertex: the driver cuts.
+    #[default]
+    Distances,
+    /// The fragment shader discards what is outside; the vertex stage passes it the limits.
+    Discard,
+    /// Likewise, after the geometry shader has left out what lies outside as a whole. With instances the same as
+    /// [`Clip::Discard`].
+    Both,
 }
 
 /// Where the views lie.

@@ -36,6 +36,8 @@ pub enum OptionId {
     Strategy,
     /// Where the views lie.
     Atlas,
+    /// What keeps views beside each other apart.
+    Clip,
     /// Tile size over window size.
     ViewScale,
     /// Depth of flat draws.
@@ -135,6 +137,8 @@ pub const OPTIONS: &[OptionSpec] = &[
         "how draws are repeated per view; auto unless given"),
     option!(Atlas, Some("atlas"), Some("atlas"), "MANYVIEW_ATLAS", "side-by-side|layers", No,
         "where the views lie in memory; side-by-side unless given"),
+    option!(Clip, Some("clip"), Some("clip"), "MANYVIEW_CLIP", "distances|discard|both", No,
+        "put the views of instanced and geometry side by side, and keep them apart so; views lie in layers unless given"),
     option!(ViewScale, Some("view-scale"), Some("view-scale"), "MANYVIEW_VIEW_SCALE", "F", No,
         "size of a view over that of the window, from 0.05 to 1, or auto: as much as the output shows; 1 unless given"),
     option!(HudDepth, Some("hud-depth"), Some("hud-depth"), "MANYVIEW_HUD_DEPTH", "D", No,
@@ -270,6 +274,6 @@ mod tests {
         for row in OPTIONS {
             assert_eq!(row.id.spec().variable, row.variable);
         }
-        assert_eq!(OPTIONS.len(), 25, "a new option needs a row");
+        assert_eq!(OPTIONS.len(), 26, "a new option needs a row");
     }
 }

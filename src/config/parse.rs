@@ -5,7 +5,7 @@ use super::error::ConfigError;
 use super::options::{Field, OptionId, Origin};
 use super::settings::Settings;
 use super::{
-    Anaglyph, AtlasLayout, Camera, Capture, CaptureWhat, Config, Explain, Filter, Glasses,
+    Anaglyph, AtlasLayout, Camera, Capture, CaptureWhat, Clip, Config, Explain, Filter, Glasses,
     Interlace, Kept, MAX_VIEWS, Mixture, Output, Profile, Strategy, ViewScale, panel, profile,
 };
 use crate::display::{Display, Kind, MAX_FINE_VIEWS, MaskError};
@@ -40,6 +40,12 @@ impl Config {
                 "side-by-side and layers",
             )?
             .unwrap_or(AtlasLayout::SideBySide),
+            clip: choice(
+                settings,
+                OptionId::Clip,
+                CLIPS,
+                "distances, discard and both",
+            )?,
             view_scale: view_scale(settings)?,
             hud_depth: hud_depth(settings)?,
             profile: named_profile(settings)?,
@@ -59,6 +65,12 @@ const STRATEGIES: &[(&str, Strategy)] = &[
     ("replay", Strategy::Replay),
     ("instanced", Strategy::Instanced),
     ("geometry", Strategy::Geometry),
+];
+
+const CLIPS: &[(&str, Clip)] = &[
+    ("distances", Clip::Distances),
+    ("discard", Clip::Discard),
+    ("both", Clip::Both),
 ];
 
 const ATLASES: &[(&str, AtlasLayout)] = &[

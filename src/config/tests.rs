@@ -50,6 +50,7 @@ fn every_message_is_one_clear_sentence() {
         &[("MANYVIEW_OUTPUT", "quad"), ("MANYVIEW_VIEWS", "1")],
         &[("MANYVIEW_FILTER", "smooth")],
         &[("MANYVIEW_FILTER", "blend"), ("MANYVIEW_VIEWS", "256")],
+        &[("MANYVIEW_CLIP", "never")],
         &[("MANYVIEW_OUTPUT", "view:8")],
         &[("MANYVIEW_OUTPUT", "view:x")],
         &[("MANYVIEW_EYE_SPACING", "0.1")],

@@ -2,15 +2,18 @@
 //!
 //! Based on: Luo et al. (GBMVR) and de Sorbier et al. for the geometry shader; instances as in ANGLE's multiview emulation.
 
-use super::fixed_state::FixedState;
+use super::fixed_state::{Driver, FixedState};
+use super::fragment_state;
 use crate::atlas::Atlas;
 use crate::fixed::{
-    self, Amplifier, FixedKey, Limits, Patches, Primitive, Provoking, Tiles, Unsupported, generate,
+    self, Amplifier, Clip, FixedKey, FragmentKey, Limits, Patches, Primitive, Provoking, Tiles,
+    Unsupported, generate, generate_fragment, sampler,
 };
 use crate::gl::{Gl, consts as c};
 use crate::plan::{Method, Reason, Rig, Shear};
 use crate::state::State;
 use std::collections::HashMap;
+use std::ffi::CString;
 
 /// The uniforms of `fixed`'s shaders.
 #[derive(Debug, Default, PartialEq)]
@@ -37,12 +40,17 @@ struct Program {
     uploaded: Uniforms,
 }
 
+/// Canonical keys of a program: the vertex stage, and the fragment stage where that is generated as well.
+type Stages = (FixedKey, Option<FragmentKey>);
+
 /// The generated programs of one context.
 #[derive(Debug)]
 pub struct Programs {
     /// What the driver can do.
     pub limits: Limits,
-    cache: HashMap<FixedKey, Option<Program>>,
+    driver: Driver,
+    clip: Clip,
+    cache: HashMap<Stages, Option<Program>>,
     /// Programs compiled so far.
     pub compiled: u64,
 }
@@ -50,7 +58,7 @@ pub struct Programs {
 /// A draw that an amplifier can make, decided.
 #[derive(Clone, Copy, Debug)]
 pub struct Amplified {
-    key: FixedKey,
+    stages: Stages,
     batch: u32,
     modelview: [f32; 16],
     /// The mode to draw with instead of the program's.
@@ -58,10 +66,12 @@ pub struct Amplified {
 }
 
 impl Programs {
-    /// For a context.
-    pub fn new(limits: Limits) -> Programs {
+    /// For a context. `clip` is for views that lie side by side.
+    pub fn new(limits: Limits, driver: Driver, clip: Clip) -> Programs {
         Programs {
             limits,
+            driver,
+            clip,
             cache: HashMap::new(),
             compiled: 0,
         }
@@ -94,6 +104,7 @@ impl Programs {
             1 => Tiles::Layer,
             _ => Tiles::ClipLeftRight,
         };
+        key.target.clip = self.clip;
         key.target.primitive = primitive;
         key.target.views = 1;
         if key.target.tiles == Tiles::Layer && atlas.layered().is_none() {
@@ -126,6 +137,12 @@ impl Programs {
                 fixed::batch(&key, &self.limits).max(1)
             }
         };
+        // Without clip distances other vertices of the draw are clipped than the program's own, and so the cut is another.
+        if key.target.discards() && mode == c::QUADS && !key.flat {
+            return Err(Reason::Kind(
+                "smooth quads under `--clip discard`, which the driver cuts along either diagonal,",
+            ));
+        }
         around.allow(&key).map_err(Reason::Fixed)?;
         // Measured on llvmpipe 22.3: widened after a geometry shader, they come out in shreds.
         let drawn = around.rasterised;
@@ -138,10 +155,17 @@ impl Programs {
                 "wide and smooth points and lines under `geometry`",
             ));
         }
-        self.compile(gl, &key)?;
+        let fragment = if key.target.discards() {
+            let read = fragment_state::read(gl, self.driver, &key).map_err(Reason::Fixed)?;
+            Some(read.canonical())
+        } else {
+            None
+        };
+        let stages = (key.canonical(), fragment);
+        self.compile(gl, &key, &stages)?;
         Ok(Amplified {
             modelview,
-            key: key.canonical(),
+            stages,
             batch,
             mode: drawn_mode,
         })
@@ -152,18 +176,24 @@ impl Programs {
         self.cache.values().flatten().map(|p| p.name)
     }
 
-    fn compile(&mut self, gl: &Gl, key: &FixedKey) -> Result<(), Reason> {
-        let canonical = key.canonical();
-        match self.cache.get(&canonical) {
+    fn compile(&mut self, gl: &Gl, key: &FixedKey, stages: &Stages) -> Result<(), Reason> {
+        match self.cache.get(stages) {
             Some(Some(_)) => return Ok(()),
             Some(None) => return Err(Reason::Compile),
             None => {}
         }
         let shaders = generate(key, &self.limits).map_err(Reason::Fixed)?;
+        let fragment = match &stages.1 {
+            Some(key) => Some(generate_fragment(key, &self.limits).map_err(Reason::Fixed)?),
+            None => None,
+        };
         let build = || -> Result<u32, String> {
             let mut stages = vec![gl.compile(c::VERTEX_SHADER, &shaders.vertex)?];
             if let Some(g) = &shaders.geometry {
                 stages.push(gl.compile(c::GEOMETRY_SHADER, g)?);
+            }
+            if let Some(f) = &fragment {
+                stages.push(gl.compile(c::FRAGMENT_SHADER, f)?);
             }
             gl.link(&stages)
         };
@@ -176,9 +206,12 @@ impl Programs {
             tiles: gl.uniform_location(name, c"mv_tile"),
             uploaded: Uniforms::default(),
         });
+        if let (Some(program), Some(key)) = (&program, &stages.1) {
+            name_units(gl, program.name, key);
+        }
         self.compiled += 1;
         let ok = program.is_some();
-        self.cache.insert(canonical, program);
+        self.cache.insert(*stages, program);
         if ok { Ok(()) } else { Err(Reason::Compile) }
     }
 
@@ -198,20 +231,14 @@ impl Programs {
         how: &Amplified,
         call: &mut dyn FnMut(u32),
     ) {
-        let Some(Some(program)) = self.cache.get_mut(&how.key) else {
+        let Some(Some(program)) = self.cache.get_mut(&how.stages) else {
             return;
         };
-        let around = Around::enter(
-            gl,
-            state,
-            atlas,
-            &how.key,
-            &program.patches,
-            fixed,
-            program.name,
-        );
+        let key = &how.stages.0;
+        let around = Around::enter(gl, state, atlas, key, &program.patches, fixed, program.name);
         let tiles = atlas.tiles;
-        let layers = how.key.target.tiles == Tiles::Layer;
+        let layers = key.target.tiles == Tiles::Layer;
+        let discards = key.target.discards();
         let modelview = how.modelview;
         let first_row_of = |view: u32| {
             let p = shear.map_or(state.projection, |s| {
@@ -241,6 +268,10 @@ impl Programs {
                     .iter()
                     .map(|&view| {
                         let (layer, x) = tiles.place(view);
+                        if discards {
+                            let [left, right] = around.limits.map(|limit| x as f32 + limit as f32);
+                            return [around.centre(x), 0.0, left, right];
+                        }
                         [around.centre(x), 0.0, layer as f32, 0.0]
                     })
                     .collect();
@@ -262,6 +293,17 @@ impl Programs {
         }
         around.leave(gl, state, atlas, fixed);
     }
+}
+
+/// Sets the samplers of a program to their units. The program in use is 0, as it is for all fixed function.
+fn name_units(gl: &Gl, program: u32, key: &FragmentKey) {
+    gl.use_program(program);
+    for unit in key.sampled() {
+        if let Ok(name) = CString::new(sampler(unit)) {
+            gl.uniform_1i(gl.uniform_location(program, &name), unit as i32);
+        }
+    }
+    gl.use_program(0);
 }
 
 /// Row 0 of P · M, both column-major, summed in single precision in the order of Mesa's `matmul4`: the driver makes its own
@@ -319,6 +361,8 @@ struct Around {
     scale: f32,
     /// What may be drawn, in NDC of the program's viewport: left, right, bottom, top.
     clip: [f32; 4],
+    /// The same left and right in pixels from the left edge of the tile.
+    limits: [i32; 2],
     viewport: [i32; 4],
     width: f64,
     beside: bool,
@@ -341,6 +385,7 @@ impl Around {
         let width = f64::from(atlas.tiles.texture_width());
         let [vx, vy, vw, vh] = state.viewport;
         let mut clip = [-1.0, 1.0, -1.0, 1.0];
+        let mut limits = [0; 2];
         if beside {
             // x: the viewport spans all tiles and clip distances cut at the tile and at the program's viewport and scissor.
             // y: viewport and scissor are the program's own.
@@ -352,6 +397,7 @@ impl Around {
                 (left, right) = (left.max(sx), right.min(sx.saturating_add(sw)));
                 (bottom, height) = (sy, sh);
             }
+            limits = [left, right];
             let ndc = |x: i32| (f64::from(x - vx) * 2.0 / f64::from(vw.max(1)) - 1.0) as f32;
             clip[0] = if left == vx { -1.0 } else { ndc(left) };
             clip[1] = if right == vx.saturating_add(vw) {
@@ -408,6 +454,7 @@ impl Around {
         Around {
             scale: (f64::from(vw) / width) as f32,
             clip,
+            limits,
             viewport: state.viewport,
             width,
             beside,

@@ -42,7 +42,7 @@ pub fn limits(gl: &Gl, glsl: u32) -> Limits {
 /// What does not change in the life of a context, and decides how its state is read.
 #[derive(Clone, Copy, Debug)]
 pub struct Driver {
-    mesa: bool,
+    pub(super) mesa: bool,
     fog_distance: bool,
     clip_planes: u32,
 }

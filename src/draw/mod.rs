@@ -4,6 +4,7 @@
 mod amplified;
 mod current;
 mod fixed_state;
+mod fragment_state;
 mod replay;
 mod tuned;
 

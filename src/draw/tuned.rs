@@ -58,7 +58,7 @@ impl Tuned {
                 now = unit;
             }
             if unknown || TARGETS.iter().any(|&target| gl.is_enabled(target)) {
-                let was = gl.get_tex_env(c::TEXTURE_FILTER_CONTROL, c::TEXTURE_LOD_BIAS);
+                let was = gl.get_tex_env_float(c::TEXTURE_FILTER_CONTROL, c::TEXTURE_LOD_BIAS);
                 gl.tex_envf(c::TEXTURE_FILTER_CONTROL, c::TEXTURE_LOD_BIAS, was + bias);
                 self.biases.push((unit, was));
             }

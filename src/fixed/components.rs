@@ -77,10 +77,7 @@ impl Varying {
             Varying::Vertex => return None,
             Varying::Plane(plane) => {
                 let rank = key.planes().take_while(|&other| other < plane).count() as u32;
-                format!(
-                    "gl_ClipDistance[{}]",
-                    key.target.tiles.clip_distances() + rank
-                )
+                format!("gl_ClipDistance[{}]", key.target.clip_distances() + rank)
             }
         })
     }
@@ -121,7 +118,7 @@ pub(super) fn varyings(key: &FixedKey) -> Vec<Varying> {
 }
 
 /// Scalars that the last vertex stage writes per vertex: position, everything a built-in takes, the tile's clip
-/// distances, and from a geometry shader `gl_PrimitiveID`.
+/// distances or limits, and from a geometry shader `gl_PrimitiveID`.
 fn output_components(key: &FixedKey) -> u32 {
     let varyings = varyings(key)
         .into_iter()
@@ -130,7 +127,8 @@ fn output_components(key: &FixedKey) -> u32 {
         .sum::<u32>();
     let layer = u32::from(key.target.tiles == Tiles::Layer);
     let primitive_id = u32::from(key.geometry());
-    4 + varyings + key.target.tiles.clip_distances() + layer + primitive_id
+    let limits = 2 * u32::from(key.target.discards());
+    4 + varyings + key.target.clip_distances() + limits + layer + primitive_id
 }
 
 /// Scalars between vertex and geometry shader, per vertex.

@@ -1,7 +1,8 @@
 //! The geometry shader: the primitive of one view, for each view.
 //!
 //! Based on: Q. Luo et al., "GPU-based multi-view rendering" and F. de Sorbier et al., "GPU rendering for
-//! autostereoscopic displays" (3DPVT 2008): the primitive is emitted once per view, shifted and cut at its tile.
+//! autostereoscopic displays" (3DPVT 2008): the primitive is emitted once per view, shifted and cut at its tile. Both ways of the latter to cut are
+//! here: fragments are discarded, or primitives are left out as well.
 //!
 //! The order of emission keeps the order of the input, so the driver's provoking vertex is the program's own. A quad or
 //! polygon arrives as something else (see [`Primitive`]), and its flat colour is given to every vertex instead.
@@ -11,7 +12,8 @@ use super::key::{Amplifier, Diagonal, FixedKey, Primitive, Provoking};
 use super::limits::Limits;
 use super::reason::Unsupported;
 use super::text::Text;
-use super::{UNIFORM_FIRST, vertex, view};
+use super::{UNIFORM_CLIP, UNIFORM_FIRST, UNIFORM_VIEWS, vertex, view};
+use crate::config::Clip;
 
 /// Vertices in the order of emission, with their index in the input, by primitive.
 fn order(key: &FixedKey) -> &'static [&'static [u8]] {
@@ -97,6 +99,10 @@ pub(super) fn write(key: &FixedKey, limits: &Limits) -> Result<String, Unsupport
     text.line("");
     write_emit(&mut text, key);
     text.line("");
+    if key.target.clip == Clip::Both {
+        write_outside(&mut text);
+        text.line("");
+    }
     write_main(&mut text, key, invocations);
     Ok(text.finish())
 }
@@ -121,6 +127,23 @@ fn write_emit(text: &mut Text, key: &FixedKey) {
     text.close("}");
 }
 
+/// `mv_outside(view)`: the primitive lies beyond the left or beyond the right edge of its tile as a whole. With a plane in
+/// homogeneous coordinates that holds for all of a primitive if it holds for its corners, whatever the sign of w.
+fn write_outside(text: &mut Text) {
+    text.open("bool mv_outside(int view) {");
+    text.line(format!("vec4 row = {UNIFORM_VIEWS}[view];"));
+    text.line("bool left = true;");
+    text.line("bool right = true;");
+    text.open("for (int i = 0; i < gl_in.length(); ++i) {");
+    text.line("float x = dot(row, mv_in[i].vertex);");
+    text.line("float w = gl_in[i].gl_Position.w;");
+    text.line(format!("left = left && x < {UNIFORM_CLIP}.x * w;"));
+    text.line(format!("right = right && x > {UNIFORM_CLIP}.y * w;"));
+    text.close("}");
+    text.line("return left || right;");
+    text.close("}");
+}
+
 fn write_main(text: &mut Text, key: &FixedKey, invocations: bool) {
     text.open("void main() {");
     if invocations {
@@ -128,6 +151,15 @@ fn write_main(text: &mut Text, key: &FixedKey, invocations: bool) {
     } else {
         text.open(format!("for (int i = 0; i < {}; ++i) {{", key.target.views));
         text.line(format!("int view = {UNIFORM_FIRST} + i;"));
+    }
+    if key.target.clip == Clip::Both {
+        text.line("if (mv_outside(view)) {");
+        text.line(if invocations {
+            "    return;"
+        } else {
+            "    continue;"
+        });
+        text.line("}");
     }
     for primitive in order(key) {
         for vertex in *primitive {

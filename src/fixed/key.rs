@@ -8,6 +8,8 @@
 //! fields are those of Mesa's `struct state_key` (`src/mesa/main/ffvertex_prog.c`); zeroing what does not matter
 //! before hashing is Regal's (`RegalIff`).
 
+use crate::config::Clip;
+
 /// Number of lights the generator knows (`GL_MAX_LIGHTS` is 8 on every driver we know of).
 pub const LIGHTS: usize = 8;
 /// Number of texture units the generator knows (`GL_MAX_TEXTURE_COORDS` is 8 likewise).
@@ -50,6 +52,8 @@ pub struct Target {
     pub amplifier: Amplifier,
     /// Where the views lie.
     pub tiles: Tiles,
+    /// What keeps a view within its tile. Layers need nothing.
+    pub clip: Clip,
     /// What the geometry shader is given. Without a geometry shader it does not matter.
     pub primitive: Primitive,
     /// How the driver cuts a quad in two. Matters for [`Primitive::Quads`] alone.
@@ -74,21 +78,29 @@ pub enum Amplifier {
 /// Where the views lie in memory.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Tiles {
-    /// Side by side in one row: two clip distances cut a view at the left and right of its tile, and the frustum at
-    /// the bottom and top.
+    /// Side by side in one row: [`Clip`] cuts a view at the left and right of its tile, and the frustum at the bottom and
+    /// top.
     #[default]
     ClipLeftRight,
     /// One layer of an array texture per view: `gl_Layer`, no clip distances, no map.
     Layer,
 }
 
-impl Tiles {
+impl Target {
     /// Number of clip distances the tiles need for themselves.
-    pub const fn clip_distances(self) -> u32 {
-        match self {
-            Tiles::ClipLeftRight => 2,
-            Tiles::Layer => 0,
+    pub const fn clip_distances(&self) -> u32 {
+        match (self.tiles, self.clip) {
+            (Tiles::ClipLeftRight, Clip::Distances) => 2,
+            _ => 0,
         }
+    }
+
+    /// The fragment stage has to discard what is outside.
+    pub const fn discards(&self) -> bool {
+        matches!(
+            (self.tiles, self.clip),
+            (Tiles::ClipLeftRight, Clip::Discard | Clip::Both)
+        )
     }
 }
 
@@ -339,8 +351,14 @@ impl FixedKey {
         if !dialect_matters {
             self.dialect = Dialect::Specification;
         }
+        if self.target.tiles == Tiles::Layer {
+            self.target.clip = Clip::default();
+        }
         match self.target.amplifier {
             Amplifier::Instanced => {
+                if self.target.clip == Clip::Both {
+                    self.target.clip = Clip::Discard;
+                }
                 self.target.primitive = Primitive::default();
                 self.target.views = 1;
             }
@@ -449,7 +467,7 @@ impl FixedKey {
 
     /// Clip distances in all: the tile's own, then one per user plane.
     pub(super) fn clip_distances(&self) -> u32 {
-        self.target.tiles.clip_distances() + self.clip_planes.count_ones()
+        self.target.clip_distances() + self.clip_planes.count_ones()
     }
 
     /// Indices of the enabled user planes, ascending.

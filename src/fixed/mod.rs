@@ -1,14 +1,17 @@
-//! Fixed-function vertex state in, GLSL out.
+//! Fixed-function state in, GLSL out.
 //!
-//! The instanced and geometry strategies need a program where the application has none. Only the vertex stage is
+//! The instanced and geometry strategies need a program where the application has none. Only the vertex stage has to be
 //! replaced: a program without a fragment shader leaves the fixed fragment stage at work (OpenGL 4.6 compatibility,
-//! chapter 15), so texture environments, fog blending, alpha test and the rest stay the driver's.
+//! chapter 15), so texture environments, fog blending, alpha test and the rest stay the driver's. The fragment stage is
+//! replaced as well where the tile asks for it: see [`generate_fragment`].
 //!
 //! ```text
 //! FixedKey ── canonical ──► vertex ─┬─ lighting   section 12.2.1
 //!  (key)                            ├─ texgen     sections 12.1.1, 12.1.3
 //!                                   └─ view       shift, tile, clip distances, layer
 //!                           geometry ── view      one primitive per view
+//!
+//! FragmentKey ── canonical ──► fragment ── environment   sections 16.2 to 16.4
 //! ```
 //! Everything here is text: no GL call is made, and no state is kept. `tests/fixed_shaders.rs` draws a few hundred
 //! random keys both ways and compares the pixels.
@@ -23,11 +26,16 @@
 //! | `vec4 mv_map` | width and height of the program's viewport over those of the atlas |
 //! | `vec4 mv_clip` | left, right, bottom, top of what may be drawn, in NDC of the program's viewport: −1, 1, −1, 1 if the viewport is inside the tile |
 //! | `int mv_first` | index in `mv_view` of the first view of this draw |
+//! | `vec4 mv_grid` | what one pixel of the window is in the tile, for textures: x and y of a step in x, then of a step in y, in tile pixels |
+//! | `mv_texture0` … `mv_texture7` | the index of its texture unit |
 //!
 //! A uniform that a key does not need is absent (location −1).
 #![forbid(unsafe_code)]
 
 mod components;
+mod environment;
+mod fragment;
+mod fragment_key;
 mod geometry;
 mod key;
 mod lighting;
@@ -39,7 +47,13 @@ mod text;
 mod vertex;
 mod view;
 
+pub use crate::config::Clip;
 pub use components::batch;
+pub use fragment::{generate_fragment, sampler};
+pub use fragment_key::{
+    Argument, BaseFormat, Combine, Combiner, Environment, FogMode, FragmentKey, FragmentUnit,
+    Function, Operand, Source, TextureTarget,
+};
 pub use key::{
     Amplifier, ColorMaterial, Diagonal, Dialect, FixedKey, FogSource, LIGHTS, Light, Lighting,
     MaterialFace, MaterialMode, NormalScaling, PointSize, Primitive, Provoking, Target, TexGen,
@@ -61,6 +75,11 @@ pub const UNIFORM_MAP: &str = "mv_map";
 pub const UNIFORM_CLIP: &str = "mv_clip";
 /// `uniform int mv_first`
 pub const UNIFORM_FIRST: &str = "mv_first";
+
+/// `uniform vec4 mv_grid`
+pub const UNIFORM_GRID: &str = "mv_grid";
+/// `flat vec2 mv_limits`, between the stages: left (inclusive) and right (exclusive) of the view in window coordinates.
+const LIMITS: &str = "mv_limits";
 
 /// A program's text, and what has to be set when it is bound.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -64,6 +64,16 @@ pub enum Unsupported {
     /// A texture unit beyond those with coordinates in the shader is enabled.
     #[error("a texture unit above {} is enabled", UNITS - 1)]
     TextureUnit,
+    /// Depth and integer textures in the generated fragment stage.
+    #[error("a texture is neither colour nor luminance")]
+    TextureFormat,
+    /// An environment of another extension, or one that the specification leaves undefined: a decal without colour, a
+    /// combination of the texture of a unit that has none.
+    #[error("a texture environment is not one of OpenGL 1.5, or undefined for its textures")]
+    TextureEnvironment,
+    /// A sampler object is bound: its filters are not followed.
+    #[error("a sampler object is bound")]
+    SamplerObject,
     /// `glMaterial` between `glBegin` and `glEnd`: built-in uniforms hold one material per draw.
     #[error("the material changes inside a primitive")]
     MaterialPerVertex,
@@ -107,6 +117,9 @@ impl Unsupported {
             Unsupported::VertexProgram => "vertex-program",
             Unsupported::VertexExtension => "vertex-extension",
             Unsupported::TextureUnit => "texture-unit",
+            Unsupported::TextureFormat => "texture-format",
+            Unsupported::TextureEnvironment => "texture-environment",
+            Unsupported::SamplerObject => "sampler-object",
             Unsupported::MaterialPerVertex => "material-per-vertex",
             Unsupported::PolygonMode => "polygon-mode",
             Unsupported::EdgeFlags => "edge-flags",

@@ -13,7 +13,10 @@
 
 use super::key::{FixedKey, Tiles};
 use super::text::Text;
-use super::{UNIFORM_CLIP, UNIFORM_FIRST, UNIFORM_MAP, UNIFORM_TILES, UNIFORM_VIEWS, VIEWS};
+use super::{
+    LIMITS, UNIFORM_CLIP, UNIFORM_FIRST, UNIFORM_MAP, UNIFORM_TILES, UNIFORM_VIEWS, VIEWS,
+};
+use crate::config::Clip;
 
 /// Uniforms of the view.
 pub(super) fn write_uniforms(text: &mut Text, key: &FixedKey) {
@@ -25,15 +28,22 @@ pub(super) fn write_uniforms(text: &mut Text, key: &FixedKey) {
             "uniform vec4 {UNIFORM_TILES}[{VIEWS}]; // per view: -, -, layer, -"
         ));
     } else {
+        let limits = if key.target.discards() {
+            "left and right in window coordinates"
+        } else {
+            "-, -"
+        };
         text.line(format!(
-            "uniform vec4 {UNIFORM_TILES}[{VIEWS}]; // per view: centre of the tile x and y, -, -"
+            "uniform vec4 {UNIFORM_TILES}[{VIEWS}]; // per view: centre of the tile x and y, {limits}"
         ));
         text.line(format!(
             "uniform vec4 {UNIFORM_MAP}; // scale of a tile x and y, -, -"
         ));
-        text.line(format!(
-            "uniform vec4 {UNIFORM_CLIP}; // left and right of the tile's inside, -, -"
-        ));
+        if key.target.clip != Clip::Discard {
+            text.line(format!(
+                "uniform vec4 {UNIFORM_CLIP}; // left and right of the tile's inside, -, -"
+            ));
+        }
     }
     text.line(format!(
         "uniform int {UNIFORM_FIRST}; // first view of this draw"
@@ -45,6 +55,9 @@ pub(super) fn write_outputs(text: &mut Text, key: &FixedKey) {
     let distances = key.clip_distances();
     if distances != 0 {
         text.line(format!("out float gl_ClipDistance[{distances}];"));
+    }
+    if key.target.discards() {
+        text.line(format!("flat out vec2 {LIMITS};"));
     }
 }
 
@@ -60,12 +73,16 @@ pub(super) fn write_place(text: &mut Text, key: &FixedKey) {
     match key.target.tiles {
         Tiles::Layer => text.line("gl_Layer = int(tile.z);"),
         Tiles::ClipLeftRight => {
-            text.line(format!(
-                "gl_ClipDistance[0] = p.x - {UNIFORM_CLIP}.x * p.w;"
-            ));
-            text.line(format!(
-                "gl_ClipDistance[1] = {UNIFORM_CLIP}.y * p.w - p.x;"
-            ));
+            if key.target.discards() {
+                text.line(format!("{LIMITS} = tile.zw;"));
+            } else {
+                text.line(format!(
+                    "gl_ClipDistance[0] = p.x - {UNIFORM_CLIP}.x * p.w;"
+                ));
+                text.line(format!(
+                    "gl_ClipDistance[1] = {UNIFORM_CLIP}.y * p.w - p.x;"
+                ));
+            }
             text.line(format!("p.xy = p.xy * {UNIFORM_MAP}.xy + tile.xy * p.w;"));
         }
     }

@@ -16,7 +16,7 @@ impl Gl {
     }
 
     /// glGetTexEnvfv of one value.
-    pub fn get_tex_env(&self, target: u32, name: u32) -> f32 {
+    pub fn get_tex_env_float(&self, target: u32, name: u32) -> f32 {
         let mut v = [0f32; 4];
         // SAFETY: room for the most values that a name has.
         unsafe { self.real.glGetTexEnvfv(target, name, v.as_mut_ptr().cast()) };
@@ -71,6 +71,17 @@ impl Gl {
         let mut v = [0i32; 4];
         // SAFETY: room for 4 elements.
         unsafe { self.real.glGetTexGeniv(coord, name, v.as_mut_ptr().cast()) };
+        v[0]
+    }
+
+    /// glGetTexEnviv of one value of GL_TEXTURE_ENV.
+    pub fn get_tex_env(&self, name: u32) -> i32 {
+        let mut v = [0i32; 4];
+        // SAFETY: room for 4 elements.
+        unsafe {
+            self.real
+                .glGetTexEnviv(c::TEXTURE_ENV, name, v.as_mut_ptr().cast())
+        };
         v[0]
     }
 

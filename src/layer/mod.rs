@@ -128,7 +128,12 @@ impl Layer {
         let mut names = Names::default();
         let mut report = Report::default();
         support.notes().into_iter().for_each(|n| report.note(n));
-        let programs = Programs::new(crate::draw::limits(gl, support.glsl));
+        let driver = Driver::ask(gl);
+        let programs = Programs::new(
+            crate::draw::limits(gl, support.glsl),
+            driver,
+            config.clip.unwrap_or_default(),
+        );
         let means = Means {
             strategy: config.strategy,
             instanced: support.instanced(),
@@ -166,7 +171,7 @@ impl Layer {
             interleaver,
             programs,
             fixed: None,
-            driver: Driver::ask(gl),
+            driver,
             lists,
             raster: None,
             raster_placed: Projection::None,
@@ -449,6 +454,8 @@ fn is_attached(gl: &Gl, framebuffer: u32, textures: &[u32]) -> bool {
 /// beside each other 217 ms and 0.1 % by 1 LSB (clip distances; viewport arrays were tried too: 225 ms and 0.03 %).
 fn layout(config: &Config, support: &Support) -> AtlasLayout {
     match config.strategy {
+        // Asked for by name, to compare.
+        _ if config.clip.is_some() => AtlasLayout::SideBySide,
         // A geometry shader can always choose a layer.
         Strategy::Geometry => AtlasLayout::Layers,
         Strategy::Instanced if support.layers => AtlasLayout::Layers,

@@ -1,9 +1,11 @@
 //! Random fixed-function state: as a key for the generator, and as text for `ffcheck`.
 
+use crate::matrices::{IDENTITY, Matrix, matrices};
+use crate::random::{Random, floats};
 use manyview::fixed::{
-    Amplifier, ColorMaterial, Diagonal, Dialect, FixedKey, FogSource, LIGHTS, Light, Lighting,
-    MaterialFace, MaterialMode, NormalScaling, PointSize, Primitive, Provoking, Target, TexGen,
-    Tiles, UNITS,
+    Amplifier, Clip, ColorMaterial, Diagonal, Dialect, FixedKey, FogSource, LIGHTS, Light,
+    Lighting, MaterialFace, MaterialMode, NormalScaling, PointSize, Primitive, Provoking, Target,
+    TexGen, Tiles, UNITS,
 };
 
 /// One draw with its state.
@@ -16,76 +18,6 @@ pub(crate) struct Case {
     pub(crate) mode: &'static str,
     /// Views of the case.
     pub(crate) views: u8,
-}
-
-/// SplitMix64: small, seeded, the same everywhere.
-struct Random(u64);
-
-impl Random {
-    fn bits(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        z ^ (z >> 31)
-    }
-
-    /// In [low, high), with few digits so that the text holds it exactly enough.
-    fn float(&mut self, low: f64, high: f64) -> f64 {
-        let unit = (self.bits() >> 40) as f64 / (1u64 << 24) as f64;
-        ((low + (high - low) * unit) * 10_000.0).round() / 10_000.0
-    }
-
-    fn below(&mut self, limit: usize) -> usize {
-        (self.bits() >> 33) as usize % limit
-    }
-
-    fn chance(&mut self, percent: usize) -> bool {
-        self.below(100) < percent
-    }
-
-    fn pick<T: Copy>(&mut self, from: &[T]) -> T {
-        from[self.below(from.len())]
-    }
-
-    fn color(&mut self, high: f64) -> String {
-        floats(&[
-            self.float(0.0, high),
-            self.float(0.0, high),
-            self.float(0.0, high),
-            self.float(0.5, 1.0),
-        ])
-    }
-}
-
-fn floats(values: &[f64]) -> String {
-    values
-        .iter()
-        .map(f64::to_string)
-        .collect::<Vec<_>>()
-        .join(" ")
-}
-
-/// Column-major 4×4.
-type Matrix = [f64; 16];
-
-const IDENTITY: Matrix = [
-    1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0,
-];
-
-fn multiply(a: &Matrix, b: &Matrix) -> Matrix {
-    std::array::from_fn(|i| (0..4).map(|k| a[4 * k + i % 4] * b[4 * (i / 4) + k]).sum())
-}
-
-/// Turn about one axis (0 to 2), radians.
-fn turn(axis: usize, angle: f64) -> Matrix {
-    let (a, b) = ((axis + 1) % 3, (axis + 2) % 3);
-    let mut m = IDENTITY;
-    m[4 * a + a] = angle.cos();
-    m[4 * b + b] = angle.cos();
-    m[4 * a + b] = angle.sin();
-    m[4 * b + a] = -angle.sin();
-    m
 }
 
 /// Modes of the program, what they are drawn as through a geometry shader, and what that is fed.
@@ -177,6 +109,7 @@ fn write_target(w: &mut Writer, number: usize) -> (&'static str, u8) {
     w.key.target = Target {
         amplifier,
         tiles,
+        clip: Clip::Distances,
         primitive,
         diagonal: Diagonal::OneThree,
         views,
@@ -244,45 +177,6 @@ fn write_diagonal(w: &mut Writer, primitive: Primitive, first: bool) {
         w.key.target.diagonal = diagonal;
         w.say("cut", cut);
     }
-}
-
-fn matrices(random: &mut Random) -> (Matrix, Matrix) {
-    let (left, right) = (random.float(-0.7, -0.4), random.float(0.4, 0.7));
-    let (near, far) = (1.0, 20.0);
-    let mut p = [0.0; 16];
-    p[0] = 2.0 * near / (right - left);
-    p[5] = 2.0 * near / 1.1;
-    p[8] = (right + left) / (right - left);
-    p[10] = -(far + near) / (far - near);
-    p[11] = -1.0;
-    p[14] = -2.0 * far * near / (far - near);
-    if random.chance(15) {
-        // Orthographic.
-        p = IDENTITY;
-        (p[0], p[5], p[10]) = (0.5, 0.5, -0.2);
-        p[14] = -1.1;
-    }
-    let mut m = IDENTITY;
-    m[12] = random.float(-0.5, 0.5);
-    m[13] = random.float(-0.5, 0.5);
-    m[14] = random.float(-4.5, -2.5);
-    for axis in 0..3 {
-        m = multiply(&m, &turn(axis, random.float(-3.0, 3.0)));
-    }
-    let mut scale = IDENTITY;
-    let all = if random.chance(50) {
-        1.0
-    } else {
-        random.float(0.7, 1.5)
-    };
-    let uneven = if random.chance(25) {
-        random.float(0.7, 1.4)
-    } else {
-        1.0
-    };
-    let mirrored = if random.chance(30) { -1.0 } else { 1.0 };
-    (scale[0], scale[5], scale[10]) = (all * mirrored, all * uneven, all);
-    (p, multiply(&m, &scale))
 }
 
 fn write_lighting(w: &mut Writer) {

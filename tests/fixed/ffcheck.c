@@ -2,10 +2,10 @@
  *
  *   ffcheck DIRECTORY COUNT
  *
- * reads DIRECTORY/0000.case, 0001.case, … (COUNT of them), each with 0000.vert and, if there is one, 0000.geom, and
- * prints one line per case:
+ * reads DIRECTORY/0000.case, 0001.case, … (COUNT of them), each with 0000.vert and, where there are,
+ * 0000.geom and 0000.frag, and prints one line per case:
  *
- *   0000 worst=1 over1=0 over8=0 differ=3 coverage=0 covered=8123 pixels=65536
+ *   0000 worst=1 over1=0 over8=0 differ=3 coverage=0 covered=8123 pixels=65536 squares=12
  *
  * A case is text, one `verb=arguments` per line: the verbs are in run_line(), arguments are numbers or GL_ names.
  * Fixed function draws every view by itself, with the projection matrix of that view and a viewport on its tile; the
@@ -23,6 +23,7 @@
 #include <string.h>
 
 enum { TILE = 96, MAX_VIEWS = 6, UNITS = 8, MAX_ARGS = 32, MAX_VERTICES = 8192, MAX_PARTS = 512 };
+enum { MAX_SPACING = 16 };
 enum { COLORS = 1, SECONDARY = 2, FOG = 4, NORMALS = 8, COORDS = 16 };
 
 /* ---- names ---- */
@@ -45,7 +46,16 @@ static const struct { const char *name; double value; } names[] = {
     N(GL_POINT_SIZE_MAX), N(GL_POINT_DISTANCE_ATTENUATION), N(GL_POINTS), N(GL_LINES), N(GL_LINE_STRIP),
     N(GL_LINE_LOOP), N(GL_TRIANGLES), N(GL_TRIANGLE_STRIP), N(GL_TRIANGLE_FAN), N(GL_QUADS), N(GL_QUAD_STRIP),
     N(GL_POLYGON), N(GL_LINES_ADJACENCY), N(GL_FLAT), N(GL_SMOOTH), N(GL_FIRST_VERTEX_CONVENTION),
-    N(GL_LAST_VERTEX_CONVENTION), N(GL_TRUE), N(GL_FALSE), N(GL_FIXED_ONLY),
+    N(GL_LAST_VERTEX_CONVENTION), N(GL_TRUE), N(GL_FALSE), N(GL_FIXED_ONLY), N(GL_TEXTURE_1D), N(GL_TEXTURE_RECTANGLE),
+    N(GL_ALPHA), N(GL_LUMINANCE), N(GL_LUMINANCE_ALPHA), N(GL_INTENSITY), N(GL_RED), N(GL_RG), N(GL_RGB), N(GL_RGBA),
+    N(GL_NEAREST), N(GL_NEAREST_MIPMAP_NEAREST), N(GL_LINEAR_MIPMAP_NEAREST), N(GL_NEAREST_MIPMAP_LINEAR),
+    N(GL_LINEAR_MIPMAP_LINEAR), N(GL_TEXTURE_ENV_MODE), N(GL_TEXTURE_ENV_COLOR), N(GL_REPLACE), N(GL_MODULATE),
+    N(GL_DECAL), N(GL_BLEND), N(GL_ADD), N(GL_COMBINE), N(GL_COMBINE_RGB), N(GL_COMBINE_ALPHA), N(GL_ADD_SIGNED),
+    N(GL_INTERPOLATE), N(GL_SUBTRACT), N(GL_DOT3_RGB), N(GL_DOT3_RGBA), N(GL_SRC0_RGB), N(GL_SRC1_RGB), N(GL_SRC2_RGB),
+    N(GL_SRC0_ALPHA), N(GL_SRC1_ALPHA), N(GL_SRC2_ALPHA), N(GL_OPERAND0_RGB), N(GL_OPERAND1_RGB), N(GL_OPERAND2_RGB),
+    N(GL_OPERAND0_ALPHA), N(GL_OPERAND1_ALPHA), N(GL_OPERAND2_ALPHA), N(GL_SRC_COLOR), N(GL_ONE_MINUS_SRC_COLOR),
+    N(GL_SRC_ALPHA), N(GL_ONE_MINUS_SRC_ALPHA), N(GL_TEXTURE), N(GL_CONSTANT), N(GL_PRIMARY_COLOR), N(GL_PREVIOUS),
+    N(GL_TEXTURE0), N(GL_TEXTURE1), N(GL_TEXTURE2), N(GL_TEXTURE3), N(GL_RGB_SCALE), N(GL_ALPHA_SCALE),
 #undef N
 };
 
@@ -77,6 +87,8 @@ static struct {
     double sep, conv;
     float projection[16];
     int viewport[4]; /* in the tile */
+    int spacing, offset; /* the program draws every `spacing`th column of a window, the first is `offset` */
+    double floor;        /* above 0: a floor that ends there, with as many tiles of texture */
     int color_sum, two_side, point_size, last_vertex_convention;
     unsigned clip_distances;
 } c;
@@ -85,6 +97,44 @@ static void to_floats(const double *from, int count, float *to)
 {
     for (int i = 0; i < count; i++)
         to[i] = (float)from[i];
+}
+
+/* Textures of the case, deleted after it. */
+static GLuint images[UNITS];
+static int image_count;
+
+/* UNIT TARGET FORMAT SIZE MINFILTER LEVELS BIAS: a wavy texture, each of its levels in a tint of its own, bound. Fewer
+ * levels than a filter with mipmaps needs make it incomplete. */
+static void make_image(const double *a)
+{
+    enum { S = 256 };
+    static float texels[S * S][4];
+    GLenum target = (GLenum)a[1];
+    int size = (int)a[3], levels = target == GL_TEXTURE_RECTANGLE ? 1 : (int)a[5], deep = target == GL_TEXTURE_3D;
+    glActiveTexture(GL_TEXTURE0 + (GLenum)a[0]);
+    glEnable(target);
+    glGenTextures(1, images + image_count);
+    glBindTexture(target, images[image_count++]);
+    glTexParameteri(target, GL_TEXTURE_MIN_FILTER, (GLint)a[4]);
+    glTexParameterf(target, GL_TEXTURE_LOD_BIAS, (float)a[6]);
+    for (int level = 0; level < levels && size >> level; level++) {
+        int n = size >> level, high = target == GL_TEXTURE_1D ? 1 : n, slices = deep ? n : 1;
+        for (int i = 0; i < n * high * slices; i++) {
+            double k = 6.283185307179586 / n * (1 + (int)a[0] % 3), x = k * (i % n), y = k * (i / n % high), z = k * (i / n / n);
+            texels[i][0] = (float)(0.5 + 0.4 * sin(x + z + level));
+            texels[i][1] = (float)(0.5 + 0.4 * sin(y + 2 * level + 1));
+            texels[i][2] = (float)(0.5 + 0.4 * sin(x + y + 3 * level));
+            texels[i][3] = (float)(0.6 + 0.3 * sin(x - y - level));
+        }
+        if (target == GL_TEXTURE_1D)
+            glTexImage1D(target, level, (GLint)a[2], n, 0, GL_RGBA, GL_FLOAT, texels);
+        else if (deep)
+            glTexImage3D(target, level, (GLint)a[2], n, n, n, 0, GL_RGBA, GL_FLOAT, texels);
+        else
+            for (GLenum face = 0; face < (target == GL_TEXTURE_CUBE_MAP ? 6 : 1); face++)
+                glTexImage2D(target == GL_TEXTURE_CUBE_MAP ? GL_TEXTURE_CUBE_MAP_POSITIVE_X + face : target, level,
+                             (GLint)a[2], n, n, 0, GL_RGBA, GL_FLOAT, texels);
+    }
 }
 
 /* Everything that a case can say. GL state is set at once; the state of the draw is kept in `c`. */
@@ -102,7 +152,14 @@ static void run_line(const char *verb, const double *a, int n)
     else if (IS("draw")) c.mode = (GLenum)a[0];
     else if (IS("program_draw")) c.program_mode = (GLenum)a[0];
     else if (IS("arrays")) c.arrays = (unsigned)a[0];
-    else if (IS("cut")) c.cut = (int)a[0];
+    else if (IS("spacing")) c.spacing = (int)a[0], c.offset = (int)a[1];
+    else if (IS("floor")) c.floor = a[0];
+    else if (IS("image")) make_image(a);
+    else if (IS("env")) { glActiveTexture(GL_TEXTURE0 + (GLenum)a[0]); glTexEnvfv(GL_TEXTURE_ENV, (GLenum)a[1], f + 2); }
+    else if (IS("bias")) {
+        glActiveTexture(GL_TEXTURE0 + (GLenum)a[0]);
+        glTexEnvf(GL_TEXTURE_FILTER_CONTROL, GL_TEXTURE_LOD_BIAS, f[1]);
+    } else if (IS("cut")) c.cut = (int)a[0];
     else if (IS("sep")) c.sep = a[0];
     else if (IS("conv")) c.conv = a[0];
     else if (IS("viewport")) for (int i = 0; i < 4; i++) c.viewport[i] = (int)a[i];
@@ -195,6 +252,8 @@ static void end_case(void)
     glDisable(GL_LIGHTING);
     glDisable(GL_FOG);
     glPopAttrib();
+    glDeleteTextures(image_count, images);
+    image_count = 0;
     for (int unit = 0; unit < UNITS; unit++) {
         glActiveTexture(GL_TEXTURE0 + (GLenum)unit);
         glMatrixMode(GL_TEXTURE);
@@ -313,12 +372,37 @@ static void push_quads(const int *corners, int count)
     end_part(0);
 }
 
+/* Two large triangles below the eye, from near to far. */
+static void push_floor(void)
+{
+    static const int corner[6][2] = { { -1, 0 }, { 1, 0 }, { 1, 1 }, { -1, 0 }, { 1, 1 }, { -1, 1 } };
+    for (int i = 0; i < 6; i++) {
+        Vertex v = at(0, 0, 1);
+        v.position[0] = (float)(corner[i][0] * c.floor);
+        v.position[1] = -1;
+        v.position[2] = (float)(-1.01 - corner[i][1] * c.floor);
+        v.position[3] = 1;
+        for (int unit = 0; unit < UNITS; unit++) {
+            v.coord[unit][0] = v.position[0] * 0.7f + v.position[2] * 0.2f;
+            v.coord[unit][1] = v.position[2] * 0.7f;
+            v.coord[unit][2] = v.position[0] * 0.3f;
+            v.coord[unit][3] = 1;
+        }
+        push(v);
+    }
+    end_part(0);
+}
+
 /* Vertices and parts (one glBegin each) for a mode. `reindexed`: quad strips as lists of four. `cut`: see above. */
 static void build(GLenum mode, int reindexed, int cut)
 {
     static const int whole[] = { 0, 1, 2, 3 }, cut13[] = { 0, 1, 3, 1, 2, 3 }, cut02[] = { 0, 1, 2, 0, 2, 3 };
     mesh_size = parts = 0;
     int first = 0;
+    if (c.floor > 0) {
+        push_floor();
+        return;
+    }
     switch (mode) {
     case GL_POINTS: case GL_LINES:
         for (int i = 0; i < AROUND; i++)
@@ -470,6 +554,8 @@ typedef struct {
     float depth[MAX_VIEWS][TILE][TILE];
 } Picture;
 static Picture fixed_picture, program_picture;
+static unsigned char window[TILE * TILE * MAX_SPACING][4];
+static float window_depth[TILE * TILE * MAX_SPACING];
 
 static int tile_x(int view) { return c.layers ? 0 : view % c.columns * TILE; }
 static int tile_y(int view) { return c.layers ? 0 : view / c.columns * TILE; }
@@ -507,9 +593,31 @@ static void clear(void)
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
 }
 
+/* A window of which the picture takes every `spacing`th column. */
+static void draw_window(void)
+{
+    glBindFramebuffer(GL_FRAMEBUFFER, tiles_fbo);
+    clear();
+    load_projection(0);
+    glViewport(0, 0, TILE * c.spacing, TILE);
+    draw(c.mode, 0);
+    glReadPixels(0, 0, TILE * c.spacing, TILE, GL_RGBA, GL_UNSIGNED_BYTE, window);
+    glReadPixels(0, 0, TILE * c.spacing, TILE, GL_DEPTH_COMPONENT, GL_FLOAT, window_depth);
+    for (int y = 0; y < TILE; y++)
+        for (int x = 0; x < TILE; x++) {
+            int from = y * TILE * c.spacing + c.spacing * x + c.offset;
+            memcpy(fixed_picture.color[0][y][x], window[from], 4);
+            fixed_picture.depth[0][y][x] = window_depth[from];
+        }
+}
+
 static void draw_fixed(void)
 {
     build(c.mode, 0, c.cut);
+    if (c.spacing) {
+        draw_window();
+        return;
+    }
     if (!c.layers)
         glBindFramebuffer(GL_FRAMEBUFFER, tiles_fbo), clear();
     for (int view = 0; view < c.views; view++) {
@@ -541,7 +649,7 @@ static GLuint compile(GLenum stage, const char *text, const char *name)
     return shader;
 }
 
-static GLuint make_program(const char *vertex, const char *geometry, const char *name)
+static GLuint make_program(const char *vertex, const char *geometry, const char *fragment, const char *name)
 {
     GLuint program = glCreateProgram();
     GLint good;
@@ -553,6 +661,11 @@ static GLuint make_program(const char *vertex, const char *geometry, const char 
         GLuint geometry_shader = compile(GL_GEOMETRY_SHADER, geometry, name);
         glAttachShader(program, geometry_shader);
         glDeleteShader(geometry_shader);
+    }
+    if (fragment) {
+        GLuint fragment_shader = compile(GL_FRAGMENT_SHADER, fragment, name);
+        glAttachShader(program, fragment_shader);
+        glDeleteShader(fragment_shader);
     }
     glLinkProgram(program);
     glGetProgramiv(program, GL_LINK_STATUS, &good);
@@ -578,7 +691,7 @@ static float edge(double pixel, int origin, int size)
 static void draw_program(GLuint program)
 {
     int rows = (c.views + c.columns - 1) / c.columns;
-    int width = c.layers ? TILE : c.columns * TILE, height = c.layers ? TILE : rows * TILE;
+    int width = c.layers ? TILE : c.columns * TILE * (c.spacing ? c.spacing : 1), height = c.layers ? TILE : rows * TILE;
     const int *p = c.viewport;
     float first_rows[MAX_VIEWS][4], places[MAX_VIEWS][4];
     build(c.mode, c.mode == GL_QUAD_STRIP && c.program_mode == GL_LINES_ADJACENCY, 0);
@@ -591,10 +704,12 @@ static void draw_program(GLuint program)
         glGetFloatv(GL_MODELVIEW_MATRIX, m);
         for (int k = 0; k < 4; k++)
             first_rows[view][k] = q[0] * m[4 * k] + q[4] * m[4 * k + 1] + q[8] * m[4 * k + 2] + q[12] * m[4 * k + 3];
-        places[view][0] = (float)((2.0 * (tile_x(view) + p[0]) + p[2]) / width - 1);
+        /* The middle of column i is that of the window's column spacing * i + offset. */
+        double shift = c.spacing ? 0.5 - (c.offset + 0.5) / c.spacing : 0;
+        places[view][0] = (float)((2.0 * (tile_x(view) + p[0] + shift) + p[2]) / width - 1);
         places[view][1] = (float)((2.0 * (tile_y(view) + p[1]) + p[3]) / height - 1);
-        places[view][2] = (float)view;
-        places[view][3] = 0;
+        places[view][2] = (float)(c.layers ? view : tile_x(view));
+        places[view][3] = (float)(tile_x(view) + TILE);
     }
     load_projection(0);
     glUseProgram(program);
@@ -604,6 +719,12 @@ static void draw_program(GLuint program)
     glUniform4f(glGetUniformLocation(program, "mv_clip"), edge(0, p[0], p[2]), edge(TILE, p[0], p[2]),
                 edge(0, p[1], p[3]), edge(TILE, p[1], p[3]));
     glUniform1i(glGetUniformLocation(program, "mv_first"), 0);
+    glUniform4f(glGetUniformLocation(program, "mv_grid"), c.spacing ? 1.0f / (float)c.spacing : 1, 0, 0, 1);
+    for (int unit = 0; unit < UNITS; unit++) {
+        char sampler[] = "mv_texture0";
+        sampler[sizeof sampler - 2] = (char)('0' + unit);
+        glUniform1i(glGetUniformLocation(program, sampler), unit);
+    }
     set(GL_COLOR_SUM, c.color_sum);
     set(GL_VERTEX_PROGRAM_TWO_SIDE, c.two_side);
     set(GL_PROGRAM_POINT_SIZE, c.point_size);
@@ -671,6 +792,7 @@ static void make_textures(void)
 
 static void compare(const char *name)
 {
+    long squares = 0;
     int worst = 0, over1 = 0, over8 = 0, differ = 0, coverage = 0, covered = 0;
     for (int view = 0; view < c.views; view++)
         for (int y = 0; y < TILE; y++)
@@ -679,6 +801,7 @@ static void compare(const char *name)
                 for (int i = 0; i < 4; i++) {
                     int difference = abs(fixed_picture.color[view][y][x][i] - program_picture.color[view][y][x][i]);
                     most = difference > most ? difference : most;
+                    squares += i < 3 ? difference * difference : 0;
                 }
                 int a = fixed_picture.depth[view][y][x] < 1, b = program_picture.depth[view][y][x] < 1;
                 worst = most > worst ? most : worst;
@@ -688,8 +811,8 @@ static void compare(const char *name)
                 coverage += a != b;
                 covered += a;
             }
-    printf("%s worst=%d over1=%d over8=%d differ=%d coverage=%d covered=%d pixels=%d\n", name, worst, over1, over8,
-           differ, coverage, covered, c.views * TILE * TILE);
+    printf("%s worst=%d over1=%d over8=%d differ=%d coverage=%d covered=%d pixels=%d squares=%ld\n", name, worst, over1, over8,
+           differ, coverage, covered, c.views * TILE * TILE, squares);
 }
 
 static void save(const char *directory, const char *name, const char *which, const Picture *picture)
@@ -753,18 +876,20 @@ int main(int argc, char **argv)
         char *vertex = read_file(path, 0);
         snprintf(path, sizeof path, "%s/%s.geom", argv[1], name);
         char *geometry = read_file(path, 1);
+        snprintf(path, sizeof path, "%s/%s.frag", argv[1], name);
+        char *fragment = read_file(path, 1);
         if (!c.layers) {
             /* Bindings of texture 2D belong to the case's units: keep unit 0's. */
             GLint bound;
             glGetIntegerv(GL_TEXTURE_BINDING_2D, &bound);
-            size_tiles(c.columns * TILE, (c.views + c.columns - 1) / c.columns * TILE);
+            size_tiles(c.columns * TILE * (c.spacing ? c.spacing : 1), (c.views + c.columns - 1) / c.columns * TILE);
             glBindTexture(GL_TEXTURE_2D, (GLuint)bound);
         }
         draw_fixed();
         GLenum error = glGetError();
         if (error)
             printf("%s fixed function raised 0x%x\n", name, error);
-        GLuint program = make_program(vertex, geometry, name);
+        GLuint program = make_program(vertex, geometry, fragment, name);
         draw_program(program);
         error = glGetError();
         if (error)
@@ -778,6 +903,7 @@ int main(int argc, char **argv)
         free(text);
         free(vertex);
         free(geometry);
+        free(fragment);
         end_case();
     }
     return 0;

@@ -103,8 +103,10 @@ fn every_subpixel_shows_the_view_whose_line_is_next_to_it() {
 #[test]
 fn panels_without_one_function_have_no_lenses() {
     let placement = Placement::full_screen(64, 64);
-    let mut turned = Display::default();
-    turned.rotation = Rotation::Quarter;
+    let turned = Display {
+        rotation: Rotation::Quarter,
+        ..Display::default()
+    };
     let pattern = Pattern::new(&["LRLRbLRb"], true).unwrap();
     let hand = Display::new("hand", 2, Kind::Pattern(pattern));
     let cells = r#","CellPatternMode":{"value":0},"subpixelCells":[{"ROffsetX":0,"ROffsetY":0,"GOffsetX":0.3,"GOffsetY":0,"BOffsetX":0.6,"BOffsetY":0}]"#;
