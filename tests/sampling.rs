@@ -69,6 +69,22 @@ fn textures_keep_their_level_of_detail() {
     }
 }
 
+/// Instances shift all views by one viewport, and take the level of detail from the window's own gradients.
+#[test]
+fn instances_reach_the_same_columns() {
+    for display in [LENTICULAR, SLANTED] {
+        let options = [&display[..], &["--strategy", "instanced"]].concat();
+        for (name, least) in [("mesh", 45.0), ("teapot", 36.0)] {
+            let least = if display == SLANTED { 32.0 } else { least };
+            let got = decibels(name, "auto", &options);
+            assert!(got >= least, "{name}: {got} dB");
+        }
+    }
+    let options = [&SLANTED[..], &["--strategy", "instanced"]].concat();
+    let fewer = decibels("teapot", "0.612", &options);
+    assert!(fewer >= 30.0, "{fewer} dB");
+}
+
 /// Three eighths of the pixels both ways; of a lens sheet's columns more is left than of pixels that are simply fewer.
 #[test]
 fn a_lens_sheet_is_better_served_by_its_lenses() {

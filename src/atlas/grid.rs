@@ -152,6 +152,18 @@ impl Grid {
         leant
     }
 
+    /// As [`Grid::lean`], for the viewport of another view, `by`.
+    pub fn lean_beside(&self, viewport: [i32; 4], p: &[f32; 16], view: u32, by: u32) -> [f32; 16] {
+        let mut leant = self.lean(viewport, p);
+        let wide = self.across * f64::from(viewport[2]) * (1.0 + self.slope(viewport).abs());
+        let aside = self.corner(view)[0] - self.corner(by)[0];
+        for column in 0..4 {
+            let moved = 2.0 * aside / wide * f64::from(p[4 * column + 3]);
+            leant[4 * column] = (f64::from(leant[4 * column]) + moved) as f32;
+        }
+        leant
+    }
+
     /// The texels of a view's tile, from the first to before the last, whose middles lie in a range of the window's pixels, along x
     /// (without a shear) or y.
     pub fn texels(&self, view: u32, axis: usize, from: i32, to: i32) -> [i32; 2] {

@@ -4,6 +4,8 @@
 
 use super::fixed_state::{Driver, FixedState};
 use super::fragment_state;
+use super::replay::cut;
+use super::tuned::{Tuned, Units};
 use crate::atlas::Atlas;
 use crate::fixed::{
     self, Amplifier, Clip, FixedKey, FragmentKey, Limits, Patches, Primitive, Provoking, Tiles,
@@ -26,6 +28,8 @@ struct Uniforms {
     map: [f32; 4],
     /// `mv_clip`.
     clip: [f32; 4],
+    /// `mv_grid`.
+    grid: [f32; 4],
 }
 
 #[derive(Debug)]
@@ -36,6 +40,7 @@ struct Program {
     map: i32,
     clip: i32,
     tiles: i32,
+    grid: i32,
     /// What the uniforms hold.
     uploaded: Uniforms,
 }
@@ -85,13 +90,10 @@ impl Programs {
         mode: u32,
         fixed: &FixedState,
         material: bool,
+        state: &State,
         atlas: &Atlas,
     ) -> Result<Amplified, Reason> {
-        if !atlas.tiles.grid.is_full() {
-            return Err(Reason::Kind(
-                "draws to tiles with other pixels than the window's",
-            ));
-        }
+        let grid = &atlas.tiles.grid;
         let modelview = gl.get_floats::<16>(c::MODELVIEW_MATRIX);
         let (mut key, around) = fixed.for_mode(mode, &modelview, material);
         let geometry = method == Method::Geometry;
@@ -110,6 +112,15 @@ impl Programs {
         if key.target.tiles == Tiles::Layer && atlas.layered().is_none() {
             // One view, or a driver without layered framebuffers.
             return Err(Reason::Fixed(Unsupported::VertexLayer));
+        }
+        // One draw has one viewport and one scissor for all views.
+        if !grid.is_full() && key.target.tiles != Tiles::Layer
+            || grid.step[1] != 0.0
+            || grid.step[0] != 0.0 && state.scissor_test
+        {
+            return Err(Reason::Kind(
+                "draws to views whose tiles lie at other places of the window",
+            ));
         }
         let batch = match method {
             Method::Geometry => {
@@ -155,9 +166,11 @@ impl Programs {
                 "wide and smooth points and lines under `geometry`",
             ));
         }
-        let fragment = if key.target.discards() {
-            let read = fragment_state::read(gl, self.driver, &key).map_err(Reason::Fixed)?;
-            Some(read.canonical())
+        let fragment = if key.target.discards() || grid.follows_lenses() {
+            let mut read = fragment_state::read(gl, self.driver, &key).map_err(Reason::Fixed)?;
+            read.grid = grid.follows_lenses();
+            // The driver's own stage does what needs no level of detail.
+            Some(read.canonical()).filter(|key| key.discard || key.grid)
         } else {
             None
         };
@@ -204,6 +217,7 @@ impl Programs {
             map: gl.uniform_location(name, c"mv_map"),
             clip: gl.uniform_location(name, c"mv_clip"),
             tiles: gl.uniform_location(name, c"mv_tile"),
+            grid: gl.uniform_location(name, c"mv_grid"),
             uploaded: Uniforms::default(),
         });
         if let (Some(program), Some(key)) = (&program, &stages.1) {
@@ -235,7 +249,11 @@ impl Programs {
             return;
         };
         let key = &how.stages.0;
-        let around = Around::enter(gl, state, atlas, key, &program.patches, fixed, program.name);
+        let units = match how.stages.1 {
+            Some(fragment) if fragment.grid => Units::None,
+            _ => Units::Enabled,
+        };
+        let around = Around::enter(gl, state, atlas, key, program, units, fixed);
         let tiles = atlas.tiles;
         let layers = key.target.tiles == Tiles::Layer;
         let discards = key.target.discards();
@@ -244,6 +262,12 @@ impl Programs {
             let p = shear.map_or(state.projection, |s| {
                 s.projection(&state.projection, rig.place(view))
             });
+            if tiles.grid.is_full() {
+                return first_row(&p, &modelview);
+            }
+            let p = tiles
+                .grid
+                .lean_beside(state.viewport, &p, view, tiles.own());
             first_row(&p, &modelview)
         };
         // Layers are chosen by the shader; a row of tiles is bound.
@@ -285,6 +309,8 @@ impl Programs {
                         tiles: places,
                         map: [around.scale, 1.0, 0.0, 0.0],
                         clip: around.clip,
+                        grid: [tiles.grid.across, 0.0, tiles.grid.shear, tiles.grid.up]
+                            .map(|n| n as f32),
                     },
                 );
                 call(count);
@@ -329,6 +355,9 @@ impl Program {
         if self.uploaded.clip != new.clip {
             gl.uniform_4fv(self.clip, &[new.clip]);
         }
+        if self.uploaded.grid != new.grid {
+            gl.uniform_4fv(self.grid, &[new.grid]);
+        }
         self.uploaded = new;
     }
 }
@@ -365,7 +394,9 @@ struct Around {
     limits: [i32; 2],
     viewport: [i32; 4],
     width: f64,
-    beside: bool,
+    /// Viewport and scissor are not the program's.
+    placed: bool,
+    tuned: Tuned,
     toggled: Vec<(u32, bool)>,
     /// The last-vertex convention was set where the program has the first.
     last: bool,
@@ -377,10 +408,11 @@ impl Around {
         state: &State,
         atlas: &Atlas,
         key: &FixedKey,
-        patches: &Patches,
+        program: &Program,
+        units: Units,
         fixed: &FixedState,
-        program: u32,
     ) -> Around {
+        let patches = &program.patches;
         let beside = key.target.tiles == Tiles::ClipLeftRight;
         let width = f64::from(atlas.tiles.texture_width());
         let [vx, vy, vw, vh] = state.viewport;
@@ -410,7 +442,16 @@ impl Around {
                 gl.scissor(0, bottom, atlas.tiles.texture_width() as i32, height);
             }
         }
-        gl.use_program(program);
+        let grid = &atlas.tiles.grid;
+        let tuned = Tuned::enter(gl, state, grid, units);
+        if !grid.is_full() {
+            gl.viewport_f(grid.viewport(atlas.tiles.own(), 0, state.viewport));
+            if state.scissor_test {
+                let [x, y, w, h] = cut(state, &atlas.tiles, atlas.tiles.own(), 0);
+                gl.scissor(x, y, w, h);
+            }
+        }
+        gl.use_program(program.name);
         let mut toggled = Vec::new();
         let mut set = |cap, was: bool, is: bool| {
             if was != is {
@@ -457,7 +498,8 @@ impl Around {
             limits,
             viewport: state.viewport,
             width,
-            beside,
+            placed: beside || !grid.is_full(),
+            tuned,
             toggled,
             last,
         }
@@ -477,7 +519,8 @@ impl Around {
             gl.provoking_vertex(c::FIRST_VERTEX_CONVENTION);
         }
         gl.use_program(0);
-        if self.beside {
+        self.tuned.leave(gl);
+        if self.placed {
             let [x, y, w, h] = state.viewport;
             gl.viewport(x, y, w, h);
             if state.scissor_test {

@@ -1,7 +1,7 @@
 //! The draw itself again, per view, with P_i and the tile's viewport and scissor. Needs no shader.
 
 use super::current::Current;
-use super::tuned::Tuned;
+use super::tuned::{Tuned, Units};
 use crate::atlas::{Atlas, Grid, Tiles};
 use crate::gl::{Gl, consts as c};
 use crate::plan::{Rig, Shear};
@@ -78,7 +78,10 @@ pub fn replay(
         gl,
         state,
         &tiles.grid,
-        matches!(again, Again::Anything { .. }),
+        match again {
+            Again::Anything { .. } => Units::All,
+            _ => Units::Enabled,
+        },
     );
     let current = match again {
         Again::Current(e) | Again::Anything { current: e, .. } => Current::take(gl, e, saves != 0),

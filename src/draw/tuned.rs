@@ -16,6 +16,17 @@ pub(super) struct Tuned {
     active: u32,
 }
 
+/// Which texture units of fixed function a draw samples without knowing of the grid.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Units {
+    /// A generated fragment stage finds the level of detail itself.
+    None,
+    /// Those that are enabled now.
+    Enabled,
+    /// Perhaps any.
+    All,
+}
+
 /// Texture units of fixed function that are looked at.
 const UNITS: u32 = 8;
 
@@ -28,8 +39,7 @@ const TARGETS: [u32; 5] = [
 ];
 
 impl Tuned {
-    /// `unknown`: the draw may use any texture units.
-    pub(super) fn enter(gl: &Gl, state: &State, grid: &Grid, unknown: bool) -> Tuned {
+    pub(super) fn enter(gl: &Gl, state: &State, grid: &Grid, units: Units) -> Tuned {
         if grid.is_full() {
             return Tuned::default();
         }
@@ -41,8 +51,8 @@ impl Tuned {
             widths: Some(widths),
             ..Tuned::default()
         };
-        if state.compatibility {
-            tuned.sharpen(gl, grid, unknown);
+        if state.compatibility && units != Units::None {
+            tuned.sharpen(gl, grid, units == Units::All);
         }
         tuned
     }

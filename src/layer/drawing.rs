@@ -145,9 +145,15 @@ impl Layer {
         }
         self.state.touched = self.state.touched.without(Touch::FIXED | Touch::MATERIAL);
         let fixed = self.fixed.as_ref()?;
-        let how = self
-            .programs
-            .prepare(gl, plan.method, mode, fixed, material, &self.atlas);
+        let how = self.programs.prepare(
+            gl,
+            plan.method,
+            mode,
+            fixed,
+            material,
+            &self.state,
+            &self.atlas,
+        );
         self.report.shaders(self.programs.compiled);
         match how {
             Ok(how) => {
