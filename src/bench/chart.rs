@@ -1,4 +1,5 @@
-//! Time against error: one panel for each scene and size, a mark for each configuration, and the front that nothing beats.
+//! Time against error: one panel for each scene and size, a mark for each configuration, and for each number of views the
+//! front that nothing beats.
 
 use super::error::BenchError;
 use super::outcome::{Bench, Row};
@@ -9,6 +10,7 @@ use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 use plotters::style::{FontStyle, register_font};
+use std::collections::BTreeSet;
 use std::path::Path;
 
 /// Pixels of a panel.
@@ -229,8 +231,17 @@ impl<'a> Chart<'a> {
             5,
             INK.stroke_width(1),
         ))?;
-        chart.draw_series(LineSeries::new(stairs(&points, most), GREY.stroke_width(2)))?;
-        let many = rows.iter().any(|row| row.views != first.views);
+        // Fewer views are another task, not a better answer.
+        let views: BTreeSet<u32> = rows.iter().map(|row| row.views).collect();
+        for &views in &views {
+            let alike = rows
+                .iter()
+                .zip(&points)
+                .filter(|(row, _)| row.views == views);
+            let alike: Vec<_> = alike.map(|(_, point)| *point).collect();
+            chart.draw_series(LineSeries::new(stairs(&alike, most), GREY.stroke_width(2)))?;
+        }
+        let many = views.len() > 1;
         for (row, &(x, y)) in rows.iter().zip(&points) {
             let kind = self
                 .names

@@ -61,7 +61,7 @@ fn head(gpu: bool, papers: bool) -> Vec<String> {
     }
     head.extend(["PSNR", "SSIM", "worst", "wrong %", "tiles MiB"]);
     if papers {
-        head.extend(["paper's times", "over passes", "paper's"]);
+        head.extend(["paper's times", "over replay", "paper's over passes"]);
     }
     head.into_iter().map(str::to_owned).collect()
 }
