@@ -93,7 +93,6 @@ fn row(scene: &'static str, configuration: &str, views: u32, times: f64, psnr: O
         ms: spread(10.0 * times),
         bare_ms: spread(10.0),
         times: spread(times),
-        best_times: 0.9 * times,
         cpu_ms: 1.0,
         bare_cpu_ms: 1.0,
         gpu_ms: None,

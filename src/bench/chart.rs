@@ -39,7 +39,7 @@ const EXACT: f64 = 100.0;
 type Area<'a, B> = DrawingArea<B, Shift>;
 type Plane<'a, B> = ChartContext<'a, B, Cartesian2d<LogCoord<f64>, RangedCoordf64>>;
 
-/// What [`write`] can make.
+/// What [`write()`] can make.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Format {
     /// Pixels.
@@ -257,14 +257,14 @@ impl<'a> Chart<'a> {
             if many {
                 // Marks on one line take turns above and below it.
                 let (v, shift) = if kind % 2 == 0 {
-                    (VPos::Bottom, -12)
+                    (VPos::Bottom, -6)
                 } else {
-                    (VPos::Top, 12)
+                    (VPos::Top, 6)
                 };
-                let style = font(18).color(&colour).pos(Pos::new(HPos::Center, v));
+                let style = font(18).color(&colour).pos(Pos::new(HPos::Left, v));
                 chart.plotting_area().draw(
                     &(EmptyElement::at((x, y))
-                        + Text::new(row.views.to_string(), (0, shift), style)),
+                        + Text::new(row.views.to_string(), (10, shift), style)),
                 )?;
             }
         }

@@ -56,8 +56,6 @@ pub struct Row {
     pub bare_ms: Spread,
     /// Over the bare program's frame in the same round.
     pub times: Spread,
-    /// The fastest turn over the bare program's fastest turn: on a busy machine less is by chance in it.
-    pub best_times: f64,
     /// Computed by the program's own thread in a frame, ms. A driver's threads are not in it.
     pub cpu_ms: f64,
     /// The same of the bare program.
@@ -196,7 +194,6 @@ struct Line<'a> {
     times: f64,
     times_low: f64,
     times_high: f64,
-    best_times: f64,
     cpu_ms: f64,
     bare_cpu_ms: f64,
     gpu_ms: Option<f64>,
@@ -230,7 +227,6 @@ impl<'a> From<&'a Row> for Line<'a> {
             times: row.times.median,
             times_low: row.times.low,
             times_high: row.times.high,
-            best_times: row.best_times,
             cpu_ms: row.cpu_ms,
             bare_cpu_ms: row.bare_cpu_ms,
             gpu_ms: row.gpu_ms.map(|gpu| gpu.median),

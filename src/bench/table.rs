@@ -53,7 +53,6 @@ fn head(gpu: bool, papers: bool) -> Vec<String> {
         "quartiles",
         "times",
         "quartiles",
-        "at best",
         "cpu ms",
     ];
     if gpu {
@@ -80,7 +79,6 @@ fn cells(row: &Row, gpu: bool, papers: bool) -> Vec<String> {
         quartiles(&row.ms),
         format!("{:.2}", row.times.median),
         format!("{:.2}-{:.2}", row.times.low, row.times.high),
-        format!("{:.2}", row.best_times),
         significant(row.cpu_ms),
     ];
     if gpu {

@@ -269,7 +269,6 @@ impl Runner<'_> {
             ms: ms(&member.wall)?,
             bare_ms: ms(&bare.wall)?,
             times: Spread::of(&ratios(&member.wall, &bare.wall))?,
-            best_times: fastest(&member.wall) / fastest(&bare.wall),
             cpu_ms: ms(&member.cpu)?.median,
             bare_cpu_ms: ms(&bare.cpu)?.median,
             gpu_ms: ms(&member.gpu),
@@ -341,10 +340,6 @@ impl Runner<'_> {
         })?;
         Ok(picture.into_rgb8())
     }
-}
-
-fn fastest(wall: &[f64]) -> f64 {
-    wall.iter().copied().fold(f64::INFINITY, f64::min)
 }
 
 /// Where a program under the layer leaves its files.
