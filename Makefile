@@ -19,12 +19,15 @@ OPTIONAL_PACKAGES := faketime piglit
 LONG_PACKAGES := gltron xscreensaver-gl
 # What only test-full uses.
 FULL_PACKAGES := valgrind
+# Demo programs that `manyview bench` draws; they are installed with it.
+SCENES := mesh arrays fill room
+BENCH := $(TARGET)/bench
 # Only for those who make the pictures of the documents again.
 PICTURE_PACKAGES := netpbm
 # A game with a timedemo: 423 MB, and only for the targets that play it.
 OPENARENA_PACKAGES := openarena unzip
 
-.PHONY: help build demos demo pictures gallery test test-long test-full programs soak openarena openarena-pictures lint packages \
+.PHONY: help build demos demo bench pictures gallery test test-long test-full programs soak openarena openarena-pictures lint packages \
 	install uninstall clean
 
 help: ## list the targets
@@ -47,6 +50,10 @@ demo: packages build demos ## show glxgears and a demo in 8 views; writes PNGs
 		done; \
 	done
 	@echo "The pictures are in $(PICTURES)"
+
+bench: packages build demos ## measure the layer on four scenes (two minutes); writes JSON, CSV and a chart
+	@mkdir -p $(BENCH)
+	$(BIN)/manyview bench --json $(BENCH)/bench.json --csv $(BENCH)/bench.csv --chart $(BENCH)/bench.png
 
 pictures: packages build demos ## make the picture of the README
 	@sh scripts/packages.sh $(PICTURE_PACKAGES)
@@ -121,6 +128,10 @@ install: ## install to PREFIX after `make build` (default /usr/local)
 	install -m 755 $(BIN)/manyview $(DESTDIR)$(PREFIX)/bin/manyview
 	install -m 644 $(BIN)/libmanyview.so $(DESTDIR)$(PREFIX)/lib/manyview/libmanyview.so
 	install -m 755 $(BIN)/manyview-probe $(DESTDIR)$(PREFIX)/lib/manyview/manyview-probe
+	@for scene in $(SCENES); do test -x $(DEMOS)/$$scene || \
+		{ echo "The scenes of manyview bench are not built: run make demos first to install them as well" >&2; exit 0; }; done; \
+		install -d $(DESTDIR)$(PREFIX)/lib/manyview/scenes && \
+		install -m 755 $(addprefix $(DEMOS)/,$(SCENES)) $(DESTDIR)$(PREFIX)/lib/manyview/scenes/
 	for profile in $(wildcard profiles/*.toml); do \
 		install -m 644 $$profile $(DESTDIR)$(PREFIX)/lib/manyview/profiles/ || exit 1; done
 	for shader in $(wildcard shaders/*.wgsl); do \

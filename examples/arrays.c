@@ -1,13 +1,13 @@
 /* Every way to draw from arrays: all modes, all index types, interleaved, in buffer objects, ranges,
- * several at once, single elements within begin/end, and with an array left out. With --many a frame
- * is 1000 small glDrawArrays; with --time, a measure of what a layer costs. */
+ * several at once, single elements within begin/end, and with an array left out. With --many N a frame is N small
+ * glDrawArrays; with --time, a measure of what a layer costs. */
 #include "demo.h"
 #include <math.h>
 #include <stddef.h>
 #include <string.h>
 
 static int many;
-const struct demo_option demo_options[] = {{"--many", "1000 small draws a frame", &many, 0}, {0}};
+const struct demo_option demo_options[] = {{"--many", "small draws a frame in place of all this", &many, 1}, {0}};
 
 enum { RIM = 12, COUNT = RIM + 2 };
 struct vertex { GLfloat uv[2]; GLubyte colour[4]; GLfloat normal[3], position[3]; };
@@ -170,10 +170,15 @@ void demo_frame(int frame)
     glBindTexture(GL_TEXTURE_2D, texture);
     if (many) {
         arrays(disc, COLOUR | NORMAL);
-        for (int i = 0; i < 1000; i++) {
+        /* A sheet of 12 by 7.5, whatever their number. */
+        int columns = (int)ceil(sqrt(1.6 * many)), rows = (many + columns - 1) / columns;
+        double side = 12.0 / columns, size = 40.0 / columns;
+        for (int i = 0; i < many; i++) {
+            double column = i % columns - (columns - 1) / 2.0, row = i / columns - (rows - 1) / 2.0;
             glLoadIdentity();
-            glTranslated(0.30 * (i % 40 - 19.5), 0.30 * (i / 40 - 12.0), -9.0 + 2.5 * sin(0.37 * (i % 40) + 0.5 * (i / 40) + t));
+            glTranslated(side * column, side * row, -9.0 + 2.5 * sin(1.23 * side * column + 1.67 * side * row + t));
             glRotated(10.0 * (i % 36) + 90.0 * t, 0.0, 1.0, 0.0);
+            glScaled(size, size, size);
             glDrawArrays(modes[4 + i % 6], i % 2, RIM);
         }
         return;

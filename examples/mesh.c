@@ -1,13 +1,16 @@
-/* One big closed surface, a knotted tube with ripples: glDrawElements with normals and one light, from
- * client arrays or (--vbo) from buffer objects and, where there is one, a vertex array object. */
+/* One big closed surface, a knotted tube with ripples, with normals and one light: by glDrawElements from client arrays
+ * or (--vbo) from buffer objects and, where there is one, a vertex array object; or by glBegin/glEnd, called in each
+ * frame (--immediate) or once, into a display list (--list). */
 #include "demo.h"
 #include <math.h>
 #include <stdlib.h>
 
-static int triangles = 100000, vbo;
+static int triangles = 100000, vbo, immediate, list;
 const struct demo_option demo_options[] = {
-    {"--triangles", "10000 to 1000000 (default 100000)", &triangles, 1},
+    {"--triangles", "1000 to 4000000 (default 100000)", &triangles, 1},
     {"--vbo", "buffer objects in place of client arrays", &vbo, 0},
+    {"--immediate", "glBegin/glEnd in place of arrays", &immediate, 0},
+    {"--list", "the same in a display list", &list, 0},
     {0}};
 
 struct vertex { GLfloat position[3], normal[3]; };
@@ -15,7 +18,7 @@ static struct vertex *vertices;
 static GLuint *indices;
 static GLsizei index_count;
 static PFNGLBINDVERTEXARRAYPROC bind_vertex_array;
-static GLuint array_object;
+static GLuint array_object, display_list;
 
 static void knot(double a, double *p)
 { /* a (2,3) torus knot */
@@ -91,14 +94,32 @@ static void arrays(const struct vertex *base)
     glNormalPointer(GL_FLOAT, sizeof *base, base->normal);
 }
 
+static void begin_end(void)
+{
+    glBegin(GL_TRIANGLES);
+    for (GLsizei i = 0; i < index_count; i++) {
+        const struct vertex *v = &vertices[indices[i]];
+        glNormal3fv(v->normal);
+        glVertex3fv(v->position);
+    }
+    glEnd();
+}
+
 void demo_setup(void)
 {
     static const GLfloat gold[4] = {0.85f, 0.62f, 0.22f, 1.0f}, shine[4] = {0.9f, 0.85f, 0.7f, 1.0f},
                          from[4] = {2.0f, 3.0f, 4.0f, 0.0f};
-    if (triangles < 10000 || triangles > 1000000)
-        demo_fail(2, "--triangles: 10000 to 1000000");
+    if (triangles < 1000 || triangles > 4000000)
+        demo_fail(2, "--triangles: 1000 to 4000000");
+    if (vbo + immediate + list > 1)
+        demo_fail(2, "--vbo, --immediate, --list: at most one of them");
     build();
-    if (vbo) {
+    if (list) {
+        display_list = glGenLists(1);
+        glNewList(display_list, GL_COMPILE);
+        begin_end();
+        glEndList();
+    } else if (vbo) {
         GLuint buffers[2];
         if (((const char *)glGetString(GL_VERSION))[0] >= '3') {
             bind_vertex_array = (PFNGLBINDVERTEXARRAYPROC)demo_proc("glBindVertexArray");
@@ -113,7 +134,7 @@ void demo_setup(void)
         arrays(NULL);
         if (bind_vertex_array)
             bind_vertex_array(0);
-    } else {
+    } else if (!immediate) {
         arrays(vertices);
     }
     glClearColor(0.13f, 0.16f, 0.20f, 1.0f);
@@ -139,6 +160,14 @@ void demo_frame(int frame)
     glLoadIdentity();
     glTranslated(0.0, 0.0, -8.0);
     glRotated(-40.0 + 30.0 * t, 1.0, 0.4, 0.0);
+    if (immediate) {
+        begin_end();
+        return;
+    }
+    if (list) {
+        glCallList(display_list);
+        return;
+    }
     if (bind_vertex_array)
         bind_vertex_array(array_object);
     glDrawElements(GL_TRIANGLES, index_count, GL_UNSIGNED_INT, vbo ? NULL : indices);

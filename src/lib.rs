@@ -46,4 +46,7 @@ pub mod layer;
 pub mod window;
 
 #[cfg(feature = "cli")]
+pub mod bench;
+
+#[cfg(feature = "cli")]
 pub mod launch;

@@ -227,7 +227,11 @@ fn cost_of_an_idle_layer() {
     let mut failures = Vec::new();
     for (what, name, arguments) in [
         ("20,000 vertices", "immediate", &["--frames", "80"][..]),
-        ("1,000 draws", "arrays", &["--many", "--frames", "80"][..]),
+        (
+            "1,000 draws",
+            "arrays",
+            &["--many", "1000", "--frames", "80"][..],
+        ),
     ] {
         for how in ["one view", "disabled"] {
             let program = demo(name);

@@ -17,7 +17,7 @@ __attribute__((weak)) int demo_accumulation;
 static const char *program = "demo", *api_name, *dump;
 static const struct demo_api *api;
 static struct demo_window window = {.pbuffer = -1};
-static int frames = -1, view_index, view_count = 1, tiled, check, timing, unread;
+static int frames = -1, view_index, view_count = 1, tiled, check, timing, unread, bench;
 static double eye_spacing = 0.3, focal_depth = 8.0, hud_depth;
 
 _Noreturn void demo_fail(int status, const char *format, ...)
@@ -158,7 +158,8 @@ static void usage(void)
            "  --srgb                 sRGB-capable surface, with GL_FRAMEBUFFER_SRGB on (glx, egl)\n"
            "  --check                fail with status 3 after a frame that raised a GL error\n"
            "  --unread               frames end with glReadBuffer(GL_NONE) (glx, egl)\n"
-           "  --time                 print the median milliseconds per frame on stderr\n",
+           "  --time                 print the median milliseconds per frame on stderr\n"
+           "  --bench                read numbers of frames from stdin, draw so many, print the times of each\n",
            program, api->name);
     for (const struct demo_option *o = demo_options; o->name; o++)
         printf("  %s%s%*s%s\n", o->name, o->takes_number ? " N" : "",
@@ -216,6 +217,7 @@ static void parse(int argc, char **argv)
         if (!strcmp(o, "--check")) { check = 1; continue; }
         if (!strcmp(o, "--unread")) { unread = 1; continue; }
         if (!strcmp(o, "--time")) { timing = 1; continue; }
+        if (!strcmp(o, "--bench")) { bench = 1; continue; }
         if (!strcmp(o, "--help")) { help = 1; continue; }
         static const char *valued[] = {"--api", "--surface", "--frames", "--size", "--view", "--eye-spacing",
             "--focal-depth", "--hud-depth", "--canvas", "--offset", "--dump", "--samples", NULL};
@@ -352,6 +354,11 @@ int main(int argc, char **argv)
         glEnable(GL_FRAMEBUFFER_SRGB);
     demo_scissor_off();
     demo_setup();
+    if (bench) {
+        demo_bench(api);
+        api->close();
+        return 0;
+    }
     double last = now_ms();
     for (int frame = 0; frame < frames && !quit; frame++) {
         demo_frame(frame);

@@ -76,7 +76,11 @@ struct demo_api {
     int (*frame_end)(void); /* swap; non-zero: the user asks to quit */
     demo_function (*proc)(const char *name);
     void (*close)(void);
+    void (*raise)(void); /* puts the window before all others; null where there is none */
 };
 extern const struct demo_api demo_glx, demo_egl, demo_osmesa;
+
+/* ---- bench.c ---- */
+void demo_bench(const struct demo_api *api); /* --bench; returns at the end of stdin */
 
 #endif

@@ -7,8 +7,8 @@
 #include <GL/glx.h>
 
 #define DLGL_FUNCTIONS(X) \
-    X(glBegin) X(glClear) X(glClearColor) X(glDisable) X(glEnable) X(glEnd) X(glFrustum) X(glGetError) \
-    X(glGetFloatv) X(glGetIntegerv) X(glLightfv) X(glLightModelfv) X(glLoadIdentity) X(glLoadMatrixf) \
+    X(glBegin) X(glClear) X(glClearColor) X(glDisable) X(glEnable) X(glEnd) X(glFinish) X(glFrustum) X(glGetError) \
+    X(glGetFloatv) X(glGetIntegerv) X(glGetString) X(glLightfv) X(glLightModelfv) X(glLoadIdentity) X(glLoadMatrixf) \
     X(glMaterialf) X(glMaterialfv) X(glMatrixMode) X(glNormal3d) X(glPixelStorei) X(glPopClientAttrib) \
     X(glPopMatrix) X(glPushClientAttrib) X(glPushMatrix) X(glReadBuffer) X(glReadPixels) X(glRotated) X(glScaled) \
     X(glScissor) X(glShadeModel) X(glTranslated) X(glVertex3d) X(glViewport) \
@@ -28,10 +28,12 @@ void dlgl_load(void);
 #define glDisable dl_glDisable
 #define glEnable dl_glEnable
 #define glEnd dl_glEnd
+#define glFinish dl_glFinish
 #define glFrustum dl_glFrustum
 #define glGetError dl_glGetError
 #define glGetFloatv dl_glGetFloatv
 #define glGetIntegerv dl_glGetIntegerv
+#define glGetString dl_glGetString
 #define glLightfv dl_glLightfv
 #define glLightModelfv dl_glLightModelfv
 #define glLoadIdentity dl_glLoadIdentity

@@ -96,6 +96,14 @@ static int frame_end(void)
 
 static demo_function proc(const char *name) { return (demo_function)eglGetProcAddress(name); }
 
+static void raise_window(void)
+{
+    if (!win)
+        return;
+    XRaiseWindow(x_display, win);
+    XSync(x_display, False);
+}
+
 static void close_surface(void)
 {
     eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
@@ -108,4 +116,4 @@ static void close_surface(void)
         XCloseDisplay(x_display);
 }
 
-const struct demo_api demo_egl = {"egl", open_surface, frame_end, proc, close_surface};
+const struct demo_api demo_egl = {"egl", open_surface, frame_end, proc, close_surface, raise_window};

@@ -28,4 +28,4 @@ static void close_buffer(void)
     free(pixels);
 }
 
-const struct demo_api demo_osmesa = {"osmesa", open_buffer, frame_end, proc, close_buffer};
+const struct demo_api demo_osmesa = {"osmesa", open_buffer, frame_end, proc, close_buffer, NULL};

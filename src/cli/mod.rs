@@ -3,6 +3,7 @@
 //! Results go to stdout, everything else to stderr.
 #![forbid(unsafe_code)]
 
+mod bench;
 mod calibrate;
 mod capture;
 mod ctl;
@@ -24,7 +25,7 @@ const EXIT_STATUS: &str = "\
 Exit status: that of APP for `run` (128 + the signal that killed it); else 0, or
   2    an option or file that cannot be used, or a request that the program has refused
   3    something missing here: the layer's library, an X server, OpenGL, a program for `ctl`
-  4    the pictures of `capture` were not reached
+  4    the pictures of `capture`, or the frames of `bench`, were not reached
   126  APP cannot be executed, or the layer cannot enter it (setuid, static, 32-bit)
   127  APP is not found";
 
@@ -56,6 +57,8 @@ enum Action {
     Simulate(simulate::Arguments),
     /// Measure a panel's lens sheet from photos of a pattern that it shows.
     Calibrate(calibrate::Arguments),
+    /// Measure the layer: frame times of scenes over those without it, and how far the picture is from the exact one.
+    Bench(bench::Arguments),
     /// Say which OpenGL a program would get here and what the layer can do with it.
     Doctor(doctor::Arguments),
     /// List the built-in panels.
@@ -74,6 +77,7 @@ pub(crate) fn main() -> ExitCode {
         Action::Weave(arguments) => weave::run(&arguments),
         Action::Simulate(arguments) => simulate::run(&arguments),
         Action::Calibrate(arguments) => calibrate::run(&arguments),
+        Action::Bench(arguments) => bench::run(&arguments),
         Action::Doctor(arguments) => doctor::run(&arguments),
         Action::Displays(arguments) => displays::run(&arguments),
     };

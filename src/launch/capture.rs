@@ -3,8 +3,8 @@
 
 use super::error::LaunchError;
 use super::program::{Ended, Launch};
+use super::screen::Screen;
 use super::signals;
-use super::xvfb::Xvfb;
 use crate::config::{Capture, Status};
 use rustix::process::{Pid, Signal, WaitId, WaitIdOptions, kill_process_group, waitid};
 use std::collections::HashMap;
@@ -47,13 +47,9 @@ impl CaptureJob<'_> {
     /// Starts the program, waits for the pictures, ends the program. `progress` gets pictures so far and frames seen.
     pub fn run(&self, mut progress: impl FnMut(u64, Option<u64>)) -> Result<Captured, LaunchError> {
         let mut signals = signals::catch()?;
-        let screen = if std::env::var_os("DISPLAY").is_none_or(|d| d.is_empty()) {
-            Some(Xvfb::start()?)
-        } else {
-            None
-        };
+        let screen = Screen::find()?;
         let before = stamps(self.capture);
-        let mut program = self.start(screen.as_ref())?;
+        let mut program = self.start(&screen)?;
         let limit = Instant::now() + self.timeout;
         let mut next = self.capture.first;
         let mut files = Vec::new();
@@ -108,13 +104,9 @@ impl CaptureJob<'_> {
             .unwrap_or_default()
     }
 
-    fn start(&self, screen: Option<&Xvfb>) -> Result<Program, LaunchError> {
+    fn start(&self, screen: &Screen) -> Result<Program, LaunchError> {
         let mut command = self.launch.command();
-        if let Some(screen) = screen {
-            command
-                .env("DISPLAY", screen.display())
-                .env_remove("WAYLAND_DISPLAY");
-        }
+        screen.give(&mut command);
         // The program leads its own group, so that ending it ends what it started; a terminal would stop it on a read.
         command.process_group(0);
         if std::io::stdin().is_terminal() {

@@ -1,6 +1,7 @@
 //! Why a program was not started, or its pictures not taken.
 #![forbid(unsafe_code)]
 
+use crate::bench::BenchError;
 use crate::calibrate::CalibrateError;
 use crate::config::ConfigError;
 use crate::control::ControlError;
@@ -66,6 +67,9 @@ pub enum LaunchError {
     /// A panel that could not be measured.
     #[error(transparent)]
     Calibrate(#[from] CalibrateError),
+    /// Nothing was measured.
+    #[error(transparent)]
+    Bench(#[from] BenchError),
     /// A window of our own that cannot be had.
     #[error(transparent)]
     Window(#[from] WindowError),
@@ -183,6 +187,7 @@ impl LaunchError {
             | Self::Picture { .. }
             | Self::Simulate(_)
             | Self::Calibrate(_) => 2,
+            Self::Bench(error) => error.exit_status(),
             Self::Control(error) => error.exit_status(),
             Self::Window(error) => error.exit_status(),
             Self::NoLibrary { .. }

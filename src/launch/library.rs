@@ -33,6 +33,14 @@ pub fn find_helper(name: &str) -> Option<PathBuf> {
         .find(|path| path.is_file())
 }
 
+/// Where the scenes of `manyview bench` are: `scenes` beside the library, or `demos` beside the build that it is of.
+pub fn scene_folders() -> Result<[PathBuf; 2], LaunchError> {
+    let library = find()?;
+    let beside = library.parent().unwrap_or(Path::new("/"));
+    let build = beside.parent().unwrap_or(Path::new("/"));
+    Ok([beside.join("scenes"), build.join("demos")])
+}
+
 fn folders() -> Vec<PathBuf> {
     let executable = std::env::current_exe()
         .and_then(|path| path.canonicalize())

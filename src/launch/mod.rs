@@ -12,7 +12,9 @@ mod linked;
 mod preflight;
 mod preload;
 mod program;
+mod screen;
 mod signals;
+mod stepped;
 mod xvfb;
 
 pub use capture::{CaptureJob, Captured};
@@ -22,4 +24,6 @@ pub use linked::{GlLibrary, linked_gl};
 pub use preflight::{check_app, check_files, writable};
 pub use preload::with_library;
 pub use program::{Ended, Launch};
+pub use screen::Screen;
+pub use stepped::{Stepped, Stop};
 pub use xvfb::Xvfb;

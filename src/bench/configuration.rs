@@ -1,0 +1,113 @@
+//! Configurations: named sets of the layer's options. A new switch of the layer is one more row.
+
+use crate::config::{OptionId, Origin, Settings};
+
+/// Options of the layer under one name.
+#[derive(Debug, PartialEq)]
+pub struct Configuration {
+    /// For `--strategy`.
+    pub name: &'static str,
+    /// What it sets.
+    pub options: &'static [(OptionId, &'static str)],
+    /// In words.
+    pub about: &'static str,
+}
+
+/// What every picture is compared with: as exact as the layer can be.
+pub const EXACT: Configuration = Configuration {
+    name: "exact",
+    options: &[
+        (OptionId::Strategy, "replay"),
+        (OptionId::Atlas, "layers"),
+        (OptionId::ViewScale, "1"),
+    ],
+    about: "every draw again for each view, each view at the origin of its own layer",
+};
+
+/// Of `manyview bench` without `--strategy`.
+pub const DEFAULT_CONFIGURATIONS: &[&str] = &["replay", "instanced", "geometry"];
+
+const LAYERS: (OptionId, &str) = (OptionId::Atlas, "layers");
+const REPLAY: (OptionId, &str) = (OptionId::Strategy, "replay");
+const INSTANCED: (OptionId, &str) = (OptionId::Strategy, "instanced");
+const GEOMETRY: (OptionId, &str) = (OptionId::Strategy, "geometry");
+
+const fn row(
+    name: &'static str,
+    options: &'static [(OptionId, &'static str)],
+    about: &'static str,
+) -> Configuration {
+    Configuration {
+        name,
+        options,
+        about,
+    }
+}
+
+/// All configurations.
+pub const CONFIGURATIONS: &[Configuration] = &[
+    row(
+        "auto",
+        &[(OptionId::Strategy, "auto")],
+        "what the layer takes by itself",
+    ),
+    row("replay", &[REPLAY], "every draw again for each view"),
+    row(
+        "instanced",
+        &[INSTANCED],
+        "one draw with an instance per view",
+    ),
+    row(
+        "geometry",
+        &[GEOMETRY],
+        "one draw, a geometry shader makes the views",
+    ),
+    row(
+        "replay-layers",
+        &[REPLAY, LAYERS],
+        "replay, the views in layers of the atlas",
+    ),
+    row(
+        "instanced-layers",
+        &[INSTANCED, LAYERS],
+        "instanced, the views in layers of the atlas",
+    ),
+    row(
+        "geometry-layers",
+        &[GEOMETRY, LAYERS],
+        "geometry, the views in layers of the atlas, so without clip distances",
+    ),
+];
+
+/// A configuration at one size of its views.
+#[derive(Clone, Debug)]
+pub struct Variant {
+    /// The named options.
+    pub configuration: &'static Configuration,
+    /// As `--view-scale` has it.
+    pub view_scale: String,
+}
+
+impl Variant {
+    /// As it is called in tables and charts.
+    #[must_use]
+    pub fn name(&self) -> String {
+        if self.view_scale == "1" {
+            self.configuration.name.to_owned()
+        } else {
+            format!("{} at {}", self.configuration.name, self.view_scale)
+        }
+    }
+
+    /// The layer's options for so many views, as if they stood on the command line.
+    #[must_use]
+    pub fn settings(&self, views: &str) -> Settings {
+        let mut settings = Settings::default();
+        settings.set(OptionId::ViewScale, &self.view_scale, Origin::CommandLine);
+        for (id, value) in self.configuration.options {
+            settings.set(*id, *value, Origin::CommandLine);
+        }
+        settings.set(OptionId::Views, views, Origin::CommandLine);
+        settings
+    }
+}

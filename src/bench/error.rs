@@ -1,0 +1,105 @@
+//! What keeps `manyview bench` from an answer; each message names the option and the remedy.
+
+use std::path::PathBuf;
+
+/// What went wrong.
+#[derive(Debug, thiserror::Error)]
+pub enum BenchError {
+    /// A name that is in no table.
+    #[error(
+        "{option} is '{value}'; this version knows {known} (`manyview bench --list` describes them)"
+    )]
+    Unknown {
+        /// The option.
+        option: &'static str,
+        /// Its value.
+        value: String,
+        /// What it could be.
+        known: String,
+    },
+    /// A number of frames that is none.
+    #[error("--frames is '{0}'; give a whole number from 1 to 10000")]
+    Frames(String),
+    /// A chart of another kind.
+    #[error("--chart is '{}'; give a name that ends in .png or .svg", _0.display())]
+    ChartName(PathBuf),
+    /// A scene whose program is not there.
+    #[error(
+        "the program {program} of the scene {scene} is not in {}; build it with `make demos`",
+        searched.iter().map(|p| p.display().to_string()).collect::<Vec<_>>().join(" nor in ")
+    )]
+    NoScene {
+        /// The scene.
+        scene: &'static str,
+        /// Its program.
+        program: &'static str,
+        /// Where it was looked for.
+        searched: Vec<PathBuf>,
+    },
+    /// A scene that gave no times.
+    #[error(
+        "the scene {what} ended {how} before its frames were drawn; `manyview doctor` says what OpenGL there is"
+    )]
+    Ended {
+        /// Scene and configuration.
+        what: String,
+        /// With which status.
+        how: String,
+    },
+    /// A scene that takes too long.
+    #[error(
+        "the scene {what} did not draw {frames} frames within {seconds} s; ask for fewer views or a smaller --size"
+    )]
+    Silent {
+        /// Scene and configuration.
+        what: String,
+        /// As asked for.
+        frames: u32,
+        /// The limit.
+        seconds: u64,
+    },
+    /// A scene that answers something else.
+    #[error(
+        "the scene {what} answered '{line}' in place of times; build it again with `make demos`"
+    )]
+    Answer {
+        /// Scene and configuration.
+        what: String,
+        /// What it said.
+        line: String,
+    },
+    /// The layer wrote no picture.
+    #[error("the layer wrote no picture of the scene {what}: {reason}")]
+    NoPicture {
+        /// Scene and configuration.
+        what: String,
+        /// Why, as far as it is known.
+        reason: String,
+    },
+    /// A chart that cannot be drawn.
+    #[error("the chart cannot be drawn: {0}")]
+    Chart(String),
+    /// A file that cannot be written.
+    #[error("{} cannot be written: {reason}", file.display())]
+    Write {
+        /// The file.
+        file: PathBuf,
+        /// Why.
+        reason: String,
+    },
+}
+
+impl BenchError {
+    /// The exit status of the command.
+    #[must_use]
+    pub fn exit_status(&self) -> u8 {
+        match self {
+            Self::Unknown { .. } | Self::Frames(_) | Self::ChartName(_) => 2,
+            Self::NoScene { .. } | Self::Chart(_) | Self::Write { .. } => 3,
+            Self::Ended { .. }
+            | Self::Silent { .. }
+            | Self::Answer { .. }
+            | Self::NoPicture { .. } => 4,
+        }
+    }
+}

@@ -1,0 +1,39 @@
+//! What `manyview bench` measures and how it is told: scenes, configurations, presets, statistics, tables, charts.
+//!
+//! Pure: nothing here starts a program. [`crate::launch::Stepped`] does, and the command puts the two together: it keeps the bare
+//! program and the program under each configuration alive side by side and lets them draw in turns.
+#![forbid(unsafe_code)]
+
+pub mod chart;
+mod configuration;
+mod error;
+mod outcome;
+mod pareto;
+mod preset;
+pub mod protocol;
+mod scene;
+mod statistics;
+pub mod table;
+
+pub use configuration::{CONFIGURATIONS, Configuration, DEFAULT_CONFIGURATIONS, EXACT, Variant};
+pub use error::BenchError;
+pub use outcome::{Bench, Limit, Paper, PictureError, Row, tile_bytes};
+pub use pareto::front;
+pub use preset::{Figure, PRESETS, Preset};
+pub use scene::{DEFAULT_SCENES, SCENES, Scene, Work};
+pub use statistics::{Spread, median, ratios};
+
+/// Finds rows of a table by names that a user gave; `option` is where.
+pub fn find<'a, T>(
+    table: &'a [T],
+    name: impl Fn(&T) -> &str,
+    option: &'static str,
+    given: &str,
+) -> Result<&'a T, BenchError> {
+    let found = table.iter().find(|row| name(row) == given);
+    found.ok_or_else(|| BenchError::Unknown {
+        option,
+        value: given.to_owned(),
+        known: table.iter().map(&name).collect::<Vec<_>>().join(", "),
+    })
+}

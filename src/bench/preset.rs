@@ -1,0 +1,229 @@
+//! Experiments of two papers, as closely as the scenes allow, and what the papers say came out.
+//!
+//! Based on: J. Luo, K. Qin, Y. Zhou, M. Mao, R. Li, "GPU-based multi-view rendering for spatial-multiplex autostereoscopic
+//! displays" (2010), tables 1 and 2; F. de Sorbier, V. Nozick, H. Saito, "GPU-based multi-view rendering" (2010), figures 7 to
+//! 9. The bars and curves of the figures have no numbers: of those only what the text says of them is here.
+
+/// One experiment.
+#[derive(Debug, PartialEq)]
+pub struct Preset {
+    /// For `--preset`.
+    pub name: &'static str,
+    /// What was measured, and with what we measure it.
+    pub about: &'static str,
+    /// Pixels of one view, which is the window.
+    pub size: (u32, u32),
+    /// Names of scenes.
+    pub scenes: &'static [&'static str],
+    /// Numbers of views.
+    pub views: &'static [&'static str],
+    /// Names of configurations.
+    pub configurations: &'static [&'static str],
+    /// What came out.
+    pub figures: &'static [Figure],
+}
+
+/// What a paper says of one scene, number of views and configuration.
+#[derive(Debug, PartialEq)]
+pub struct Figure {
+    /// Name of the scene; empty for all of the preset.
+    pub scene: &'static str,
+    /// Number of views.
+    pub views: &'static str,
+    /// Name of the configuration.
+    pub configuration: &'static str,
+    /// Frame time over that of a single view.
+    pub times: Option<f64>,
+    /// How much faster than the passes of the traditional method, which are our replay.
+    pub speedup: Option<f64>,
+    /// What the text says where there are no numbers.
+    pub words: &'static str,
+}
+
+impl Preset {
+    /// What the paper says of a row.
+    #[must_use]
+    pub fn figure(&self, scene: &str, views: u32, configuration: &str) -> Option<&'static Figure> {
+        self.figures.iter().find(|figure| {
+            (figure.scene.is_empty() || figure.scene == scene)
+                && figure.views.parse() == Ok(views)
+                && figure.configuration == configuration
+        })
+    }
+}
+
+/// Table 1 of Luo et al., frames per second: a single view, theirs, multi-pass.
+const LUO_SINGLE: f64 = 137.6;
+
+const fn luo(
+    views: &'static str,
+    configuration: &'static str,
+    fps: f64,
+    multi_pass: f64,
+) -> Figure {
+    Figure {
+        scene: "mesh-800k",
+        views,
+        configuration,
+        times: Some(LUO_SINGLE / fps),
+        speedup: Some(fps / multi_pass),
+        words: "",
+    }
+}
+
+const fn quake(views: &'static str, fps: f64, annen: f64) -> Figure {
+    Figure {
+        scene: "room",
+        views,
+        configuration: "geometry",
+        times: None,
+        speedup: Some(fps / annen),
+        words: "",
+    }
+}
+
+const fn said(
+    scene: &'static str,
+    views: &'static str,
+    configuration: &'static str,
+    words: &'static str,
+) -> Figure {
+    Figure {
+        scene,
+        views,
+        configuration,
+        times: None,
+        speedup: None,
+        words,
+    }
+}
+
+/// All presets.
+pub const PRESETS: &[Preset] = &[
+    Preset {
+        name: "luo-table1",
+        about: "a model of 0.79 million triangles on a GeForce 9600GT; here 0.8 million in buffer objects, because display lists are replayed",
+        size: (512, 384),
+        scenes: &["mesh-800k"],
+        views: &["1", "2", "4", "8"],
+        configurations: &["replay", "geometry"],
+        figures: &[
+            luo("1", "replay", 137.6, 137.6),
+            luo("2", "replay", 68.6, 68.6),
+            luo("4", "replay", 34.6, 34.6),
+            luo("8", "replay", 17.2, 17.2),
+            luo("1", "geometry", 137.6, 137.6),
+            luo("2", "geometry", 115.2, 68.6),
+            luo("4", "geometry", 47.5, 34.6),
+            luo("8", "geometry", 20.1, 17.2),
+        ],
+    },
+    Preset {
+        name: "luo-table2",
+        about: "Quake III on 7 PCs, a speed-up over Annen's multi-pass that is mostly the network's; here a lit room with a display, on one",
+        size: (512, 384),
+        scenes: &["room"],
+        views: &["2", "4"],
+        configurations: &["replay", "geometry"],
+        figures: &[quake("2", 15.2, 5.2), quake("4", 12.6, 3.4)],
+    },
+    Preset {
+        name: "desorbier-fig7",
+        about: "models by glVertex on a GeForce GTX 285 at 1024x768; the bars have no numbers, so what the text says of the speed-up over passes",
+        size: (1024, 768),
+        scenes: &[
+            "mesh-1k-immediate",
+            "mesh-5k-immediate",
+            "mesh-10k-immediate",
+            "mesh-40k-immediate",
+        ],
+        views: &["2", "4"],
+        configurations: &["replay", "geometry"],
+        figures: &[
+            said("mesh-1k-immediate", "2", "geometry", "slightly worse"),
+            said("mesh-1k-immediate", "4", "geometry", "similar"),
+            said("mesh-10k-immediate", "4", "geometry", "up to three times"),
+            said("mesh-40k-immediate", "4", "geometry", "up to three times"),
+            said("", "2", "geometry", "around twice"),
+            said("", "4", "geometry", "around twice"),
+        ],
+    },
+    Preset {
+        name: "desorbier-fig8",
+        about: "1 to 17 views of 10,000 triangles by glVertex; the curve has no numbers, so what the text says of it",
+        size: (1024, 768),
+        scenes: &["mesh-10k-immediate"],
+        views: &["1", "2", "3", "4", "6", "9", "13", "17"],
+        configurations: &["geometry"],
+        figures: &[
+            said("", "1", "geometry", "slower than 2 views"),
+            said("", "2", "geometry", "as 3 and 4 views"),
+            said("", "3", "geometry", "as 2 and 4 views"),
+            said("", "4", "geometry", "as 2 and 3 views"),
+            said("", "6", "geometry", "dropping"),
+            said("", "9", "geometry", "dropping"),
+            said("", "13", "geometry", "the drop ends"),
+            said("", "17", "geometry", "as 13 views"),
+        ],
+    },
+    Preset {
+        name: "desorbier-fig9",
+        about: "clipping in the geometry shader against both shaders; here no clipping (layers) against clip distances. Only words in the text",
+        size: (1024, 768),
+        scenes: &["mesh-10k-immediate", "mesh-40k-immediate"],
+        views: &["2", "4"],
+        configurations: &["geometry-layers", "geometry"],
+        figures: &[
+            said("mesh-10k-immediate", "2", "geometry", "both shaders better"),
+            said(
+                "mesh-10k-immediate",
+                "4",
+                "geometry",
+                "both shaders better, by more",
+            ),
+            said("mesh-40k-immediate", "2", "geometry", "similar"),
+            said("mesh-40k-immediate", "4", "geometry", "similar"),
+        ],
+    },
+];
+
+#[cfg(test)]
+mod tests {
+    use super::super::{CONFIGURATIONS, SCENES};
+    use super::*;
+
+    #[test]
+    fn presets_name_what_there_is() {
+        for preset in PRESETS {
+            for scene in preset.scenes {
+                assert!(SCENES.iter().any(|known| known.name == *scene), "{scene}");
+            }
+            for name in preset.configurations {
+                assert!(
+                    CONFIGURATIONS.iter().any(|known| known.name == *name),
+                    "{name}"
+                );
+            }
+            for figure in preset.figures {
+                assert!(preset.views.contains(&figure.views), "{figure:?}");
+                assert!(
+                    preset.configurations.contains(&figure.configuration),
+                    "{figure:?}"
+                );
+                assert!(
+                    figure.scene.is_empty() || preset.scenes.contains(&figure.scene),
+                    "{figure:?}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn ratios_are_those_of_the_tables() {
+        let table = &PRESETS[0];
+        let figure = table.figure("mesh-800k", 8, "geometry").unwrap();
+        assert!((figure.times.unwrap() - 6.846).abs() < 1e-3);
+        assert!((figure.speedup.unwrap() - 1.169).abs() < 1e-3);
+        assert_eq!(table.figure("mesh-800k", 3, "geometry"), None);
+    }
+}

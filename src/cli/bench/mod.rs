@@ -1,0 +1,226 @@
+//! `manyview bench`: what may be asked for; `measure` does it.
+#![forbid(unsafe_code)]
+
+mod measure;
+
+use super::mask::size;
+use super::{Outcome, print, tell};
+use clap::Args;
+use manyview::bench::{
+    BenchError, CONFIGURATIONS, DEFAULT_CONFIGURATIONS, DEFAULT_SCENES, PRESETS, Preset, SCENES,
+    Scene, Variant, chart, find, table,
+};
+use manyview::config::Config;
+use manyview::launch::{LaunchError, writable};
+use measure::Group;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+/// Of the window, in pixels, unless given; that of the demos.
+const SIZE: (u32, u32) = (512, 384);
+const VIEWS: &str = "8";
+const MOST_FRAMES: u32 = 10_000;
+
+#[derive(Args)]
+pub(crate) struct Arguments {
+    /// Scene to draw, several by commas or by giving it again [default: mesh-100k,draws-3000,fill,room]
+    #[arg(
+        long,
+        value_name = "NAME",
+        value_delimiter = ',',
+        conflicts_with = "preset"
+    )]
+    scene: Vec<String>,
+    /// Configuration of the layer, see --list [default: replay,instanced,geometry]
+    #[arg(
+        long,
+        value_name = "NAME",
+        value_delimiter = ',',
+        conflicts_with = "preset"
+    )]
+    strategy: Vec<String>,
+    /// Number of views [default: 8]
+    #[arg(
+        long,
+        value_name = "N",
+        value_delimiter = ',',
+        conflicts_with = "preset",
+        allow_hyphen_values = true
+    )]
+    views: Vec<String>,
+    /// Size of a view over the size of the window [default: 1]
+    #[arg(
+        long,
+        value_name = "F",
+        value_delimiter = ',',
+        conflicts_with = "preset",
+        allow_hyphen_values = true
+    )]
+    view_scale: Vec<String>,
+    /// Size of the window in pixels [default: 512x384, or the preset's]
+    #[arg(long, value_name = "WxH", value_delimiter = ',')]
+    size: Vec<String>,
+    /// How often each program has its turn
+    #[arg(
+        long,
+        value_name = "N",
+        default_value = "15",
+        allow_hyphen_values = true
+    )]
+    frames: String,
+    /// An experiment of a paper, with the paper's figures beside ours, see --list
+    #[arg(long, value_name = "NAME")]
+    preset: Option<String>,
+    /// Where the scenes draw: a window, or off screen with EGL, which needs no X server
+    #[arg(long, value_name = "glx|egl", default_value = "glx", value_parser = ["glx", "egl"])]
+    api: String,
+    /// Write everything that was measured
+    #[arg(long, value_name = "FILE.json")]
+    json: Option<PathBuf>,
+    /// Write one line for each scene, number of views and configuration
+    #[arg(long, value_name = "FILE.csv")]
+    csv: Option<PathBuf>,
+    /// Draw time against error, one panel for each scene
+    #[arg(long, value_name = "FILE.png|FILE.svg")]
+    chart: Option<PathBuf>,
+    /// List scenes, configurations and presets, and measure nothing
+    #[arg(long)]
+    list: bool,
+}
+
+pub(crate) fn run(arguments: &Arguments) -> Outcome {
+    if arguments.list {
+        return print(&list());
+    }
+    let preset = match &arguments.preset {
+        Some(name) => Some(find(PRESETS, |preset| preset.name, "--preset", name)?),
+        None => None,
+    };
+    let frames: Result<u32, _> = arguments.frames.parse();
+    let Some(rounds) = frames
+        .ok()
+        .filter(|frames| (1..=MOST_FRAMES).contains(frames))
+    else {
+        return Err(BenchError::Frames(arguments.frames.clone()).into());
+    };
+    let groups = groups(arguments, preset)?;
+    for (purpose, file) in [
+        ("the JSON", &arguments.json),
+        ("the CSV", &arguments.csv),
+        ("the chart", &arguments.chart),
+    ] {
+        if let Some(file) = file {
+            writable(purpose, file)?;
+        }
+    }
+    if let Some(file) = &arguments.chart {
+        chart::Format::of(file)?;
+    }
+    let bench = measure::run(&groups, rounds, &arguments.api, preset)?;
+    if let Some(preset) = preset {
+        print(&format!("{}: {}\n\n", preset.name, preset.about))?;
+    }
+    print(&table::text(&bench))?;
+    if let Some(file) = &arguments.json {
+        let text = serde_json::to_string_pretty(&bench).map_err(|error| unwritten(file, &error))?;
+        std::fs::write(file, text + "\n").map_err(|error| unwritten(file, &error))?;
+        tell(&format_args!("wrote {}", file.display()));
+    }
+    if let Some(file) = &arguments.csv {
+        bench.write_csv(file)?;
+        tell(&format_args!("wrote {}", file.display()));
+    }
+    if let Some(file) = &arguments.chart {
+        chart::write(&bench, file)?;
+        tell(&format_args!("wrote {}", file.display()));
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+fn unwritten(file: &Path, reason: &dyn std::fmt::Display) -> LaunchError {
+    BenchError::Write {
+        file: file.to_owned(),
+        reason: reason.to_string(),
+    }
+    .into()
+}
+
+/// What is measured together, checked: each is one scene, size and number of views, drawn in turns by all configurations.
+fn groups(
+    arguments: &Arguments,
+    preset: Option<&'static Preset>,
+) -> Result<Vec<Group>, LaunchError> {
+    let names = |given: &[String],
+                 presets: fn(&Preset) -> &'static [&'static str],
+                 default: &[&str]|
+     -> Vec<String> {
+        match preset {
+            Some(preset) => owned(presets(preset)),
+            None if given.is_empty() => owned(default),
+            None => given.to_vec(),
+        }
+    };
+    let mut scenes: Vec<&'static Scene> = Vec::new();
+    for name in names(&arguments.scene, |preset| preset.scenes, DEFAULT_SCENES) {
+        scenes.push(find(SCENES, |scene| scene.name, "--scene", &name)?);
+    }
+    let mut sizes = Vec::new();
+    for text in &arguments.size {
+        sizes.push(size(text).ok_or_else(|| LaunchError::Size(text.clone()))?);
+    }
+    if sizes.is_empty() {
+        sizes.push(preset.map_or(SIZE, |preset| preset.size));
+    }
+    let mut variants = Vec::new();
+    for name in names(
+        &arguments.strategy,
+        |preset| preset.configurations,
+        DEFAULT_CONFIGURATIONS,
+    ) {
+        let configuration = find(CONFIGURATIONS, |known| known.name, "--strategy", &name)?;
+        for view_scale in names(&arguments.view_scale, |_| &["1"], &["1"]) {
+            variants.push(Variant {
+                configuration,
+                view_scale,
+            });
+        }
+    }
+    let views = names(&arguments.views, |preset| preset.views, &[VIEWS]);
+    let mut groups = Vec::new();
+    for scene in scenes {
+        for &size in &sizes {
+            for text in &views {
+                let mut number = 1;
+                for variant in &variants {
+                    number = Config::from_settings(&variant.settings(text))?.views;
+                }
+                groups.push(Group {
+                    scene,
+                    size,
+                    views: number,
+                    variants: variants.clone(),
+                });
+            }
+        }
+    }
+    Ok(groups)
+}
+
+fn owned(names: &[&str]) -> Vec<String> {
+    names.iter().map(|name| (*name).to_owned()).collect()
+}
+
+fn list() -> String {
+    let line = |name: &str, about: &str| vec![format!("  {name}"), about.to_owned()];
+    let mut lines = vec![vec!["scenes".to_owned()]];
+    lines.extend(SCENES.iter().map(|scene| line(scene.name, scene.about)));
+    lines.push(vec!["configurations".to_owned()]);
+    lines.extend(
+        CONFIGURATIONS
+            .iter()
+            .map(|known| line(known.name, known.about)),
+    );
+    lines.push(vec!["presets".to_owned()]);
+    lines.extend(PRESETS.iter().map(|preset| line(preset.name, preset.about)));
+    table::columns(&lines)
+}
