@@ -1,5 +1,5 @@
-// What all output passes share. A pass is cover.wgsl, this file, then atlas.wgsl, then interleave.wgsl, layout.wgsl,
-// anaglyph.wgsl or rgbd.wgsl.
+// What all output passes share. A pass is cover.wgsl, this file, then atlas.wgsl, then layout.wgsl, anaglyph.wgsl, rgbd.wgsl,
+// or mask.wgsl with interleave.wgsl or texels.wgsl.
 //
 // Spaces. naga translates without ADJUST_COORDINATE_SPACE, so nothing is flipped: clip space is OpenGL's, and
 // @builtin(position) is gl_FragCoord, whose y counts UP from the bottom of the window. Pictures and masks count rows DOWN
@@ -27,13 +27,16 @@ struct Uniforms {
     rows_top_down: u32,
     // 1: rows of cells count from the top (layout only).
     cells_from_top: u32,
-    // 1: the mask is that of two eyes, and its view 1 is the last one (interleave only).
-    eyes: u32,
     // 1: colours are fetched and written as linear light.
     linear: u32,
     // 0: the mask has views; 1 and 2: it has 256ths of views, of which two are blended or three filtered (interleave only).
     filtered: u32,
-    pad: u32,
+    // The mask repeats after as many columns and rows (interleave and texels only).
+    period: vec2<u32>,
+    // Of places in the mask, those that are the column; the layer is above them (texels only).
+    column_bits: u32,
+    // What the mask has at black subpixels (interleave and texels only).
+    black: u32,
     // What the left and the right view give to each colour (anaglyph only).
     left_red: vec4<f32>,
     left_green: vec4<f32>,

@@ -13,6 +13,7 @@ mod program;
 pub mod quilt;
 pub mod reference;
 pub mod shader;
+mod sheet;
 #[cfg(test)]
 mod tests;
 
