@@ -5,6 +5,7 @@
 #![forbid(unsafe_code)]
 
 mod anaglyph;
+pub mod cost;
 mod depth;
 mod gpu;
 mod layout;

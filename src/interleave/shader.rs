@@ -20,6 +20,7 @@ const TEXELS: &str = include_str!("../../shaders/texels.wgsl");
 const LAYOUT: &str = include_str!("../../shaders/layout.wgsl");
 const ANAGLYPH: &str = include_str!("../../shaders/anaglyph.wgsl");
 const RGBD: &str = include_str!("../../shaders/rgbd.wgsl");
+const COPY: &str = include_str!("../../shaders/copy.wgsl");
 const ACCUMULATE: &str = include_str!("../../shaders/accumulate.wgsl");
 
 /// Texture unit of the views: a 2D array texture.
@@ -45,6 +46,8 @@ pub enum Pass {
     Anaglyph,
     /// The own view beside its depth.
     Rgbd,
+    /// A copy of a texture of two dimensions, which the others are measured by.
+    Copy,
     /// A step of the accumulation buffer.
     Accumulate(Step),
 }
@@ -402,6 +405,7 @@ fn entry(pass: Pass) -> &'static str {
         Pass::Whole => "whole",
         Pass::Anaglyph => "anaglyph",
         Pass::Rgbd => "rgbd",
+        Pass::Copy => "copied",
         Pass::Accumulate(Step::Fill) => "fill",
         Pass::Accumulate(Step::Copy) => "copy",
         Pass::Accumulate(Step::Load) => "load",
@@ -420,6 +424,7 @@ fn source(pass: Pass) -> String {
         Pass::Layout | Pass::Whole => [COVER, COMMON, ATLAS, LAYOUT].join("\n"),
         Pass::Anaglyph => [COVER, COMMON, ATLAS, ANAGLYPH].join("\n"),
         Pass::Rgbd => [COVER, COMMON, ATLAS, RGBD].join("\n"),
+        Pass::Copy => [COVER, COPY].join("\n"),
         Pass::Accumulate(_) => [COVER, ACCUMULATE].join("\n"),
     }
 }
