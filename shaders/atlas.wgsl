@@ -15,7 +15,8 @@ fn slot(view: u32) -> u32 {
 // One texel of a view, `at` from the top left of its tile.
 fn texel(view: u32, at: vec2<u32>) -> vec3<f32> {
     let s = slot(view);
-    let layer = s / u.columns;
+    // Whole numbers would be divided one by one; the halves keep the floats away from the next one.
+    let layer = u32((f32(s) + 0.5) / f32(u.columns));
     let x = (s - layer * u.columns) * u.stride + at.x;
     let y = texel_row(u.tile.y - 1u - at.y, u.tile.y);
     return textureLoad(views_texture, vec2<i32>(vec2<u32>(x, y)), i32(layer), 0).rgb;

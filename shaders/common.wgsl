@@ -1,5 +1,5 @@
-// What all output passes share. A pass is cover.wgsl, this file, then atlas.wgsl, then interleave.wgsl, layout.wgsl,
-// anaglyph.wgsl or rgbd.wgsl.
+// What all output passes share. A pass is cover.wgsl, this file, then atlas.wgsl, then layout.wgsl, anaglyph.wgsl, rgbd.wgsl,
+// or mask.wgsl with interleave.wgsl or texels.wgsl.
 //
 // Spaces. naga translates without ADJUST_COORDINATE_SPACE, so nothing is flipped: clip space is OpenGL's, and
 // @builtin(position) is gl_FragCoord, whose y counts UP from the bottom of the window. Pictures and masks count rows DOWN
@@ -27,14 +27,16 @@ struct Uniforms {
     rows_top_down: u32,
     // 1: rows of cells count from the top (layout only).
     cells_from_top: u32,
-    // 1: the mask is that of two eyes, and its view 1 is the last one (interleave only).
-    eyes: u32,
     // 1: colours are fetched and written as linear light.
     linear: u32,
     // 0: the mask has views; 1 and 2: it has 256ths of views, of which two are blended or three filtered (interleave only).
     filtered: u32,
-    // 1: pixels lie in the tiles as `column` and `row` say, 0: the tile is stretched over the picture.
-    lenses: u32,
+    // The mask repeats after as many columns and rows (interleave and texels only).
+    period: vec2<u32>,
+    // Of places in the mask, those that are the column; the layer is above them (texels only).
+    column_bits: u32,
+    // What the mask has at black subpixels (interleave and texels only).
+    black: u32,
     // What the left and the right view give to each colour (anaglyph only).
     left_red: vec4<f32>,
     left_green: vec4<f32>,
@@ -45,7 +47,7 @@ struct Uniforms {
     // White and black, as values of the depth buffer (rgbd only).
     depth: vec4<f32>,
     // Column and row in the tile of view i of a place (x, y) of the window in pixels, y upwards, are the products of these with
-    // (x, y, 1, i).
+    // (x, y, 1, i) (lenses only).
     column: vec4<f32>,
     row: vec4<f32>,
 }
@@ -87,42 +89,9 @@ fn tap(num: u32, den: u32, texels: u32) -> Tap {
     return Tap(min(max(above, 1u) - 1u, last), min(above, last), f32(rest) / f32(2u * den));
 }
 
-// Nearer to the middle of a texel than this it is taken as it is: a grid of whole pixels meets the middles up to rounding.
-const MIDDLE = 0.004;
-
-// Colour of a view at the place num/den of the window: bilinear between the texels that are drawn for its lenses.
-fn colour_by_lens(view: u32, num: vec2<u32>, den: vec2<u32>) -> vec3<f32> {
-    let place = vec2<f32>(num) / vec2<f32>(den) * vec2<f32>(u.picture);
-    let window = vec4<f32>(place.x, f32(u.picture.y) - place.y, 1.0, f32(view));
-    let at = vec2<f32>(dot(u.column, window), dot(u.row, window)) - 0.5;
-    let low = floor(at + MIDDLE);
-    let weight = max(at - low, vec2<f32>(0.0));
-    let last = vec2<i32>(u.tile) - 1;
-    let near = clamp(vec2<i32>(low), vec2<i32>(0), last);
-    let far = clamp(vec2<i32>(low) + 1, vec2<i32>(0), last);
-    let here = texel_up(view, near);
-    if all(weight < vec2<f32>(MIDDLE)) {
-        return here;
-    }
-    let lower = mix(here, texel_up(view, vec2<i32>(far.x, near.y)), weight.x);
-    if weight.y < MIDDLE {
-        return lower;
-    }
-    let upper = mix(texel_up(view, vec2<i32>(near.x, far.y)), texel_up(view, far), weight.x);
-    return mix(lower, upper, weight.y);
-}
-
-// One texel of a view, counted from the bottom left of its tile.
-fn texel_up(view: u32, at: vec2<i32>) -> vec3<f32> {
-    return texel(view, vec2<u32>(u32(at.x), u.tile.y - 1u - u32(at.y)));
-}
-
 // Colour of a view at the place num/den of its tile, from the top left: bilinear, and the texel itself where the place is
 // the centre of one, as it is everywhere when tile and picture have the same size.
 fn colour(view: u32, num: vec2<u32>, den: vec2<u32>) -> vec3<f32> {
-    if u.lenses != 0u {
-        return colour_by_lens(view, num, den);
-    }
     let x = tap(num.x, den.x, u.tile.x);
     let y = tap(num.y, den.y, u.tile.y);
     if x.weight == 0.0 && y.weight == 0.0 {

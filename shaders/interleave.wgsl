@@ -1,9 +1,6 @@
 // The picture of a panel: each subpixel from the view that the mask names, or from those around its place between views.
+// For views of any size, filtered or not; texels.wgsl is for what needs neither.
 
-// Row 0 is the top row. A value of N or more, such as the guard 65535, is black.
-@group(0) @binding(1) var mask_texture: texture_2d<u32>;
-
-const GUARD = 65535u;
 // Steps from view to view.
 const FINE = 256.0;
 // Of the Gaussian, in views: a view's neighbours have a quarter of the weight in its middle.
@@ -25,7 +22,7 @@ fn light(view: i32, at: vec2<u32>) -> vec3<f32> {
 
 // What lies at a place between views; `step` counts 256ths of a view from the left end of view 0.
 fn between(step: u32, at: vec2<u32>) -> vec3<f32> {
-    if step == GUARD {
+    if step >= u.black {
         return vec3<f32>(0.0);
     }
     // From the middle of view 0, in views; the middle of the step.
@@ -49,12 +46,9 @@ fn between(step: u32, at: vec2<u32>) -> vec3<f32> {
 @fragment
 fn interleave(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
     let at = top_down(position);
-    var views = textureLoad(mask_texture, vec2<i32>(at), 0).rgb;
+    let views = mask(at);
     if u.filtered != 0u {
         return vec4<f32>(between(views.r, at).r, between(views.g, at).g, between(views.b, at).b, 1.0);
-    }
-    if u.eyes != 0u {
-        views = select(views, vec3<u32>(u.views - 1u), views == vec3<u32>(1u));
     }
     let red = channel(views.r, at);
     // Masks of whole pixels name one view three times.

@@ -17,3 +17,9 @@ fn arrange(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
     }
     return vec4<f32>(colour(view, centre - cell * width, width), 1.0);
 }
+
+// A single view of the picture's size.
+@fragment
+fn whole(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
+    return vec4<f32>(texel(u.first, top_down(position)), 1.0);
+}

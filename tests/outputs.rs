@@ -154,10 +154,23 @@ fn masks_follow_the_window() {
     let file = folder.path().join("panel.toml");
     let text = "kind = \"slanted\"\nviews = 7\npitch = \"16/3\"\nslant = \"2/3\"\noffset = 0.25";
     std::fs::write(&file, text).expect("written");
-    for name in [file.to_str().expect("UTF-8"), "huebner8", "lenticular-7"] {
+    let sheet = file.to_str().expect("UTF-8");
+    for (name, layout) in [
+        (sheet, "side-by-side"),
+        (sheet, "layers"),
+        ("huebner8", "side-by-side"),
+        ("huebner8", "layers"),
+        ("lenticular-7", "side-by-side"),
+        ("lenticular-7", "layers"),
+    ] {
         let display = Display::load(name).expect("a display");
-        let atlas = frames(&screen, 7, &[], "atlas");
-        let shown = frames(&screen, 7, &[("DISPLAY", name)], "output");
+        let atlas = frames(&screen, 7, &[("ATLAS", layout)], "atlas");
+        let shown = frames(
+            &screen,
+            7,
+            &[("DISPLAY", name), ("ATLAS", layout)],
+            "output",
+        );
         for (x, y, frame) in PLACES {
             let tiles = tiles(&atlas[frame - 1], 7);
             let at = Placement {
@@ -174,7 +187,7 @@ fn masks_follow_the_window() {
                 &expected,
                 &shown[frame - 1],
                 0,
-                &format!("{name} at {x},{y}"),
+                &format!("{name} {layout} at {x},{y}"),
             );
         }
         assert_ne!(shown[1], shown[3], "{name}: the phase moved");

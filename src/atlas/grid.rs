@@ -16,6 +16,8 @@ pub struct Grid {
     pub origin: [f64; 2],
     /// How much further it lies for each further view.
     pub step: [f64; 2],
+    /// The panel shows the views in the middles of texels and nowhere else.
+    pub exact: bool,
 }
 
 /// The part of a tile outside the window that a shear may bring, over the part inside.
@@ -31,6 +33,7 @@ impl Grid {
         up: 1.0,
         origin: [0.0; 2],
         step: [0.0; 2],
+        exact: false,
     };
 
     /// Tiles of a size for a window of another.
@@ -59,6 +62,7 @@ impl Grid {
                 up,
                 origin: [0.0, sign * (corner - turns.within / parts) + 0.5],
                 step: [0.0, -sign * between / parts],
+                exact: turns.exact,
                 ..Grid::FULL
             };
             return (up > 0.0 && up < LARGEST_DENSITY).then_some(grid);
@@ -73,6 +77,7 @@ impl Grid {
             up: (up * height).ceil() / height,
             origin: [sign * (corner - turns.within / parts) + 0.5, 0.0],
             step: [-sign * between / parts, 0.0],
+            exact: turns.exact && up == 1.0,
         };
         let waste = (shear * height).abs() / (across * width);
         (across * grid.up < LARGEST_DENSITY && waste < LARGEST_WASTE).then_some(grid)

@@ -116,6 +116,18 @@ fn depth_format(w: &Window) -> Option<(u32, u32, u32, u32)> {
     }
 }
 
+/// A width at which rows are not a multiple of 4096 bytes apart, where the driver has one: else the same columns of neighbouring rows
+/// would share a few lines of a cache.
+fn padded(gl: &Gl, width: u32) -> u32 {
+    let wider = width + 16;
+    let most = gl.get_integer(c::MAX_TEXTURE_SIZE).max(0).unsigned_abs();
+    if width.is_multiple_of(1024) && wider <= most {
+        wider
+    } else {
+        width
+    }
+}
+
 /// Gives a texture layers of a size, single-sampled. Changes the binding of array textures.
 fn store(gl: &Gl, name: u32, format: (u32, u32, u32), [width, height, layers]: [i32; 3]) {
     gl.bind_texture(c::TEXTURE_2D_ARRAY, name);
@@ -141,7 +153,7 @@ impl Atlas {
     ) -> Result<Atlas, AtlasError> {
         let samples = window.samples;
         let (width, height, layers) = (
-            tiles.texture_width() as i32,
+            padded(gl, tiles.texture_width()) as i32,
             tiles.height as i32,
             tiles.rows as i32,
         );

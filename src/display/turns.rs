@@ -20,6 +20,8 @@ pub struct Turns {
     pub within: f64,
     /// What the subpixel to the right of the middle one adds, and the one to the left takes away.
     pub colour: f64,
+    /// Pixels show one view each, all of them at the same place in their part of the turn.
+    pub exact: bool,
 }
 
 impl Display {
@@ -43,9 +45,12 @@ impl Display {
             down,
             within: 0.5,
             colour,
+            exact: false,
         };
+        let (within, concentrated) = turns.mean_within(views);
         Some(Turns {
-            within: turns.mean_within(views),
+            within,
+            exact: concentrated && colour == 0.0,
             ..turns
         })
     }
@@ -88,8 +93,8 @@ pub(super) struct Phase {
 const SAMPLES: (u32, u32) = (101, 31);
 
 impl Turns {
-    /// The circular mean: parts just below 1 and just above 0 are neighbours.
-    fn mean_within(&self, views: u32) -> f64 {
+    /// The circular mean, as parts just below 1 and just above 0 are neighbours; and whether all are the same.
+    fn mean_within(&self, views: u32) -> (f64, bool) {
         let (mut sine, mut cosine, mut count) = (0.0, 0.0, 0.0);
         for row in 0..SAMPLES.1 {
             for x in 0..SAMPLES.0 {
@@ -104,14 +109,16 @@ impl Turns {
         }
         // Spread evenly over the part: its middle.
         if f64::hypot(sine, cosine) < 0.1 * count {
-            return 0.5;
+            return (0.5, false);
         }
+        let concentrated = f64::hypot(sine, cosine) > (1.0 - 1e-9) * count;
         let mean = f64::atan2(sine, cosine) / std::f64::consts::TAU;
         // A boundary belongs to the view above it.
-        if mean < -1e-6 {
+        let within = if mean < -1e-6 {
             mean + 1.0
         } else {
             mean.max(0.0)
-        }
+        };
+        (within, concentrated)
     }
 }

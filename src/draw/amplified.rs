@@ -82,6 +82,18 @@ impl Programs {
         }
     }
 
+    /// Whether all views can be drawn with one viewport and one scissor.
+    pub fn allow(state: &State, atlas: &Atlas) -> Result<(), Reason> {
+        let (tiles, grid) = (&atlas.tiles, &atlas.tiles.grid);
+        let apart = grid.step[1] != 0.0 || grid.step[0] != 0.0 && state.scissor_test;
+        if apart || !grid.is_full() && tiles.columns > 1 {
+            return Err(Reason::Kind(
+                "draws to views whose tiles lie at other places of the window",
+            ));
+        }
+        Ok(())
+    }
+
     /// Whether and how a draw can be made by an amplifier; the program is compiled if it is new.
     pub fn prepare(
         &mut self,
@@ -90,7 +102,6 @@ impl Programs {
         mode: u32,
         fixed: &FixedState,
         material: bool,
-        state: &State,
         atlas: &Atlas,
     ) -> Result<Amplified, Reason> {
         let grid = &atlas.tiles.grid;
@@ -112,15 +123,6 @@ impl Programs {
         if key.target.tiles == Tiles::Layer && atlas.layered().is_none() {
             // One view, or a driver without layered framebuffers.
             return Err(Reason::Fixed(Unsupported::VertexLayer));
-        }
-        // One draw has one viewport and one scissor for all views.
-        if !grid.is_full() && key.target.tiles != Tiles::Layer
-            || grid.step[1] != 0.0
-            || grid.step[0] != 0.0 && state.scissor_test
-        {
-            return Err(Reason::Kind(
-                "draws to views whose tiles lie at other places of the window",
-            ));
         }
         let batch = match method {
             Method::Geometry => {

@@ -249,32 +249,6 @@ impl Gl {
         unsafe { self.real.glLoadMatrixf(m.as_ptr() as Ptr) }
     }
 
-    /// glTexImage2D with a whole picture of 16-bit words, rows from texture row 0 on, 4 channels.
-    pub fn tex_image_rgba16ui(&self, w: i32, h: i32, data: &[[u16; 4]]) {
-        if data.len() < w as usize * h as usize {
-            return;
-        }
-        let c = (
-            super::consts::RGBA16UI as i32,
-            super::consts::RGBA_INTEGER,
-            super::consts::UNSIGNED_SHORT,
-        );
-        // SAFETY: w·h texels of 8 bytes (checked); default unpack state (the caller has set it).
-        unsafe {
-            self.real.glTexImage2D(
-                super::consts::TEXTURE_2D,
-                0,
-                c.0,
-                w,
-                h,
-                0,
-                c.1,
-                c.2,
-                data.as_ptr() as Ptr,
-            )
-        }
-    }
-
     /// glReadPixels of RGB bytes, rows bottom up; pack state must be the default with alignment 1.
     pub fn read_rgb(&self, x: i32, y: i32, w: u32, h: u32) -> Vec<u8> {
         let mut out = vec![0u8; w as usize * h as usize * 3];

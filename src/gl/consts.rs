@@ -118,6 +118,7 @@ pub const SRGB8: u32 = 0x8C41;
 pub const SRGB8_ALPHA8: u32 = 0x8C43;
 pub const RGBA16F: u32 = 0x881A;
 pub const RGBA16UI: u32 = 0x8D76;
+pub const RGBA8UI: u32 = 0x8D7C;
 pub const RGBA_INTEGER: u32 = 0x8D99;
 pub const RGB_INTEGER: u32 = 0x8D98;
 pub const UNSIGNED_BYTE: u32 = 0x1401;

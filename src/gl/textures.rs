@@ -104,6 +104,48 @@ impl Gl {
         }
     }
 
+    /// glTexImage2D with a whole picture of bytes, 4 channels; the unpack state must be the default.
+    pub fn tex_image_rgba8ui(&self, w: i32, h: i32, data: &[[u8; 4]]) {
+        if data.len() < w as usize * h as usize {
+            return;
+        }
+        // SAFETY: w·h texels of 4 bytes (checked).
+        unsafe {
+            self.real.glTexImage2D(
+                c::TEXTURE_2D,
+                0,
+                c::RGBA8UI as i32,
+                w,
+                h,
+                0,
+                c::RGBA_INTEGER,
+                c::UNSIGNED_BYTE,
+                data.as_ptr() as Ptr,
+            )
+        }
+    }
+
+    /// The same with 16-bit words.
+    pub fn tex_image_rgba16ui(&self, w: i32, h: i32, data: &[[u16; 4]]) {
+        if data.len() < w as usize * h as usize {
+            return;
+        }
+        // SAFETY: w·h texels of 8 bytes (checked).
+        unsafe {
+            self.real.glTexImage2D(
+                c::TEXTURE_2D,
+                0,
+                c::RGBA16UI as i32,
+                w,
+                h,
+                0,
+                c::RGBA_INTEGER,
+                c::UNSIGNED_SHORT,
+                data.as_ptr() as Ptr,
+            )
+        }
+    }
+
     /// glTexImage2D with a whole picture of signed 16-bit words; the unpack state must be the default.
     pub fn tex_image_r16i(&self, w: i32, h: i32, data: &[i16]) {
         if data.len() < w as usize * h as usize {

@@ -1,10 +1,11 @@
 //! The output passes in the program's context: on the GPU, or by the CPU reference where the context's GLSL is too old.
 
-use super::shader::{DEPTH_UNIT, MASK_UNIT, Pass, Uniforms, VIEWS_UNIT};
+use super::shader::{DEPTH_UNIT, Lenses, MASK_UNIT, Pass, Texels, Uniforms, VIEWS_UNIT};
+use super::sheet::{self, Sheet};
 use super::{Depth, Form, Layout, Program, reference, rgbd};
 use crate::atlas::{Names, Tiles};
 use crate::config::{Config, Filter, Output};
-use crate::display::{Display, Lens, Mask, Placement};
+use crate::display::{Display, GUARD, Lens, Mask, Placement};
 use crate::gl::{Gl, consts as c};
 use image::RgbImage;
 
@@ -40,15 +41,24 @@ type Of = (Output, Placement, Option<Lens>);
 #[derive(Debug)]
 pub struct Interleaver {
     vertex_array: u32,
-    panel: Option<Program>,
-    layout: Option<Program>,
-    anaglyph: Option<Program>,
-    rgbd: Option<Program>,
+    /// None where the CPU does it.
+    programs: Vec<(Pass, Program)>,
     /// Of an output whose picture lay there.
     mask: Option<(Of, Mask)>,
     mask_texture: u32,
-    mask_uploaded: Option<Of>,
+    uploaded: Option<Uploaded>,
     cpu: Option<String>,
+}
+
+/// What the mask's texture has.
+#[derive(Clone, Copy, Debug)]
+struct Uploaded {
+    of: Of,
+    /// Where the views lie, if it has places instead of views.
+    places: Option<Tiles>,
+    period: [u32; 2],
+    whole: bool,
+    black: u32,
 }
 
 /// GL_SHADING_LANGUAGE_VERSION × 100; 0 where there is none.
@@ -56,6 +66,20 @@ pub fn glsl_version(gl: &Gl) -> u32 {
     let s = gl.get_string(c::SHADING_LANGUAGE_VERSION);
     let mut parts = s.split(['.', ' ']).map(|p| p.parse::<u32>().unwrap_or(0));
     parts.next().unwrap_or(0) * 100 + parts.next().unwrap_or(0)
+}
+
+/// Bits that hold the column of a tile.
+fn column_bits(tiles: &Tiles) -> u32 {
+    u32::BITS - (tiles.columns.max(1) - 1).leading_zeros()
+}
+
+/// Layer and column of a view's tile in one number, as the passes of texels take it; black where there is no such view.
+fn place(tiles: &Tiles, view: u32) -> u32 {
+    if view >= tiles.views {
+        return u32::from(GUARD);
+    }
+    let slot = tiles.slot(view);
+    (slot / tiles.columns) << column_bits(tiles) | (slot % tiles.columns)
 }
 
 /// A texture name that is taken from now on.
@@ -72,27 +96,26 @@ impl Interleaver {
     pub fn new(gl: &Gl, names: &mut Names, glsl: u32) -> Self {
         let mut i = Interleaver {
             vertex_array: 0,
-            panel: None,
-            layout: None,
-            anaglyph: None,
-            rgbd: None,
+            programs: Vec::new(),
             mask: None,
             mask_texture: 0,
-            mask_uploaded: None,
+            uploaded: None,
             cpu: None,
         };
-        let program = |pass| Program::new(gl, glsl, pass);
-        match [Pass::Interleave, Pass::Layout, Pass::Anaglyph, Pass::Rgbd].map(program) {
-            [Ok(panel), Ok(layout), Ok(anaglyph), Ok(rgbd)] => {
-                i.panel = Some(panel);
-                i.layout = Some(layout);
-                i.anaglyph = Some(anaglyph);
-                i.rgbd = Some(rgbd);
-                i.vertex_array = gl.gen_vertex_array();
-                i.mask_texture = reserve(gl, names);
+        for pass in Pass::OUTPUTS {
+            match Program::new(gl, glsl, pass) {
+                Ok(program) => i.programs.push((pass, program)),
+                Err(e) => {
+                    i.programs
+                        .drain(..)
+                        .for_each(|(_, p)| gl.delete_program(p.name()));
+                    i.cpu = Some(e);
+                    return i;
+                }
             }
-            programs => i.cpu = programs.into_iter().find_map(Result::err),
         }
+        i.vertex_array = gl.gen_vertex_array();
+        i.mask_texture = reserve(gl, names);
         i
     }
 
@@ -110,8 +133,7 @@ impl Interleaver {
 
     /// The names of its programs.
     pub fn programs(&self) -> impl Iterator<Item = u32> {
-        let programs = [&self.panel, &self.layout, &self.anaglyph, &self.rgbd];
-        programs.into_iter().flatten().map(Program::name)
+        self.programs.iter().map(|(_, program)| program.name())
     }
 
     /// The mask's texture gets another name: its contents are made anew.
@@ -119,7 +141,7 @@ impl Interleaver {
         if self.mask_texture != 0 {
             gl.delete_texture(self.mask_texture);
             self.mask_texture = reserve(gl, names);
-            self.mask_uploaded = None;
+            self.uploaded = None;
         }
     }
 
@@ -142,37 +164,13 @@ impl Interleaver {
         {
             self.mask = Some((of, mask.map_err(|e| e.to_string())?));
         }
-        let program = match form {
-            Form::Panel(..) | Form::Eyes(_) => &self.panel,
-            Form::Layout(_) => &self.layout,
-            Form::Anaglyph(_) => &self.anaglyph,
-            Form::Rgbd => &self.rgbd,
-        };
-        let Some(program) = program else {
+        let size = [placement.width, placement.height];
+        let pass = self.pass(gl, of, &form, source, size);
+        let Some((_, program)) = self.programs.iter().find(|(known, _)| *known == pass) else {
             let depth = source.depth.map(|(_, depth)| depth);
             return self.draw_by_cpu(gl, config, tile, depth, &form, placement);
         };
-        let size = [placement.width, placement.height];
         gl.viewport(0, 0, size[0] as i32, size[1] as i32);
-        gl.active_texture(c::TEXTURE0 + MASK_UNIT);
-        if let Form::Panel(..) | Form::Eyes(_) = form {
-            gl.bind_texture(c::TEXTURE_2D, self.mask_texture);
-            if let Some((known, mask)) = &self.mask
-                && self.mask_uploaded != Some(*known)
-            {
-                let texels: Vec<[u16; 4]> =
-                    mask.data().iter().map(|&[r, g, b]| [r, g, b, 0]).collect();
-                gl.tex_image_rgba16ui(mask.width() as i32, mask.height() as i32, &texels);
-                for (p, v) in [
-                    (c::TEXTURE_MIN_FILTER, c::NEAREST),
-                    (c::TEXTURE_MAG_FILTER, c::NEAREST),
-                    (c::TEXTURE_MAX_LEVEL, 0),
-                ] {
-                    gl.tex_parameteri(c::TEXTURE_2D, p, v as i32);
-                }
-                self.mask_uploaded = Some(*known);
-            }
-        }
         if let Some((texture, _)) = source.depth {
             gl.active_texture(c::TEXTURE0 + DEPTH_UNIT);
             gl.bind_texture(c::TEXTURE_2D_ARRAY, texture);
@@ -191,12 +189,14 @@ impl Interleaver {
                 _ => Layout::View(0),
             },
             rows_top_down: source.top_down,
-            eyes: matches!(form, Form::Eyes(_)),
             linear: source.srgb,
             filter: match form {
                 Form::Panel(_, filter) => filter,
                 _ => Filter::Nearest,
             },
+            period: self.uploaded.map_or([1; 2], |known| known.period),
+            column_bits: column_bits(t),
+            black: self.uploaded.map_or(0, |known| known.black),
             matrices: match form {
                 Form::Anaglyph(anaglyph) => anaglyph.matrices(),
                 _ => Default::default(),
@@ -215,6 +215,85 @@ impl Interleaver {
             gl.disable(c::FRAMEBUFFER_SRGB);
         }
         Ok(())
+    }
+
+    /// The pass that makes a picture; where it needs the mask, that is bound.
+    fn pass(&mut self, gl: &Gl, of: Of, form: &Form, source: &Source, size: [u32; 2]) -> Pass {
+        let tiles = &source.tiles;
+        let texels = tiles.grid.is_full() && [tiles.width, tiles.height] == size;
+        let filter = match form {
+            Form::Layout(Layout::View(_)) if texels => return Pass::Whole,
+            Form::Layout(_) => return Pass::Layout,
+            Form::Anaglyph(_) => return Pass::Anaglyph,
+            Form::Rgbd => return Pass::Rgbd,
+            Form::Panel(_, filter) => *filter,
+            Form::Eyes(_) => Filter::Nearest,
+        };
+        let lenses = tiles.grid.follows_lenses() && filter == Filter::Nearest;
+        let fits = tiles.rows << column_bits(tiles) < u32::from(GUARD);
+        let places = (texels && filter == Filter::Nearest && fits).then_some(*tiles);
+        let eyes = matches!(form, Form::Eyes(_));
+        let Some(known) = self.upload(gl, of, places, eyes.then_some(tiles.views)) else {
+            return Pass::Interleave;
+        };
+        match places {
+            None if lenses && tiles.grid.exact && known.whole => Pass::Lenses(Lenses::Pixels),
+            None if lenses && tiles.grid.up == 1.0 => Pass::Lenses(Lenses::Columns),
+            None if lenses => Pass::Lenses(Lenses::Texels),
+            None => Pass::Interleave,
+            Some(_) if known.whole => Pass::Texels(Texels::Pixels),
+            Some(tiles) if tiles.rows == 1 => Pass::Texels(Texels::SubpixelsOfOneLayer),
+            Some(_) => Pass::Texels(Texels::Subpixels),
+        }
+    }
+
+    /// Binds the mask, uploaded where the texture has another one: its views or their places, and of N views the last instead of view
+    /// 1 where it is that of two eyes. None where there is no texture or no mask.
+    fn upload(
+        &mut self,
+        gl: &Gl,
+        of: Of,
+        places: Option<Tiles>,
+        eyes: Option<u32>,
+    ) -> Option<Uploaded> {
+        if self.mask_texture == 0 {
+            return None;
+        }
+        gl.active_texture(c::TEXTURE0 + MASK_UNIT);
+        gl.bind_texture(c::TEXTURE_2D, self.mask_texture);
+        if let Some(known) = self.uploaded
+            && (known.of, known.places) == (of, places)
+        {
+            return Some(known);
+        }
+        let (_, mask) = self.mask.as_ref()?;
+        let sheet = Sheet::new(mask, |view| {
+            let view = match eyes {
+                Some(views) if view == 1 => views - 1,
+                _ => u32::from(view),
+            };
+            places.map_or(view, |tiles| place(&tiles, view)) as u16
+        });
+        let [columns, rows] = sheet.period.map(|n| n as i32);
+        match &sheet.texels {
+            sheet::Texels::Bytes(texels) => gl.tex_image_rgba8ui(columns, rows, texels),
+            sheet::Texels::Words(texels) => gl.tex_image_rgba16ui(columns, rows, texels),
+        }
+        for (p, v) in [
+            (c::TEXTURE_MIN_FILTER, c::NEAREST),
+            (c::TEXTURE_MAG_FILTER, c::NEAREST),
+            (c::TEXTURE_MAX_LEVEL, 0),
+        ] {
+            gl.tex_parameteri(c::TEXTURE_2D, p, v as i32);
+        }
+        self.uploaded = Some(Uploaded {
+            of,
+            places,
+            period: sheet.period,
+            whole: sheet.whole,
+            black: u32::from(sheet.black),
+        });
+        self.uploaded
     }
 
     fn draw_by_cpu(

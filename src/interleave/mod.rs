@@ -5,6 +5,7 @@
 #![forbid(unsafe_code)]
 
 mod anaglyph;
+pub mod cost;
 mod depth;
 mod gpu;
 mod layout;
@@ -13,6 +14,7 @@ mod program;
 pub mod quilt;
 pub mod reference;
 pub mod shader;
+mod sheet;
 #[cfg(test)]
 mod tests;
 

@@ -29,10 +29,12 @@ impl Program {
             gl.uniform_1i(location(&t.name), t.unit as i32);
         }
         gl.use_program(current);
+        // Those that the pass does not read have no place.
         let uniforms = fragment
             .uniforms
             .into_iter()
             .map(|u| (location(&u.name), u))
+            .filter(|&(location, _)| location >= 0)
             .collect();
         Ok(Program { name, uniforms })
     }

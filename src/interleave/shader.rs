@@ -15,15 +15,19 @@ use naga::valid::{Capabilities, ValidationFlags, Validator};
 const COVER: &str = include_str!("../../shaders/cover.wgsl");
 const COMMON: &str = include_str!("../../shaders/common.wgsl");
 const ATLAS: &str = include_str!("../../shaders/atlas.wgsl");
+const MASK: &str = include_str!("../../shaders/mask.wgsl");
 const INTERLEAVE: &str = include_str!("../../shaders/interleave.wgsl");
+const TEXELS: &str = include_str!("../../shaders/texels.wgsl");
+const LENSES: &str = include_str!("../../shaders/lenses.wgsl");
 const LAYOUT: &str = include_str!("../../shaders/layout.wgsl");
 const ANAGLYPH: &str = include_str!("../../shaders/anaglyph.wgsl");
 const RGBD: &str = include_str!("../../shaders/rgbd.wgsl");
+const COPY: &str = include_str!("../../shaders/copy.wgsl");
 const ACCUMULATE: &str = include_str!("../../shaders/accumulate.wgsl");
 
 /// Texture unit of the views: a 2D array texture.
 pub const VIEWS_UNIT: u32 = 0;
-/// Texture unit of the mask: RGBA16UI or RGB16UI, NEAREST, row 0 on top.
+/// Texture unit of the mask: RGBA8UI or RGBA16UI, NEAREST, row 0 on top.
 pub const MASK_UNIT: u32 = 1;
 
 /// Texture unit of the depths of the views: a 2D array texture.
@@ -32,16 +36,46 @@ pub const DEPTH_UNIT: u32 = 2;
 /// What a pass makes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Pass {
-    /// The panel's picture, through the mask.
+    /// The panel's picture, through the mask: views of any size, filtered or not.
     Interleave,
+    /// The same for views of the picture's size.
+    Texels(Texels),
+    /// The same for views that were drawn lens by lens.
+    Lenses(Lenses),
     /// Quilt, side by side or a single view.
     Layout,
+    /// A single view of the picture's size.
+    Whole,
     /// Two views for coloured glasses.
     Anaglyph,
     /// The own view beside its depth.
     Rgbd,
+    /// A copy of a texture of two dimensions, which the others are measured by.
+    Copy,
     /// A step of the accumulation buffer.
     Accumulate(Step),
+}
+
+/// What the mask and the atlas are like; see `shaders/texels.wgsl`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Texels {
+    /// Any.
+    Subpixels,
+    /// All views lie in one layer.
+    SubpixelsOfOneLayer,
+    /// Each pixel shows one view.
+    Pixels,
+}
+
+/// How far the texels are from where the panel shows their view; see `shaders/lenses.wgsl`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Lenses {
+    /// Nowhere: each pixel shows one view.
+    Pixels,
+    /// Along rows.
+    Columns,
+    /// Along both.
+    Texels,
 }
 
 /// What is done to the accumulation buffer, texel by texel; see `shaders/accumulate.wgsl`.
@@ -61,6 +95,23 @@ pub enum Step {
     Add,
     /// The colour becomes what was accumulated.
     Return,
+}
+
+impl Pass {
+    /// All that make a picture of views.
+    pub const OUTPUTS: [Self; 11] = [
+        Self::Interleave,
+        Self::Texels(Texels::Subpixels),
+        Self::Texels(Texels::SubpixelsOfOneLayer),
+        Self::Texels(Texels::Pixels),
+        Self::Lenses(Lenses::Pixels),
+        Self::Lenses(Lenses::Columns),
+        Self::Lenses(Lenses::Texels),
+        Self::Layout,
+        Self::Whole,
+        Self::Anaglyph,
+        Self::Rgbd,
+    ];
 }
 
 impl Step {
@@ -191,28 +242,33 @@ pub struct Uniforms {
     pub layout: Layout,
     /// True when row 0 of the views' texture is the top row of the picture.
     pub rows_top_down: bool,
-    /// The mask is that of two eyes; only the interleave pass reads it.
-    pub eyes: bool,
     /// Colours are linear light when they are fetched, and are written as such.
     pub linear: bool,
     /// What a subpixel between views shows; only the interleave pass reads it.
     pub filter: Filter,
+    /// The mask repeats after as many columns and rows, at least 1.
+    pub period: [u32; 2],
+    /// Bits of a place in the mask that are its column; only the passes of texels read it.
+    pub column_bits: u32,
+    /// What the mask has at black subpixels.
+    pub black: u32,
     /// Of the left and the right view; only the anaglyph pass reads them.
     pub matrices: (Matrix, Matrix),
     /// White and black as values of the depth buffer; only the RGBD pass reads them.
     pub depth: [f32; 2],
-    /// Where the picture's pixels lie in the tiles, if not simply stretched.
+    /// Where the picture's pixels lie in the tiles; only passes by lenses read it.
     pub grid: Option<Grid>,
 }
 
 impl Uniforms {
     /// In the order and alignment of the WGSL struct.
-    pub fn words(&self) -> [u32; 52] {
+    pub fn words(&self) -> [u32; 56] {
         let [tile_x, tile_y] = self.tile;
         let [out_x, out_y] = self.picture;
         let (grid_x, grid_y) = self.layout.grid(self.views);
         let (columns, views) = (self.columns.max(1), self.views.max(1));
-        let mut words = [0; 52];
+        let [period_x, period_y] = self.period.map(|p| p.max(1));
+        let mut words = [0; 56];
         let whole = [
             tile_x,
             tile_y,
@@ -226,14 +282,16 @@ impl Uniforms {
             self.layout.first(),
             u32::from(self.rows_top_down),
             u32::from(self.layout.from_top()),
-            u32::from(self.eyes),
             u32::from(self.linear),
             match self.filter {
                 Filter::Nearest => 0,
                 Filter::Blend => 1,
                 Filter::Gaussian => 2,
             },
-            u32::from(self.grid.is_some()),
+            period_x,
+            period_y,
+            self.column_bits,
+            self.black,
         ];
         for (word, value) in words.iter_mut().zip(whole) {
             *word = value;
@@ -241,17 +299,17 @@ impl Uniforms {
         let (left, right) = self.matrices;
         // Each row is a vec4.
         for (i, row) in left.iter().chain(&right).enumerate() {
-            for (word, value) in words.iter_mut().skip(16 + 4 * i).zip(row) {
+            for (word, value) in words.iter_mut().skip(20 + 4 * i).zip(row) {
                 *word = value.to_bits();
             }
         }
-        for (word, value) in words.iter_mut().skip(40).zip(self.depth) {
+        for (word, value) in words.iter_mut().skip(44).zip(self.depth) {
             *word = value.to_bits();
         }
         if let Some(grid) = self.grid {
             let [[x, y], [step_x, step_y]] = [grid.origin, grid.step];
             let lenses = [grid.across, grid.shear, x, step_x, 0.0, grid.up, y, step_y];
-            for (word, value) in words.iter_mut().skip(44).zip(lenses) {
+            for (word, value) in words.iter_mut().skip(48).zip(lenses) {
                 *word = (value as f32).to_bits();
             }
         }
@@ -367,9 +425,17 @@ pub fn translate(
 fn entry(pass: Pass) -> &'static str {
     match pass {
         Pass::Interleave => "interleave",
+        Pass::Texels(Texels::Subpixels) => "subpixels",
+        Pass::Texels(Texels::SubpixelsOfOneLayer) => "subpixels_of_one_layer",
+        Pass::Texels(Texels::Pixels) => "pixels",
+        Pass::Lenses(Lenses::Pixels) => "lens_pixels",
+        Pass::Lenses(Lenses::Columns) => "lens_columns",
+        Pass::Lenses(Lenses::Texels) => "lens_texels",
         Pass::Layout => "arrange",
+        Pass::Whole => "whole",
         Pass::Anaglyph => "anaglyph",
         Pass::Rgbd => "rgbd",
+        Pass::Copy => "copied",
         Pass::Accumulate(Step::Fill) => "fill",
         Pass::Accumulate(Step::Copy) => "copy",
         Pass::Accumulate(Step::Load) => "load",
@@ -383,10 +449,13 @@ fn entry(pass: Pass) -> &'static str {
 /// The WGSL of a pass, which has no includes.
 fn source(pass: Pass) -> String {
     match pass {
-        Pass::Interleave => [COVER, COMMON, ATLAS, INTERLEAVE].join("\n"),
-        Pass::Layout => [COVER, COMMON, ATLAS, LAYOUT].join("\n"),
+        Pass::Interleave => [COVER, COMMON, ATLAS, MASK, INTERLEAVE].join("\n"),
+        Pass::Texels(_) => [COVER, COMMON, ATLAS, MASK, TEXELS].join("\n"),
+        Pass::Lenses(_) => [COVER, COMMON, ATLAS, MASK, LENSES].join("\n"),
+        Pass::Layout | Pass::Whole => [COVER, COMMON, ATLAS, LAYOUT].join("\n"),
         Pass::Anaglyph => [COVER, COMMON, ATLAS, ANAGLYPH].join("\n"),
         Pass::Rgbd => [COVER, COMMON, ATLAS, RGBD].join("\n"),
+        Pass::Copy => [COVER, COPY].join("\n"),
         Pass::Accumulate(_) => [COVER, ACCUMULATE].join("\n"),
     }
 }

@@ -200,11 +200,9 @@ proptest! {
     }
 }
 
-const PASSES: [Pass; 4] = [Pass::Interleave, Pass::Layout, Pass::Anaglyph, Pass::Rgbd];
-
 #[test]
 fn every_pass_translates_for_every_version() {
-    for pass in PASSES {
+    for pass in Pass::OUTPUTS {
         for version in GlslVersion::SUPPORTED {
             let fragment = translate(pass, Stage::Fragment, version).unwrap();
             let line = match version {
@@ -215,7 +213,7 @@ fn every_pass_translates_for_every_version() {
             assert!(fragment.source.starts_with(&line), "{}", fragment.source);
             let units: Vec<_> = fragment.textures.iter().map(|t| t.unit).collect();
             let expected: &[u32] = match pass {
-                Pass::Interleave => &[VIEWS_UNIT, MASK_UNIT],
+                Pass::Interleave | Pass::Texels(_) | Pass::Lenses(_) => &[VIEWS_UNIT, MASK_UNIT],
                 Pass::Rgbd => &[VIEWS_UNIT, DEPTH_UNIT],
                 _ => &[VIEWS_UNIT],
             };
@@ -223,7 +221,7 @@ fn every_pass_translates_for_every_version() {
             for texture in &fragment.textures {
                 assert!(fragment.source.contains(&format!(" {};", texture.name)));
             }
-            assert_eq!(fragment.uniforms.len(), 22);
+            assert_eq!(fragment.uniforms.len(), 23);
             assert!(!fragment.source.contains("std140"), "no uniform block");
 
             let vertex = translate(pass, Stage::Vertex, version).unwrap();
@@ -250,9 +248,11 @@ fn uniforms_are_found_by_name() {
             rows: 8,
         },
         rows_top_down: true,
-        eyes: true,
         linear: false,
         filter: Filter::Gaussian,
+        period: [11, 12],
+        column_bits: 13,
+        black: 14,
         matrices: ([[1.0; 3]; 3], [[2.0; 3]; 3]),
         depth: [3.0, 4.0],
         grid: Some(Grid {
@@ -261,6 +261,7 @@ fn uniforms_are_found_by_name() {
             up: 7.0,
             origin: [8.0, 9.0],
             step: [10.0, 11.0],
+            exact: true,
         }),
     };
     let version = GlslVersion::Desktop(330);
@@ -280,7 +281,7 @@ fn uniforms_are_found_by_name() {
     let (left, right) = ([one, one, one, 0], [two, two, two, 0]);
     let column = [5.0f32, 6.0, 8.0, 10.0].map(f32::to_bits);
     let row = [0.0f32, 7.0, 9.0, 11.0].map(f32::to_bits);
-    let expected: [(&str, &[u32]); 17] = [
+    let expected: [(&str, &[u32]); 18] = [
         ("tile", &[1, 2]),
         ("picture", &[5, 6]),
         ("grid", &[7, 8]),
@@ -290,20 +291,21 @@ fn uniforms_are_found_by_name() {
         ("first", &[0]),
         ("rows_top_down", &[1]),
         ("cells_from_top", &[0]),
-        ("eyes", &[1]),
         ("linear", &[0]),
         ("filtered", &[2]),
-        ("lenses", &[1]),
+        ("period", &[11, 12]),
+        ("column_bits", &[13]),
+        ("black", &[14]),
         ("left_red", &left),
         ("left_green", &left),
         ("left_blue", &left),
         ("right_red", &right),
     ];
-    assert_eq!(of[..17], expected);
+    assert_eq!(of[..18], expected);
     let ends = [3.0f32.to_bits(), 4.0f32.to_bits(), 0, 0];
-    assert_eq!(of[19], ("depth", &ends[..]));
-    assert_eq!(of[20], ("column", &column[..]));
-    assert_eq!(of[21], ("row", &row[..]));
+    assert_eq!(of[20], ("depth", &ends[..]));
+    assert_eq!(of[21], ("column", &column[..]));
+    assert_eq!(of[22], ("row", &row[..]));
 }
 
 #[test]
@@ -475,6 +477,13 @@ fn contexts_get_the_nearest_version_below() {
 fn glsl_of_the_panel_pass() {
     let version = GlslVersion::Desktop(140);
     let got = translate(Pass::Interleave, Stage::Fragment, version);
+    insta::assert_snapshot!(got.unwrap().source);
+}
+
+#[test]
+fn glsl_of_the_texels_pass() {
+    let pass = Pass::Texels(Texels::SubpixelsOfOneLayer);
+    let got = translate(pass, Stage::Fragment, GlslVersion::Desktop(140));
     insta::assert_snapshot!(got.unwrap().source);
 }
 

@@ -2,7 +2,7 @@
 
 use super::Layer;
 use crate::config::{Class, Output, Projection, Word};
-use crate::draw::{Again, Amplified, Current, FixedState, replay};
+use crate::draw::{Again, Amplified, Current, FixedState, Programs, replay};
 use crate::gl::api::Indices;
 use crate::gl::{Ends, Gl, Recording, consts as c};
 use crate::plan::{Kind, Method, Plan, Ramp, plan};
@@ -145,15 +145,10 @@ impl Layer {
         }
         self.state.touched = self.state.touched.without(Touch::FIXED | Touch::MATERIAL);
         let fixed = self.fixed.as_ref()?;
-        let how = self.programs.prepare(
-            gl,
-            plan.method,
-            mode,
-            fixed,
-            material,
-            &self.state,
-            &self.atlas,
-        );
+        let how = Programs::allow(&self.state, &self.atlas).and_then(|()| {
+            self.programs
+                .prepare(gl, plan.method, mode, fixed, material, &self.atlas)
+        });
         self.report.shaders(self.programs.compiled);
         match how {
             Ok(how) => {

@@ -22,6 +22,7 @@ impl Layer {
             return;
         }
         self.finish_explanation(gl);
+        self.refit(gl);
         super::sweep(gl, &self.lists);
         self.queries.pause(gl);
         self.queries.lift_condition(gl);
@@ -47,7 +48,7 @@ impl Layer {
         self.rebind(gl);
         self.queries.put_condition(gl);
         self.queries.resume(gl);
-        self.follow_lenses(gl);
+        self.follow_lenses();
         self.drawn = false;
         self.frame = Default::default();
     }

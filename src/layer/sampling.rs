@@ -132,22 +132,32 @@ impl Layer {
         self.remake(gl);
     }
 
-    /// After a frame: the window may have moved, or the output be another one.
-    pub(super) fn follow_lenses(&mut self, gl: &Gl) {
-        if self.config.view_scale == ViewScale::Fixed(1.0) {
-            return;
+    /// Before a frame is shown: tiles that are not of the kind or the size that the output needs now are made anew from what is there.
+    pub(super) fn refit(&mut self, gl: &Gl) {
+        let (grid, size) = self.wanted();
+        let tiles = &self.atlas.tiles;
+        if size != [tiles.width, tiles.height]
+            || grid.follows_lenses() != tiles.grid.follows_lenses()
+        {
+            self.remake(gl);
         }
+    }
+
+    /// After it: the window may have moved, and the next frame is drawn where its lenses are now.
+    pub(super) fn follow_lenses(&mut self) {
+        let (grid, size) = self.wanted();
         let tiles = &mut self.atlas.tiles;
-        let (views, window, old) = (tiles.views, tiles.window, tiles.grid);
-        let (grid, size) = self.grid().fit(window, views);
-        let tiles = &mut self.atlas.tiles;
-        if grid == old {
-            return;
-        }
         if size == [tiles.width, tiles.height] {
             tiles.grid = grid;
-        } else {
-            self.remake(gl);
+        }
+    }
+
+    fn wanted(&self) -> (Grid, [u32; 2]) {
+        let tiles = &self.atlas.tiles;
+        match self.config.view_scale {
+            // Nothing changes it.
+            ViewScale::Fixed(1.0) => (tiles.grid, [tiles.width, tiles.height]),
+            _ => self.grid().fit(tiles.window, tiles.views),
         }
     }
 }

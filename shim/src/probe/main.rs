@@ -1,9 +1,13 @@
 //! `manyview-probe glx|egl|osmesa`: makes one legacy OpenGL context and says, as one line of JSON, what the layer can do in
 //! it. `manyview doctor` runs it with the layer preloaded; it works without as well. Libraries are loaded by name, as many
 //! programs do.
+//!
+//! `manyview-probe interleave [WIDTHxHEIGHT [VIEWS]]`: what the interleave pass costs in an EGL context, one line of JSON for each
+//! size, number of views and panel.
 
 mod egl;
 mod glx;
+mod interleave;
 mod library;
 mod osmesa;
 
@@ -25,8 +29,9 @@ fn main() -> ExitCode {
         "glx" => glx::context(),
         "egl" => egl::context(),
         "osmesa" => osmesa::context(),
+        "interleave" => return interleave::run(),
         _ => {
-            eprintln!("usage: manyview-probe glx|egl|osmesa");
+            eprintln!("usage: manyview-probe glx|egl|osmesa|interleave [WIDTHxHEIGHT [VIEWS]]");
             return ExitCode::from(2);
         }
     };

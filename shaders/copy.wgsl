@@ -1,0 +1,8 @@
+// A copy texel by texel, which other passes are measured by. A pass is cover.wgsl, then this file.
+
+@group(0) @binding(0) var picture: texture_2d<f32>;
+
+@fragment
+fn copied(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
+    return textureLoad(picture, vec2<i32>(position.xy), 0);
+}

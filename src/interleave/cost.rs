@@ -1,0 +1,196 @@
+//! What the interleave pass costs: over a plain copy of a picture of the same size, timed in turn.
+#![forbid(unsafe_code)]
+
+use super::shader::{Pass, VIEWS_UNIT};
+use super::{Glass, Interleaver, Program, Source};
+use crate::atlas::{Atlas, Grid, Limits, Names, Tiles};
+use crate::config::{Config, Output};
+use crate::display::Placement;
+use crate::gl::{Gl, consts as c};
+use crate::state::Window;
+use serde::{Deserialize, Serialize};
+use std::time::Instant;
+
+/// One line of JSON of `manyview-probe interleave`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Cost {
+    /// Pixels.
+    pub width: u32,
+    /// Pixels.
+    pub height: u32,
+    /// N.
+    pub views: u32,
+    /// Name of the display.
+    pub display: String,
+    /// One fetch a pixel from a texture of the picture's size; milliseconds, median.
+    pub copy: f64,
+    /// The same for the panel's picture.
+    pub interleave: f64,
+    /// Median of the second over the mean of the copies before and after it.
+    pub ratio: f64,
+}
+
+/// What is measured.
+#[derive(Clone, Copy, Debug)]
+pub struct Case<'a> {
+    /// Views, display and where the views lie.
+    pub config: &'a Config,
+    /// Pixels of the picture and of each view.
+    pub size: (u32, u32),
+    /// Times that are taken.
+    pub rounds: usize,
+}
+
+/// Measures in a context that nobody else uses, whose shading language has this version × 100. The error says what does not fit.
+pub fn measure(gl: &Gl, glsl: u32, limits: Limits, case: &Case) -> Result<Cost, String> {
+    let Case { config, size, .. } = *case;
+    let (width, height) = size;
+    let tiles = Tiles::new(
+        config.views,
+        [width, height],
+        Grid::FULL,
+        config.atlas,
+        limits,
+    );
+    let tiles = tiles.map_err(|e| e.to_string())?;
+    let mut names = Names::default();
+    let mut picture =
+        |tiles| Atlas::new(gl, &mut names, &window(size), tiles, false).map_err(|e| e.to_string());
+    let one = Tiles {
+        views: 1,
+        columns: 1,
+        rows: 1,
+        ..tiles
+    };
+    let shown = picture(one)?;
+    let atlas = picture(tiles)?;
+    let source = Plain::new(gl, names.texture(gl), size);
+    let mut interleaver = Interleaver::new(gl, &mut names, glsl);
+    let copy = Program::new(gl, glsl, Pass::Copy)?;
+    // Memory that nothing was written to is not there, and costs nothing.
+    let (w, h) = (width as i32, height as i32);
+    gl.bind_framebuffer(c::READ_FRAMEBUFFER, shown.framebuffer());
+    gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, source.framebuffer);
+    gl.blit_framebuffer(0, 0, w, h, 0, 0, w, h, c::COLOR_BUFFER_BIT, c::NEAREST);
+    for view in 0..tiles.views {
+        let (to, x) = atlas.target(view);
+        gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, to);
+        gl.blit_framebuffer(0, 0, w, h, x, 0, x + w, h, c::COLOR_BUFFER_BIT, c::NEAREST);
+    }
+    gl.bind_framebuffer(c::FRAMEBUFFER, shown.framebuffer());
+    let views = Source {
+        tiles,
+        texture: atlas.color,
+        top_down: false,
+        depth: None,
+        srgb: false,
+    };
+    let glass = Glass {
+        display: &config.display,
+        placement: Placement::full_screen(width, height),
+    };
+    let milliseconds = |draw: &mut dyn FnMut() -> Result<(), String>| {
+        gl.finish();
+        let start = Instant::now();
+        draw()?;
+        gl.finish();
+        Ok::<_, String>(start.elapsed().as_secs_f64() * 1000.0)
+    };
+    let mut weave = || {
+        let none = &mut |_| Default::default();
+        interleaver.draw(gl, config, &views, none, Output::Panel, &glass)
+    };
+    // The mask is made, and the driver compiles.
+    weave()?;
+    let vertex_array = gl.gen_vertex_array();
+    let mut plain = || {
+        gl.viewport(0, 0, w, h);
+        gl.active_texture(c::TEXTURE0 + VIEWS_UNIT);
+        gl.bind_texture(c::TEXTURE_2D, source.texture);
+        copy.bind(gl, &[]);
+        gl.bind_vertex_array(vertex_array);
+        gl.draw_arrays(c::TRIANGLES, 0, 3);
+        Ok(())
+    };
+    plain()?;
+    let (mut copies, mut woven, mut ratios) = (Vec::new(), Vec::new(), Vec::new());
+    for _ in 0..case.rounds {
+        let before = milliseconds(&mut plain)?;
+        let weave = milliseconds(&mut weave)?;
+        let after = milliseconds(&mut plain)?;
+        copies.extend([before, after]);
+        woven.push(weave);
+        ratios.push(2.0 * weave / (before + after));
+    }
+    shown.delete(gl);
+    atlas.delete(gl);
+    source.delete(gl);
+    match interleaver.note() {
+        Some(note) => Err(note),
+        None => Ok(Cost {
+            width,
+            height,
+            views: config.views,
+            display: config.display.name.clone(),
+            copy: median(copies),
+            interleave: median(woven),
+            ratio: median(ratios),
+        }),
+    }
+}
+
+/// A picture in a texture of two dimensions.
+struct Plain {
+    texture: u32,
+    framebuffer: u32,
+}
+
+impl Plain {
+    fn new(gl: &Gl, texture: u32, (width, height): (u32, u32)) -> Self {
+        let framebuffer = gl.gen_framebuffer();
+        gl.bind_framebuffer(c::FRAMEBUFFER, framebuffer);
+        gl.bind_texture(c::TEXTURE_2D, texture);
+        gl.tex_image_2d_empty(c::TEXTURE_2D, c::RGBA8, width as i32, height as i32, false);
+        for (p, v) in [
+            (c::TEXTURE_MIN_FILTER, c::NEAREST),
+            (c::TEXTURE_MAG_FILTER, c::NEAREST),
+            (c::TEXTURE_MAX_LEVEL, 0),
+        ] {
+            gl.tex_parameteri(c::TEXTURE_2D, p, v as i32);
+        }
+        gl.framebuffer_texture(c::FRAMEBUFFER, c::COLOR_ATTACHMENT0, texture, 0);
+        Self {
+            texture,
+            framebuffer,
+        }
+    }
+
+    fn delete(self, gl: &Gl) {
+        gl.delete_framebuffer(self.framebuffer);
+        gl.delete_texture(self.texture);
+    }
+}
+
+/// A window of RGBA with 8 bits each and nothing else.
+fn window((width, height): (u32, u32)) -> Window {
+    Window {
+        width,
+        height,
+        double_buffered: true,
+        stereo: false,
+        bits: [8, 8, 8, 8, 0, 0],
+        samples: 0,
+        srgb_capable: false,
+        srgb: false,
+        float: false,
+        accumulation: [0; 4],
+        names_back: true,
+        default_buffer: c::BACK,
+        default_read: c::BACK,
+    }
+}
+
+fn median(mut values: Vec<f64>) -> f64 {
+    values.sort_by(f64::total_cmp);
+    values.get(values.len() / 2).copied().unwrap_or(f64::NAN)
+}
