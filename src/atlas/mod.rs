@@ -5,6 +5,7 @@ mod depths;
 mod front;
 mod grid;
 mod names;
+mod shown;
 mod single;
 mod spread;
 mod tiles;
@@ -13,6 +14,7 @@ use depths::Depths;
 use front::Front;
 pub use grid::Grid;
 pub use names::Names;
+pub use shown::Shown;
 use single::Single;
 pub use tiles::{Limits, Tiles, TilesError};
 

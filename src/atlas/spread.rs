@@ -60,9 +60,12 @@ impl Atlas {
         }
     }
 
-    /// Copies what `other`, an atlas of the same window and of another grid, holds, as well as pixels of the window tell it. Changes
+    /// Copies what `other`, an atlas of the same window and of another grid or layout, holds, as well as pixels of the window tell it. Changes
     /// the bindings that [`Atlas::new`] does and those of framebuffers; the scissor test must be off.
     pub fn copy_spread(&mut self, gl: &Gl, other: &mut Atlas, names: &mut Names, window: &Window) {
+        if self.tiles.grid == other.tiles.grid {
+            return self.copy_views(gl, other);
+        }
         if self.multisampled() {
             // Nothing can be stretched to samples: the frame begins anew.
             return;
@@ -75,6 +78,16 @@ impl Atlas {
             let (right, top) = (x + self.tiles.width as i32, self.tiles.height as i32);
             gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, to);
             gl.blit_framebuffer(0, 0, width, height, x, 0, right, top, ALL, c::NEAREST);
+        }
+    }
+
+    fn copy_views(&self, gl: &Gl, other: &Atlas) {
+        let (w, h) = (self.tiles.width as i32, self.tiles.height as i32);
+        for view in self.tiles.order() {
+            let ((from, x), (to, to_x)) = (other.target(view), self.target(view));
+            gl.bind_framebuffer(c::READ_FRAMEBUFFER, from);
+            gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, to);
+            gl.blit_framebuffer(x, 0, x + w, h, to_x, 0, to_x + w, h, ALL, c::NEAREST);
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Where each view lies.
 
-use super::Grid;
+use super::{Grid, Shown};
 use crate::config::AtlasLayout;
 
 /// Places of N tiles in an array texture: `columns` beside each other in each of `rows` layers. Side by side is one row (several
@@ -17,6 +17,8 @@ pub struct Tiles {
     pub window: [u32; 2],
     /// What of the window a tile shows.
     pub grid: Grid,
+    /// The views that are drawn, beside the program's own.
+    pub shown: Shown,
     /// Of a tile, pixels.
     pub width: u32,
     /// Of a tile, pixels.
@@ -95,6 +97,7 @@ impl Tiles {
             views,
             window,
             grid,
+            shown: Shown::ALL,
             width,
             height,
             stride,
@@ -128,12 +131,23 @@ impl Tiles {
         (self.columns - 1) * self.stride + self.width
     }
 
-    /// All views, the program's own last, so that the state of its tile is what remains.
+    /// The views that are drawn, the program's own last, so that the state of its tile is what remains.
     pub fn order(&self) -> impl Iterator<Item = u32> + use<> {
         let tiles = *self;
-        (1..tiles.views)
-            .chain([0])
-            .map(move |slot| tiles.slot(slot))
+        let others = (1..tiles.views).map(move |slot| tiles.slot(slot));
+        others
+            .filter(move |&view| tiles.shown.has(view))
+            .chain([tiles.own()])
+    }
+
+    /// Whether texels of two atlases of one window lie at the same places.
+    pub fn lies_like(&self, other: &Tiles) -> bool {
+        (self.grid, self.columns, self.rows) == (other.grid, other.columns, other.rows)
+    }
+
+    /// Whether a view is drawn.
+    pub fn draws(&self, view: u32) -> bool {
+        view == self.own() || self.shown.has(view)
     }
 }
 

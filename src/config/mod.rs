@@ -252,7 +252,7 @@ pub enum Kept {
 /// How a draw call is repeated for the views.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Strategy {
-    /// Chosen per draw.
+    /// The one that draws the program fastest.
     Auto,
     /// The draw itself again, per view.
     Replay,
@@ -260,6 +260,22 @@ pub enum Strategy {
     Instanced,
     /// One draw through a generated geometry shader.
     Geometry,
+}
+
+impl Strategy {
+    /// By its name.
+    #[must_use]
+    pub fn named(name: &str) -> Option<Strategy> {
+        let all = parse::STRATEGIES.iter();
+        all.copied().find(|s| s.0 == name).map(|s| s.1)
+    }
+}
+
+impl std::fmt::Display for Strategy {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let named = parse::STRATEGIES.iter().find(|s| s.1 == *self);
+        f.write_str(named.map_or("", |s| s.0))
+    }
 }
 
 /// How finely views are drawn.

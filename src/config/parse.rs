@@ -60,7 +60,7 @@ impl Config {
     }
 }
 
-const STRATEGIES: &[(&str, Strategy)] = &[
+pub(super) const STRATEGIES: &[(&str, Strategy)] = &[
     ("auto", Strategy::Auto),
     ("replay", Strategy::Replay),
     ("instanced", Strategy::Instanced),

@@ -285,10 +285,9 @@ impl Programs {
                 atlas.bind_row(gl, row);
             }
             let end = (per_row * (row + 1)).min(tiles.views);
-            let mut slot = per_row * row;
-            while slot < end {
-                let count = how.batch.min(end - slot);
-                let views: Vec<u32> = (slot..slot + count).map(|s| tiles.slot(s)).collect();
+            let views = (per_row * row..end).map(|slot| tiles.slot(slot));
+            let drawn: Vec<u32> = views.filter(|&view| tiles.draws(view)).collect();
+            for views in drawn.chunks(how.batch as usize) {
                 let mut rows: Vec<[f32; 4]> = views.iter().map(|&v| first_row_of(v)).collect();
                 let mut places: Vec<[f32; 4]> = views
                     .iter()
@@ -315,8 +314,7 @@ impl Programs {
                             .map(|n| n as f32),
                     },
                 );
-                call(count);
-                slot += count;
+                call(views.len() as u32);
             }
         }
         around.leave(gl, state, atlas, fixed);

@@ -3,7 +3,7 @@
 use super::shader::{DEPTH_UNIT, Lenses, MASK_UNIT, Pass, Texels, Uniforms, VIEWS_UNIT};
 use super::sheet::{self, Sheet};
 use super::{Depth, Form, Layout, Program, reference, rgbd};
-use crate::atlas::{Names, Tiles};
+use crate::atlas::{Names, Shown, Tiles};
 use crate::config::{Config, Filter, Output};
 use crate::display::{Display, GUARD, Lens, Mask, Placement};
 use crate::gl::{Gl, consts as c};
@@ -45,6 +45,8 @@ pub struct Interleaver {
     programs: Vec<(Pass, Program)>,
     /// Of an output whose picture lay there.
     mask: Option<(Of, Mask)>,
+    /// The views in it.
+    shown: Shown,
     mask_texture: u32,
     uploaded: Option<Uploaded>,
     cpu: Option<String>,
@@ -98,6 +100,7 @@ impl Interleaver {
             vertex_array: 0,
             programs: Vec::new(),
             mask: None,
+            shown: Shown::ALL,
             mask_texture: 0,
             uploaded: None,
             cpu: None,
@@ -124,6 +127,11 @@ impl Interleaver {
         self.cpu
             .as_ref()
             .map(|e| format!("pictures are interleaved by the CPU: {e}"))
+    }
+
+    /// The views that some subpixel of the last picture through a mask showed.
+    pub fn shown(&self) -> Shown {
+        self.shown
     }
 
     /// The name of the mask's texture, 0 for none.
@@ -162,7 +170,9 @@ impl Interleaver {
         if self.mask.as_ref().is_none_or(|(known, _)| *known != of)
             && let Some(mask) = form.mask(placement, config.views)
         {
-            self.mask = Some((of, mask.map_err(|e| e.to_string())?));
+            let mask = mask.map_err(|e| e.to_string())?;
+            self.shown = mask.views_shown().into_iter().map(u32::from).collect();
+            self.mask = Some((of, mask));
         }
         let size = [placement.width, placement.height];
         let pass = self.pass(gl, of, &form, source, size);

@@ -190,6 +190,9 @@ impl Layer {
                 last: frame,
                 ..wanted.clone()
             };
+            if self.lacks(wanted.what) {
+                return; // it is asked for again with the next frame
+            }
             let written = self.write(gl, source, &wanted, frame);
             self.picture = Picture::Done(match written {
                 Ok(path) => Ok(Answer::Captured { path, frame }),

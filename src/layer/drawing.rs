@@ -159,7 +159,7 @@ impl Layer {
             Err(reason) => {
                 self.report
                     .draw(method_name(Method::Replay), plan.class.word());
-                self.report.fallback(&reason);
+                self.fallbacks.add(reason);
                 None
             }
         }
@@ -208,8 +208,8 @@ impl Layer {
             self.report
                 .draw(method_name(plan.method), plan.class.word());
         }
-        if let Some(r) = &plan.reason {
-            self.report.fallback(r);
+        if let Some(reason) = &plan.reason {
+            self.fallbacks.add(reason.clone());
         }
         plan
     }

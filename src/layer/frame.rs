@@ -49,6 +49,9 @@ impl Layer {
         self.queries.put_condition(gl);
         self.queries.resume(gl);
         self.follow_lenses();
+        if swap {
+            self.time_frame(gl);
+        }
         self.drawn = false;
         self.frame = Default::default();
     }
@@ -162,6 +165,9 @@ impl Layer {
     /// Counts the frame and writes the report where one is asked for.
     pub fn count_frame(&mut self) {
         self.report.frame();
+        for (reason, count) in self.fallbacks.take() {
+            self.report.fallbacks(&reason, count);
+        }
         self.count_names();
         if let Some(path) = &self.config.report {
             self.report.write(path);

@@ -2,6 +2,7 @@
 #![forbid(unsafe_code)]
 
 mod accumulate;
+mod auto;
 mod classing;
 mod comfort;
 mod control;
@@ -30,9 +31,9 @@ use crate::display::{Display, Placement};
 use crate::draw::{Driver, FixedState, Programs};
 use crate::gl::{Count, Ends, Gl, Held, Recording, consts as c};
 use crate::interleave::Interleaver;
-use crate::plan::{Classifier, Means, Rig, Shear};
+use crate::plan::{Classifier, Means, Reason, Rig, Shear};
 use crate::present::Saved;
-use crate::report::Report;
+use crate::report::{Counts, Report};
 use crate::state::{BACK, Immediate, Lists, State, Window};
 use std::sync::{Arc, Mutex, PoisonError};
 use support::Support;
@@ -94,6 +95,11 @@ pub struct Layer {
     made: Count,
     on_screen: Option<OnScreen>,
     detail: sampling::Detail,
+    /// A picture waits for views that are not shown.
+    undrawn: bool,
+    auto: Option<auto::Auto>,
+    /// Of this frame.
+    fallbacks: Counts<Reason>,
     /// Counts for `--report`.
     pub report: Report,
     drawn: bool,
@@ -134,8 +140,18 @@ impl Layer {
             driver,
             config.clip.unwrap_or_default(),
         );
+        let program = profile::this_program();
+        let all: Vec<Strategy> = [
+            (Strategy::Replay, true),
+            (Strategy::Instanced, support.instanced()),
+            (Strategy::Geometry, support.geometry()),
+        ]
+        .into_iter()
+        .filter_map(|(strategy, there)| there.then_some(strategy))
+        .collect();
+        let auto = auto::Auto::new(gl, config, program.as_deref(), &all);
         let means = Means {
-            strategy: config.strategy,
+            strategy: auto.as_ref().map_or(config.strategy, auto::Auto::strategy),
             instanced: support.instanced(),
             geometry: support.geometry(),
         };
@@ -160,7 +176,15 @@ impl Layer {
             detail,
             shader,
         );
-        let atlas = make_atlas(gl, &mut names, config, &state, &support, grid)?;
+        let atlas = make_atlas(
+            gl,
+            &mut names,
+            config,
+            &state,
+            &support,
+            grid,
+            means.strategy,
+        )?;
         let mut layer = Layer {
             config,
             rig: Rig::new(config.views, live.camera, config.profile.focal_depth),
@@ -188,7 +212,7 @@ impl Layer {
             classifier: Classifier::new(
                 &config.profile,
                 Some(live.hud_depth),
-                profile::this_program().as_deref(),
+                program.as_deref(),
                 config.explain.is_some(),
             ),
             frame: classing::Frame::default(),
@@ -199,6 +223,9 @@ impl Layer {
             picture: control::Picture::None,
             made: Count::default(),
             detail,
+            undrawn: false,
+            auto,
+            fallbacks: Counts::default(),
             report,
             drawn: false,
         };
@@ -217,7 +244,8 @@ impl Layer {
         self.state.window.height = height;
         let grid = self.grid();
         let (names, config, state) = (&mut self.names, self.config, &self.state);
-        let atlas = make_atlas(gl, names, config, state, &self.support, grid)?;
+        let strategy = self.means.strategy;
+        let atlas = make_atlas(gl, names, config, state, &self.support, grid, strategy)?;
         std::mem::replace(&mut self.atlas, atlas).delete(gl);
         if let Some(old) = std::mem::take(&mut self.accumulated).buffer {
             old.delete(gl);
@@ -319,12 +347,14 @@ impl Layer {
         self.state.refresh(gl);
         let grid = self.grid();
         let (names, config, state) = (&mut self.names, self.config, &self.state);
-        let Ok(mut atlas) = make_atlas(gl, names, config, state, &self.support, grid) else {
+        let strategy = self.means.strategy;
+        let Ok(mut atlas) = make_atlas(gl, names, config, state, &self.support, grid, strategy)
+        else {
             return false;
         };
         as_they_are(gl, || {
             self.reading(gl, BACK, |layer| {
-                if atlas.tiles.grid == layer.atlas.tiles.grid {
+                if atlas.tiles.lies_like(&layer.atlas.tiles) {
                     return atlas.copy(gl, &layer.atlas);
                 }
                 let (names, window) = (&mut layer.names, &layer.state.window);
@@ -452,8 +482,8 @@ fn is_attached(gl: &Gl, framebuffer: u32, textures: &[u32]) -> bool {
 /// also when views beside each other are asked for: one draw then serves all views without clip distances, and every view lies at
 /// the origin. Measured on llvmpipe 22.3, 8 views of 512 x 384, 300,000 triangles: layers 122 ms with 0 pixels that differ;
 /// beside each other 217 ms and 0.1 % by 1 LSB (clip distances; viewport arrays were tried too: 225 ms and 0.03 %).
-fn layout(config: &Config, support: &Support) -> AtlasLayout {
-    match config.strategy {
+fn layout(config: &Config, support: &Support, strategy: Strategy) -> AtlasLayout {
+    match strategy {
         // Asked for by name, to compare.
         _ if config.clip.is_some() => AtlasLayout::SideBySide,
         // A geometry shader can always choose a layer.
@@ -470,13 +500,14 @@ fn make_atlas(
     state: &State,
     support: &Support,
     grid: Grid,
+    strategy: Strategy,
 ) -> Result<Atlas, LayerError> {
     let w = &state.window;
     let tiles = Tiles::new(
         config.views,
         [w.width, w.height],
         grid,
-        layout(config, support),
+        layout(config, support, strategy),
         support.limits,
     )
     .map_err(AtlasError::from)?;

@@ -2,8 +2,8 @@
 //! others cannot hold.
 
 use super::Layer;
-use crate::atlas::Grid;
-use crate::config::{Config, Output, ViewScale};
+use crate::atlas::{Grid, Shown};
+use crate::config::{CaptureWhat, Config, Filter, Output, ViewScale};
 use crate::display::{Display, Placement};
 use crate::gl::{Gl, consts as c};
 use crate::interleave::Form;
@@ -145,11 +145,48 @@ impl Layer {
 
     /// After it: the window may have moved, and the next frame is drawn where its lenses are now.
     pub(super) fn follow_lenses(&mut self) {
-        let (grid, size) = self.wanted();
+        let ((grid, size), shown) = (self.wanted(), self.shown());
         let tiles = &mut self.atlas.tiles;
         if size == [tiles.width, tiles.height] {
             tiles.grid = grid;
         }
+        tiles.shown = shown;
+    }
+
+    /// The views that the next frame is drawn in.
+    fn shown(&self) -> Shown {
+        let captured = self.config.capture.as_ref().map(|capture| capture.what);
+        if self.undrawn || captured.is_some_and(|what| what != CaptureWhat::Output) {
+            return Shown::ALL;
+        }
+        self.seen()
+    }
+
+    /// The views that are in the picture.
+    fn seen(&self) -> Shown {
+        let last = self.config.views - 1;
+        match self.output() {
+            Output::Panel if self.config.filter == Filter::Nearest => self.interleaver.shown(),
+            Output::Interlaced(_) | Output::Anaglyph(_) | Output::Quad => {
+                [0, last].into_iter().collect()
+            }
+            Output::View(view) => [view].into_iter().collect(),
+            Output::Rgbd => [].into_iter().collect(),
+            _ => Shown::ALL,
+        }
+    }
+
+    /// Whether a picture needs views that were not drawn in this frame; the next one has them all.
+    pub(super) fn lacks(&mut self, what: CaptureWhat) -> bool {
+        let needed = match what {
+            CaptureWhat::Output => self.seen(),
+            CaptureWhat::Depth => [].into_iter().collect(),
+            CaptureWhat::View(view) => [view].into_iter().collect(),
+            CaptureWhat::Atlas => Shown::ALL,
+        };
+        let tiles = &self.atlas.tiles;
+        self.undrawn = (0..tiles.views).any(|view| needed.has(view) && !tiles.draws(view));
+        self.undrawn
     }
 
     fn wanted(&self) -> (Grid, [u32; 2]) {

@@ -5,6 +5,7 @@ pub mod class;
 pub mod comfort;
 pub mod depths;
 pub mod parallax;
+pub mod trial;
 
 use crate::config::{Class, Strategy, Viewport};
 use crate::state::State;
@@ -12,6 +13,7 @@ pub use class::{Classed, Classifier, Facts};
 pub use comfort::Comfort;
 pub use depths::{Ramp, Ways};
 pub use parallax::{Rig, Shear};
+pub use trial::Trial;
 
 /// What the program draws with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -93,7 +95,7 @@ pub struct Plan {
 /// What a plan needs to know beside the state.
 #[derive(Clone, Copy, Debug)]
 pub struct Means {
-    /// What the user asked for.
+    /// What the user asked for, or `auto` has come to.
     pub strategy: Strategy,
     /// Instancing, clip distances and compatibility shaders are there.
     pub instanced: bool,
@@ -148,12 +150,10 @@ fn magnified(state: &State) -> f64 {
 
 fn method(kind: Kind, state: &State, means: &Means) -> Result<Method, Option<Reason>> {
     let wish = match means.strategy {
-        Strategy::Replay => return Err(None),
+        // `auto` is in force as one of the others.
+        Strategy::Replay | Strategy::Auto => return Err(None),
         Strategy::Geometry => Method::Geometry,
         Strategy::Instanced => Method::Instanced,
-        // Measured on llvmpipe 22.3, 8 views of 512 x 384, 300,000 triangles: replay 110 ms, instanced 122 (layers) and 225
-        // (viewport arrays). Replay is exact as well; what is faster elsewhere is to be measured there.
-        Strategy::Auto => return Err(None),
     };
     match kind {
         Kind::Clear { .. } | Kind::Pixels | Kind::Accum => return Err(None),

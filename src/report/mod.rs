@@ -1,8 +1,10 @@
 //! What the layer did, for `--report`.
 #![forbid(unsafe_code)]
 
+mod counts;
 mod disparity;
 
+pub use counts::Counts;
 pub use disparity::Disparity;
 
 use crate::gl::Count;
@@ -16,8 +18,8 @@ use std::time::{Duration, Instant};
 pub struct Report {
     frames: u64,
     frame_ms: Vec<f32>,
-    draws: BTreeMap<&'static str, u64>,
-    classes: BTreeMap<&'static str, u64>,
+    /// Method and class.
+    draws: Counts<(&'static str, &'static str)>,
     fallbacks: BTreeMap<String, u64>,
     notes: Vec<String>,
     errors: u64,
@@ -40,8 +42,8 @@ struct Names {
 struct Json<'a> {
     frames: u64,
     frame_ms: FrameTimes,
-    draws: &'a BTreeMap<&'static str, u64>,
-    classes: &'a BTreeMap<&'static str, u64>,
+    draws: BTreeMap<&'static str, u64>,
+    classes: BTreeMap<&'static str, u64>,
     fallbacks: &'a BTreeMap<String, u64>,
     generated_shaders: u64,
     gl_errors: u64,
@@ -64,13 +66,12 @@ impl Report {
     /// One draw went by a method; it was of a class.
     #[inline]
     pub fn draw(&mut self, method: &'static str, class: &'static str) {
-        *self.draws.entry(method).or_default() += 1;
-        *self.classes.entry(class).or_default() += 1;
+        self.draws.add((method, class));
     }
 
-    /// A draw went by replay although something else was asked for.
-    pub fn fallback(&mut self, reason: &dyn std::fmt::Display) {
-        *self.fallbacks.entry(reason.to_string()).or_default() += 1;
+    /// Draws went by replay although something else was asked for.
+    pub fn fallbacks(&mut self, reason: &dyn std::fmt::Display, count: u64) {
+        *self.fallbacks.entry(reason.to_string()).or_default() += count;
     }
 
     /// Something the user should know, once.
@@ -176,8 +177,8 @@ impl Report {
                 median: at(0.5),
                 p95: at(0.95),
             },
-            draws: &self.draws,
-            classes: &self.classes,
+            draws: self.draws.named(|(method, _)| method),
+            classes: self.draws.named(|(_, class)| class),
             fallbacks: &self.fallbacks,
             generated_shaders: self.shaders,
             gl_errors: self.errors,

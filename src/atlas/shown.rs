@@ -1,0 +1,28 @@
+//! The views that anybody sees.
+
+/// A set of views; at most 256, as many as there may be.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Shown([u64; 4]);
+
+impl Shown {
+    /// Whatever their number.
+    pub const ALL: Shown = Shown([u64::MAX; 4]);
+
+    /// Whether a view is among them.
+    pub fn has(&self, view: u32) -> bool {
+        let word = self.0.get(view as usize / 64).copied().unwrap_or(0);
+        word >> (view % 64) & 1 != 0
+    }
+}
+
+impl FromIterator<u32> for Shown {
+    fn from_iter<I: IntoIterator<Item = u32>>(views: I) -> Self {
+        let mut words = [0u64; 4];
+        for view in views {
+            if let Some(word) = words.get_mut(view as usize / 64) {
+                *word |= 1 << (view % 64);
+            }
+        }
+        Shown(words)
+    }
+}

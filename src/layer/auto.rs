@@ -1,0 +1,135 @@
+//! `--strategy auto`: drives a [`Trial`] with the frames of the program, and keeps what it finds for the next start.
+
+use super::Layer;
+use crate::config::{Config, Strategy};
+use crate::gl::{Gl, consts as c};
+use crate::plan::Trial;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+/// The trial of a context, and when its last frame was done.
+#[derive(Debug)]
+pub(super) struct Auto {
+    trial: Trial,
+    last: Option<Instant>,
+    /// What the outcome depends on.
+    key: String,
+    /// Where outcomes are kept.
+    file: Option<PathBuf>,
+}
+
+/// Outcomes kept; the file is begun anew where there are more.
+const KEPT: usize = 1000;
+
+impl Auto {
+    /// None where the user has chosen. What is captured has to be the same in each run, so it is replayed, and so is what is
+    /// explained.
+    pub(super) fn new(
+        gl: &Gl,
+        config: &Config,
+        program: Option<&str>,
+        all: &[Strategy],
+    ) -> Option<Auto> {
+        if config.strategy != Strategy::Auto || config.views < 2 {
+            return None;
+        }
+        let repeatable = config.capture.is_some() || config.explain.is_some();
+        let candidates = if repeatable {
+            &all[..1.min(all.len())]
+        } else {
+            all
+        };
+        let key = format!(
+            "{} | {} | {} | {} views",
+            gl.get_string(c::RENDERER),
+            gl.get_string(c::VERSION),
+            program.unwrap_or("?"),
+            config.views
+        );
+        let file = file();
+        let known = read(file.as_deref())
+            .get(&key)
+            .and_then(|name| Strategy::named(name));
+        Some(Auto {
+            trial: Trial::new(candidates.to_vec(), known),
+            last: None,
+            key,
+            file,
+        })
+    }
+
+    pub(super) fn strategy(&self) -> Strategy {
+        self.trial.strategy()
+    }
+}
+
+impl Layer {
+    /// A frame is in the true framebuffer 0: its time counts, and the next one may be drawn otherwise.
+    pub(super) fn time_frame(&mut self, gl: &Gl) {
+        // What lies beside the views does not move with them.
+        if self.accumulated.buffer.is_some() || self.atlas.has_front() {
+            self.auto = None;
+        }
+        let Some(auto) = &mut self.auto else { return };
+        if auto.trial.measures() {
+            gl.finish();
+        }
+        let now = Instant::now();
+        let Some(last) = auto.last.replace(now) else {
+            return;
+        };
+        let ms = now.duration_since(last).as_secs_f32() * 1e3;
+        if let Some(found) = auto.trial.frame(ms) {
+            keep(auto.file.as_deref(), &auto.key, found);
+            self.report
+                .note(format!("auto: {found} is the fastest here"));
+        }
+        let next = auto.trial.strategy();
+        if next != self.means.strategy {
+            self.means.strategy = next;
+            self.remake(gl);
+        }
+    }
+}
+
+/// The file of outcomes, as the program was started; none where there is no place for it.
+fn file() -> Option<PathBuf> {
+    let folder = |name: &str| {
+        std::env::var_os(name)
+            .filter(|value| !value.is_empty())
+            .map(PathBuf::from)
+    };
+    let cache = folder("XDG_CACHE_HOME").or_else(|| Some(folder("HOME")?.join(".cache")))?;
+    cache
+        .is_absolute()
+        .then(|| cache.join("manyview").join("strategies.json"))
+}
+
+/// Strategies by key; nothing where it cannot be read.
+fn read(file: Option<&Path>) -> BTreeMap<String, String> {
+    let text = file.and_then(|file| std::fs::read_to_string(file).ok());
+    text.and_then(|text| serde_json::from_str(&text).ok())
+        .unwrap_or_default()
+}
+
+/// For the next start. What cannot be written is tried again then.
+fn keep(file: Option<&Path>, key: &str, found: Strategy) {
+    let Some(file) = file else { return };
+    let mut all = read(Some(file));
+    if all.len() >= KEPT {
+        all.clear();
+    }
+    all.insert(key.to_owned(), found.to_string());
+    let Ok(text) = serde_json::to_string_pretty(&all) else {
+        return;
+    };
+    let temporary = file.with_extension(format!("{}.tmp", std::process::id()));
+    let folder = file.parent().map(std::fs::create_dir_all);
+    if matches!(folder, Some(Ok(())))
+        && std::fs::write(&temporary, text).is_ok()
+        && std::fs::rename(&temporary, file).is_err()
+    {
+        let _ = std::fs::remove_file(&temporary);
+    }
+}
