@@ -134,7 +134,7 @@ impl Layer {
 
     /// After a frame: the window may have moved, or the output be another one.
     pub(super) fn follow_lenses(&mut self, gl: &Gl) {
-        if self.config.view_scale == ViewScale::Fixed(1.0) {
+        if self.config.view_scale == ViewScale::Fixed(1.0) || self.proving.replays() {
             return;
         }
         let tiles = &mut self.atlas.tiles;
