@@ -6,7 +6,7 @@ mod support;
 use manyview::report::{Culprit, Summary};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
-use support::{Compiled, compiled, demo, layered, library, manyview, screen, succeed};
+use support::{Compiled, compiled, demo, layered, library, manyview, run, screen, succeed};
 
 fn json(path: &Path) -> Value {
     let text = std::fs::read_to_string(path).expect("a report");
@@ -166,4 +166,54 @@ fn a_program_reads_the_same_in_frames_that_are_proved() {
     assert!(without.len() > 1200, "{} lines", without.len());
     let differing = without.iter().zip(&with).find(|(a, b)| a != b);
     assert_eq!((without.len(), differing), (with.len(), None));
+}
+
+#[test]
+fn bench_proves_a_program_under_each_configuration() {
+    library();
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = |name: &str| folder.path().join(name);
+    let screen = screen();
+    let mut command = manyview();
+    command
+        .args(["bench", "--views", "8", "--frames", "2", "--json"])
+        .arg(file("b.json"))
+        .arg("--csv")
+        .arg(file("b.csv"))
+        .arg("--")
+        .arg(demo("mesh"))
+        .args(["--size", "96x64", "--triangles", "1000"]);
+    let output = succeed(screen.give(&mut command));
+    let table = String::from_utf8(output.stdout).expect("UTF-8");
+    let proofs = json(&file("b.json"));
+    let rows = proofs["rows"].as_array().expect("rows");
+    let names: Vec<_> = rows.iter().map(|row| &row["configuration"]).collect();
+    let configurations = ["replay", "instanced", "geometry", "replay at auto"];
+    assert_eq!(names, configurations);
+    for row in rows {
+        assert!(row["proof"]["frames"].as_u64() >= Some(2), "{row}");
+        assert!(row["proof"]["speed_up"]["times"].is_number(), "{row}");
+        let name = row["configuration"].as_str().expect("a name");
+        assert!(table.contains(name), "{table}");
+    }
+    assert_eq!(rows[0]["verdict"], "equal", "{table}");
+    assert_eq!(rows[3]["verdict"], "beyond the gate", "{table}");
+    let csv = std::fs::read_to_string(file("b.csv")).expect("written");
+    assert_eq!(csv.lines().count(), 5, "{csv}");
+    let head = csv.lines().next().expect("a head");
+    assert!(
+        head.contains("speed_up") && head.contains("verdict"),
+        "{head}"
+    );
+}
+
+#[test]
+fn bench_says_when_nothing_was_proved() {
+    library();
+    let screen = screen();
+    let mut command = manyview();
+    command.args(["bench", "--strategy", "replay", "--", "true"]);
+    let (status, stdout, stderr) = run(screen.give(&mut command));
+    assert_eq!((status, &*stdout), (4, ""), "{stderr}");
+    assert!(stderr.contains("it ended with status 0 before a frame was proved"));
 }

@@ -118,6 +118,6 @@ impl LayerArguments {
 }
 
 /// A variable as text; what is not text turns into a value that the checks refuse by name.
-fn variable(name: &str) -> Option<String> {
+pub(super) fn variable(name: &str) -> Option<String> {
     std::env::var_os(name).map(|value| value.to_string_lossy().into_owned())
 }

@@ -11,7 +11,7 @@ use manyview::report::Summary;
 use std::ffi::OsString;
 use std::io::Write;
 use std::os::unix::fs::MetadataExt;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use tempfile::TempDir;
 
@@ -84,13 +84,13 @@ impl Told {
         })
     }
 
-    /// What is in it; nothing before it is there.
-    pub(super) fn status(&self) -> Status {
-        Status::read(&self.file).unwrap_or_default()
+    pub(super) fn file(&self) -> &Path {
+        &self.file
     }
 
-    fn proof(&self) -> Option<Summary> {
-        serde_json::from_value(self.status().proof?).ok()
+    /// What it says of the proof; nothing before it is there.
+    pub(super) fn proof(&self) -> Option<Summary> {
+        serde_json::from_value(Status::read(&self.file)?.proof?).ok()
     }
 }
 
