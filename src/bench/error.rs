@@ -76,6 +76,11 @@ pub enum BenchError {
         /// Why, as far as it is known.
         reason: String,
     },
+    /// A program of which no frame was proved, nor a reason told.
+    #[error(
+        "no frame of the program was proved under any configuration: {0}; `manyview run --prove 2` shows what it does"
+    )]
+    Unproved(String),
     /// A chart that cannot be drawn.
     #[error("the chart cannot be drawn: {0}")]
     Chart(String),
@@ -99,6 +104,7 @@ impl BenchError {
             Self::Ended { .. }
             | Self::Silent { .. }
             | Self::Answer { .. }
+            | Self::Unproved(_)
             | Self::NoPicture { .. } => 4,
         }
     }

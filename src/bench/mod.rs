@@ -10,6 +10,7 @@ mod error;
 mod outcome;
 mod pareto;
 mod preset;
+pub mod proof;
 pub mod protocol;
 mod scene;
 mod statistics;
@@ -20,6 +21,7 @@ pub use error::BenchError;
 pub use outcome::{Bench, Limit, Paper, PictureError, Row, tile_bytes};
 pub use pareto::front;
 pub use preset::{Figure, PRESETS, Preset};
+pub use proof::{ProofRow, Proofs};
 pub use scene::{DEFAULT_SCENES, SCENES, Scene, Work};
 pub use statistics::{Spread, median, ratios};
 

@@ -59,6 +59,9 @@ pub(crate) struct LayerArguments {
     /// Frame to explain, counted from 1 [default: 30]
     #[arg(long, value_name = "N", allow_hyphen_values = true)]
     explain_frame: Option<String>,
+    /// Draw every K-th frame by replay at the size of the window as well, and tell how far the two are apart and how much time is saved
+    #[arg(long, value_name = "K", allow_hyphen_values = true)]
+    prove: Option<String>,
     /// Write a JSON report of frames, draws and fallbacks
     #[arg(long, value_name = "FILE.json")]
     report: Option<String>,
@@ -93,6 +96,7 @@ impl LayerArguments {
             (OptionId::Profile, &self.profile),
             (OptionId::Explain, &self.explain),
             (OptionId::ExplainFrame, &self.explain_frame),
+            (OptionId::Prove, &self.prove),
             (OptionId::Report, &self.report),
             (OptionId::Config, &self.config),
         ];
@@ -114,6 +118,6 @@ impl LayerArguments {
 }
 
 /// A variable as text; what is not text turns into a value that the checks refuse by name.
-fn variable(name: &str) -> Option<String> {
+pub(super) fn variable(name: &str) -> Option<String> {
     std::env::var_os(name).map(|value| value.to_string_lossy().into_owned())
 }

@@ -4,11 +4,16 @@
 use super::layer::LayerArguments;
 use super::{Outcome, tell};
 use clap::Args;
-use manyview::launch::Launch;
+use manyview::bench::proof;
+use manyview::config::{OptionId, Origin, Settings, Status};
+use manyview::launch::{Launch, LaunchError};
+use manyview::report::Summary;
 use std::ffi::OsString;
+use std::io::Write;
 use std::os::unix::fs::MetadataExt;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+use tempfile::TempDir;
 
 #[derive(Args)]
 pub(crate) struct Arguments {
@@ -20,7 +25,12 @@ pub(crate) struct Arguments {
 }
 
 pub(crate) fn run(arguments: &Arguments) -> Outcome {
-    let launch = Launch::prepare(&arguments.command, &arguments.layer.settings()?)?;
+    let mut settings = arguments.layer.settings()?;
+    let told = match settings.get(OptionId::Prove) {
+        Some(_) => Some(Told::new(&mut settings)?),
+        None => None,
+    };
+    let launch = Launch::prepare(&arguments.command, &settings)?;
     let explanation = launch.config.explain.as_ref();
     let before = explanation.map(|explain| stamps(&explain.files()));
     let ended = launch.run()?;
@@ -40,7 +50,48 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
             ));
         }
     }
+    if let Some(told) = told {
+        match told.proof() {
+            // A closed stderr is no reason to fail.
+            Some(proof) => drop(std::io::stderr().write_all(proof::text(&proof).as_bytes())),
+            None => tell(&format_args!(
+                "nothing is proved: the program has ended too early; give a smaller number with --prove"
+            )),
+        }
+    }
     Ok(ExitCode::from(ended.code()))
+}
+
+/// The file in which the layer says how far it is.
+pub(super) struct Told {
+    /// Kept for as long as the file is wanted.
+    _folder: TempDir,
+    file: PathBuf,
+}
+
+impl Told {
+    /// Has it written to a folder of its own.
+    pub(super) fn new(settings: &mut Settings) -> Result<Self, LaunchError> {
+        let folder = tempfile::tempdir().map_err(|source| LaunchError::System {
+            doing: "making a temporary folder",
+            source,
+        })?;
+        let file = folder.path().join("status.json");
+        settings.set(OptionId::Status, file.to_string_lossy(), Origin::Default);
+        Ok(Self {
+            _folder: folder,
+            file,
+        })
+    }
+
+    pub(super) fn file(&self) -> &Path {
+        &self.file
+    }
+
+    /// What it says of the proof; nothing before it is there.
+    pub(super) fn proof(&self) -> Option<Summary> {
+        serde_json::from_value(Status::read(&self.file)?.proof?).ok()
+    }
 }
 
 /// Tells one version of a file from the next: device, inode and time of the last change.

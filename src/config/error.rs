@@ -186,6 +186,16 @@ pub enum ConfigError {
         /// The option that is missing.
         explain: Field,
     },
+    /// No number of frames.
+    #[error(
+        "{field} is '{value}'; give a whole number of frames, 1 or more: every so many one is proved"
+    )]
+    Prove {
+        /// The option.
+        field: Field,
+        /// Its value.
+        value: String,
+    },
     /// Neither on nor off.
     #[error("{field} is '{value}'; give 1 for on or 0 for off")]
     Switch {

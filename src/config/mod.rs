@@ -63,6 +63,8 @@ pub struct Config {
     pub profile: Profile,
     /// One frame to explain, if any.
     pub explain: Option<Explain>,
+    /// Every so many frames one is drawn by replay as well and compared, if any is.
+    pub prove: Option<u64>,
     /// Where the JSON report goes at the end of the program.
     pub report: Option<PathBuf>,
     /// The running program may be asked and told through a socket.

@@ -50,6 +50,8 @@ pub enum OptionId {
     Explain,
     /// Which frame is explained.
     ExplainFrame,
+    /// Every how many frames one is drawn by replay as well.
+    Prove,
     /// JSON report.
     Report,
     /// A socket by which the running program is asked and told.
@@ -149,6 +151,8 @@ pub const OPTIONS: &[OptionSpec] = &[
         "write what each draw of one frame is, and why, as PNG and text"),
     option!(ExplainFrame, Some("explain-frame"), Some("explain-frame"), "MANYVIEW_EXPLAIN_FRAME", "N", No,
         "frame to explain, counted from 1; 30 unless given"),
+    option!(Prove, Some("prove"), Some("prove"), "MANYVIEW_PROVE", "K", No,
+        "draw every K-th frame by replay at the size of the window as well, and tell how far the two are apart and how much time is saved"),
     option!(Report, Some("report"), Some("report"), "MANYVIEW_REPORT", "FILE.json", File,
         "write a JSON report of frames, draws and fallbacks"),
     option!(Control, Some("control"), Some("control"), "MANYVIEW_CONTROL", "0|1", No,
@@ -274,6 +278,6 @@ mod tests {
         for row in OPTIONS {
             assert_eq!(row.id.spec().variable, row.variable);
         }
-        assert_eq!(OPTIONS.len(), 26, "a new option needs a row");
+        assert_eq!(OPTIONS.len(), 27, "a new option needs a row");
     }
 }

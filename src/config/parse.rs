@@ -50,6 +50,7 @@ impl Config {
             hud_depth: hud_depth(settings)?,
             profile: named_profile(settings)?,
             explain: explain(settings, views)?,
+            prove: prove(settings, views)?,
             report: path(settings, OptionId::Report),
             control: changes(settings, OptionId::Control, views)?,
             keys: changes(settings, OptionId::Keys, views)?,
@@ -472,6 +473,20 @@ fn explain(settings: &Settings, views: u32) -> Result<Option<Explain>, ConfigErr
         out: PathBuf::from(value),
         frame,
     }))
+}
+
+fn prove(settings: &Settings, views: u32) -> Result<Option<u64>, ConfigError> {
+    let Some((field, text)) = settings.field(OptionId::Prove) else {
+        return Ok(None);
+    };
+    let value = text.to_owned();
+    if views < 2 {
+        return Err(ConfigError::OneView { field, value });
+    }
+    match text.parse() {
+        Ok(every) if every > 0 => Ok(Some(every)),
+        _ => Err(ConfigError::Prove { field, value }),
+    }
 }
 
 /// Lets the views change while the program runs; nothing of one view can change.

@@ -4,7 +4,7 @@
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 
-/// Written at each captured frame and when the layer turns itself off.
+/// Written at each captured or proved frame and when the layer turns itself off.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Status {
@@ -12,6 +12,9 @@ pub struct Status {
     pub frames: u64,
     /// What the user should know, one sentence each.
     pub notes: Vec<String>,
+    /// What `--prove` has found: a summary of `report`, which this module stands before.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub proof: Option<serde_json::Value>,
 }
 
 impl Status {

@@ -51,6 +51,8 @@ fn every_message_is_one_clear_sentence() {
         &[("MANYVIEW_FILTER", "smooth")],
         &[("MANYVIEW_FILTER", "blend"), ("MANYVIEW_VIEWS", "256")],
         &[("MANYVIEW_CLIP", "never")],
+        &[("MANYVIEW_PROVE", "0")],
+        &[("MANYVIEW_PROVE", "10"), ("MANYVIEW_VIEWS", "1")],
         &[("MANYVIEW_OUTPUT", "view:8")],
         &[("MANYVIEW_OUTPUT", "view:x")],
         &[("MANYVIEW_EYE_SPACING", "0.1")],
@@ -340,6 +342,7 @@ fn status_survives_a_round_trip() {
     let status = Status {
         frames: 12,
         notes: vec!["the layer turned itself off".to_owned()],
+        proof: Some(serde_json::json!({"frames": 3})),
     };
     status.write(&path).unwrap();
     assert_eq!(Status::read(&path), Some(status));

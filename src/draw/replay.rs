@@ -33,7 +33,14 @@ pub enum Again {
 /// Sends the draw once per view, the program's own view last, so that all state is as after the program's own call. `call` takes
 /// the view; a clear takes one for each layer.
 ///
+/// `leaves`: the call changes the state for the program; else the program's own view is sent as the others are, and all state is as
+/// before the call.
+///
 /// Answers false if the draw could not be sent for the other views (the attribute stack is full).
+#[allow(
+    clippy::too_many_arguments,
+    reason = "the parts of one draw; a struct of them would be built for this call alone"
+)]
 pub fn replay(
     gl: &Gl,
     atlas: &mut Atlas,
@@ -41,6 +48,7 @@ pub fn replay(
     rig: &Rig,
     shear: Option<Shear>,
     again: Again,
+    leaves: bool,
     call: &mut dyn FnMut(u32),
 ) -> bool {
     if again == Again::Clear && !state.scissor_test {
@@ -63,7 +71,9 @@ pub fn replay(
     if saves != 0
         && gl.get_integer(c::ATTRIB_STACK_DEPTH) >= gl.get_integer(c::MAX_ATTRIB_STACK_DEPTH)
     {
-        call(atlas.tiles.own());
+        if leaves {
+            call(atlas.tiles.own());
+        }
         return false;
     }
     if saves != 0 {
@@ -113,7 +123,7 @@ pub fn replay(
                 ..
             }
         );
-        if view == own {
+        if view == own && leaves {
             if keeps {
                 projection.load(rig.place(view));
             } else {
@@ -136,7 +146,11 @@ pub fn replay(
         if saves != 0 {
             gl.push_attrib(saves);
         }
-        projection.load(rig.place(view));
+        if keeps || view != own {
+            projection.load(rig.place(view));
+        } else {
+            projection.restore();
+        }
         match again {
             Again::Raster(_) => {
                 let shift = raster.map_or(Some(0.0), |r| r.shift(rig.place(view)));
@@ -163,6 +177,15 @@ pub fn replay(
         }
         if saves != 0 {
             gl.pop_attrib();
+        }
+        if view == own {
+            if beside && !free {
+                unplace(gl, state);
+            }
+            projection.restore();
+            current.put(gl);
+            tuned.leave(gl);
+            break;
         }
     }
     true

@@ -12,7 +12,7 @@ use std::io::IsTerminal;
 use std::os::unix::fs::MetadataExt;
 use std::os::unix::process::CommandExt;
 use std::path::{Path, PathBuf};
-use std::process::{Child, Stdio};
+use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
 const POLL: Duration = Duration::from_millis(20);
@@ -107,14 +107,7 @@ impl CaptureJob<'_> {
     fn start(&self, screen: &Screen) -> Result<Program, LaunchError> {
         let mut command = self.launch.command();
         screen.give(&mut command);
-        // The program leads its own group, so that ending it ends what it started; a terminal would stop it on a read.
-        command.process_group(0);
-        if std::io::stdin().is_terminal() {
-            command.stdin(Stdio::null());
-        }
-        self.launch
-            .spawn(command)
-            .map(|child| Program { child, ended: None })
+        Program::start(self.launch, command)
     }
 
     /// The picture of a frame, once it is there: what the layer adds to the name of a quilt is not known before.
@@ -146,13 +139,24 @@ impl CaptureJob<'_> {
 }
 
 /// The program and everything in its process group; ended when dropped.
-struct Program {
+pub(super) struct Program {
     child: Child,
     ended: Option<Ended>,
 }
 
 impl Program {
-    fn ended(&mut self) -> Option<Ended> {
+    pub(super) fn start(launch: &Launch, mut command: Command) -> Result<Self, LaunchError> {
+        // The program leads its own group, so that ending it ends what it started; a terminal would stop it on a read.
+        command.process_group(0);
+        if std::io::stdin().is_terminal() {
+            command.stdin(Stdio::null());
+        }
+        launch
+            .spawn(command)
+            .map(|child| Self { child, ended: None })
+    }
+
+    pub(super) fn ended(&mut self) -> Option<Ended> {
         if self.ended.is_none() {
             self.ended = self.child.try_wait().ok().flatten().map(Ended);
         }

@@ -34,12 +34,6 @@ impl Auto {
         if config.strategy != Strategy::Auto || config.views < 2 {
             return None;
         }
-        let repeatable = config.capture.is_some() || config.explain.is_some();
-        let candidates = if repeatable {
-            &all[..1.min(all.len())]
-        } else {
-            all
-        };
         let key = format!(
             "{} | {} | {} | {} views",
             gl.get_string(c::RENDERER),
@@ -51,8 +45,15 @@ impl Auto {
         let known = read(file.as_deref())
             .get(&key)
             .and_then(|name| Strategy::named(name));
+        let repeatable = config.capture.is_some() || config.explain.is_some();
+        let candidates = match known {
+            _ if repeatable => vec![Strategy::Replay],
+            // One strategy is proved, and no other drawn.
+            _ if config.prove.is_some() => vec![known.unwrap_or(Strategy::Replay)],
+            _ => all.to_vec(),
+        };
         Some(Auto {
-            trial: Trial::new(candidates.to_vec(), known),
+            trial: Trial::new(candidates, known),
             last: None,
             key,
             file,
@@ -65,6 +66,13 @@ impl Auto {
 }
 
 impl Layer {
+    /// What the user has chosen, or `auto` has come to.
+    pub(super) fn chosen(&self) -> Strategy {
+        self.auto
+            .as_ref()
+            .map_or(self.config.strategy, Auto::strategy)
+    }
+
     /// A frame is in the true framebuffer 0: its time counts, and the next one may be drawn otherwise.
     pub(super) fn time_frame(&mut self, gl: &Gl) {
         // What lies beside the views does not move with them.
@@ -86,7 +94,7 @@ impl Layer {
                 .note(format!("auto: {found} is the fastest here"));
         }
         let next = auto.trial.strategy();
-        if next != self.means.strategy {
+        if next != self.means.strategy && !self.proving.replays() {
             self.means.strategy = next;
             self.remake(gl);
         }

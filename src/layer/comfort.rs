@@ -78,6 +78,11 @@ impl Comfort {
         };
         self.on = config.views > 1 && (measured || config.report.is_some());
     }
+
+    /// The next frame is drawn to another atlas: what was taken of this one is not looked at.
+    pub(super) fn leave_pictures(&mut self) {
+        self.stale = !self.sent.is_empty();
+    }
 }
 
 impl Layer {

@@ -34,7 +34,7 @@ pub enum Primitives {
 }
 
 /// The key of the report for a method.
-fn method_name(m: Method) -> &'static str {
+pub(super) fn method_name(m: Method) -> &'static str {
     match m {
         Method::Once => "once",
         Method::Replay => "replay",
@@ -106,6 +106,7 @@ impl Layer {
                 let Some(how) = self.amplify(gl, &plan, primitives.mode(), false) else {
                     return self.replay(gl, &plan, Again::Same, &mut |_| call());
                 };
+                self.prove(gl, plan.shear, Again::Same, &mut |_| call());
                 let instanced = plan.method == Method::Instanced;
                 let mut draw = |views: u32| match primitives {
                     Primitives::Arrays { first, count, .. } if instanced => {
@@ -157,6 +158,7 @@ impl Layer {
                 Some(how)
             }
             Err(reason) => {
+                self.proving.replayed();
                 self.report
                     .draw(method_name(Method::Replay), plan.class.word());
                 self.fallbacks.add(reason);
@@ -198,6 +200,7 @@ impl Layer {
         let plan = plan(kind, &self.state, &self.rig, &self.means, &classed);
         let plan = self.uncopied(gl, self.uncounted(plan));
         self.explain_this(&facts, &classed);
+        self.prove_this(gl, &facts, &plan);
         if plan.method == Method::Once {
             self.queries.drawn();
         } else {
@@ -215,6 +218,7 @@ impl Layer {
     }
 
     pub(super) fn replay(&mut self, gl: &Gl, plan: &Plan, again: Again, call: &mut dyn FnMut(u32)) {
+        self.prove(gl, plan.shear, again, call);
         // Of what queries count, only the own view is counted.
         let bound = self.copies.bound(gl);
         let mut queries = std::mem::take(&mut self.queries);
@@ -227,6 +231,7 @@ impl Layer {
             &self.rig,
             plan.shear,
             again,
+            true,
             &mut |view| {
                 if view == own && std::mem::take(&mut paused) {
                     queries.resume(gl);
@@ -305,6 +310,9 @@ impl Layer {
         let ends = self.ends;
         match amplified {
             Some(how) => {
+                self.prove(gl, plan.shear, again, &mut |_| {
+                    gl.replay(mode, &recording, ends);
+                });
                 // Several calls (many views, several layers) each start from the same current values.
                 let current = match again {
                     Again::Current(e) => Current::take(gl, e, false),

@@ -26,6 +26,7 @@ impl Layer {
         if !self.state.draws_to_window() {
             return;
         }
+        self.proving.refuse_lists();
         let everywhere = plan.method != Method::Once;
         let shear = plan.shear.filter(|_| everywhere);
         enter_own(gl, &mut self.atlas, &self.state, &self.rig, shear);

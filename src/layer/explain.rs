@@ -214,7 +214,7 @@ fn depth(facts: &Facts) -> String {
 }
 
 /// A draw's command and primitive, in words.
-fn kind(kind: Kind) -> String {
+pub(super) fn kind(kind: Kind) -> String {
     let mode = |mode: u32| match mode {
         c::POINTS => "points",
         c::LINES => "lines",

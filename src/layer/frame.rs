@@ -44,6 +44,7 @@ impl Layer {
         if swap && self.atlas.swapped(gl, used) {
             self.apply_buffers(gl);
         }
+        self.next_proof(gl);
         saved.restore(gl);
         self.rebind(gl);
         self.queries.put_condition(gl);
@@ -66,13 +67,29 @@ impl Layer {
             gl.draw_buffer(c::FRONT);
             gl.read_buffer(c::FRONT);
         }
-        let source = Source {
+        let exact = self.exact_picture(gl, image);
+        self.draw_picture(gl, image, depth.as_ref());
+        self.judge_proof(gl, exact);
+        let source = self.source(image, depth.as_ref());
+        self.capture(gl, &source);
+        self.follow_depths(gl);
+    }
+
+    /// What pictures are made of.
+    fn source<'a>(&self, image: u32, depth: Option<&'a Depth>) -> Source<'a> {
+        Source {
             tiles: self.atlas.tiles,
             texture: self.atlas.sampled(image),
-            depth: depth.as_ref().map(|depth| (self.atlas.depth, depth)),
+            depth: depth.map(|depth| (self.atlas.depth, depth)),
             top_down: self.atlas.flipped,
             srgb: self.state.window.srgb,
-        };
+        }
+    }
+
+    /// Draws the picture of the atlas into the framebuffer that is bound, the true 0. State is as [`Saved::take`] leaves it.
+    pub(super) fn draw_picture(&mut self, gl: &Gl, image: u32, depth: Option<&Depth>) {
+        let output = self.output();
+        let source = self.source(image, depth);
         let pictures = self.pictures(output, image);
         let glass = Glass {
             display: self.fitted.as_ref().unwrap_or(&self.config.display),
@@ -96,8 +113,6 @@ impl Layer {
                 gl.draw_buffer(self.state.window.default_buffer);
             }
         }
-        self.capture(gl, &source);
-        self.follow_depths(gl);
     }
 
     /// The depth of the program's own view. Changes the framebuffers that are bound.
@@ -260,7 +275,7 @@ impl Layer {
 }
 
 /// One view's picture, row 0 on top. Changes the read framebuffer.
-fn tile(gl: &Gl, atlas: &crate::atlas::Atlas, view: u32) -> RgbImage {
+pub(super) fn tile(gl: &Gl, atlas: &crate::atlas::Atlas, view: u32) -> RgbImage {
     let (from, x) = atlas.readable(view);
     gl.bind_framebuffer(c::READ_FRAMEBUFFER, from);
     capture::read_rgb(gl, x, 0, atlas.tiles.width, atlas.tiles.height)

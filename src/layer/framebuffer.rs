@@ -227,7 +227,7 @@ impl Layer {
     }
 
     fn read_from(&self, gl: &Gl, image: u32) {
-        for target in self.atlas.targets() {
+        for target in self.atlases().flat_map(Atlas::targets) {
             gl.bind_framebuffer(c::READ_FRAMEBUFFER, target);
             gl.read_buffer(image);
         }
@@ -255,7 +255,7 @@ impl Layer {
             gl.get_integer(c::DRAW_FRAMEBUFFER_BINDING) as u32,
             gl.get_integer(c::READ_FRAMEBUFFER_BINDING) as u32,
         );
-        for target in self.atlas.targets() {
+        for target in self.atlases().flat_map(Atlas::targets) {
             gl.bind_framebuffer(c::FRAMEBUFFER, target);
             gl.draw_buffers(&draw);
             gl.read_buffer(read);
@@ -371,7 +371,7 @@ impl Layer {
         self.unscissored(gl, |layer| layer.atlas.take_single(gl, view, read));
     }
 
-    fn make_singles(&mut self, gl: &Gl, staged: bool) {
+    pub(super) fn make_singles(&mut self, gl: &Gl, staged: bool) {
         if !self.atlas.has_singles(staged) {
             keep_bindings(gl, || {
                 let (names, window) = (&mut self.names, &self.state.window);
@@ -407,6 +407,11 @@ impl Layer {
             return self.draw(gl, Kind::Pixels, call);
         }
         self.plan(gl, Kind::Pixels);
+        self.in_proof(gl, |layer| layer.copy_views(gl, call));
+        self.copy_views(gl, call);
+    }
+
+    fn copy_views(&mut self, gl: &Gl, call: &mut dyn FnMut()) {
         let own = self.atlas.tiles.own();
         // As in `draw::replay`: before a glPushAttrib of ours.
         gl.get_floats::<4>(c::CURRENT_COLOR);
@@ -446,6 +451,13 @@ impl Layer {
         }
         self.state.refresh(gl);
         self.hold_everything(gl, "copies pictures into the window");
+        self.proving.stop_search();
+        self.in_proof(gl, |layer| layer.blit_views(gl, scaled, blit));
+        self.blit_views(gl, scaled, blit);
+    }
+
+    fn blit_views(&mut self, gl: &Gl, scaled: bool, blit: &mut dyn FnMut(i32, i32)) {
+        let read = self.reads_from_zero();
         let images = self.state.framebuffers.draw_images();
         let single = match images[..] {
             [image] if image != c::NONE => Some(image),

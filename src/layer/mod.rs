@@ -15,6 +15,7 @@ mod frame;
 mod framebuffer;
 mod frames;
 mod lists;
+mod prove;
 mod queries;
 mod sampling;
 pub mod support;
@@ -33,7 +34,7 @@ use crate::gl::{Count, Ends, Gl, Held, Recording, consts as c};
 use crate::interleave::Interleaver;
 use crate::plan::{Classifier, Means, Reason, Rig, Shear};
 use crate::present::Saved;
-use crate::report::{Counts, Report};
+use crate::report::{Counts, Proof, Report};
 use crate::state::{BACK, Immediate, Lists, State, Window};
 use std::sync::{Arc, Mutex, PoisonError};
 use support::Support;
@@ -92,6 +93,7 @@ pub struct Layer {
     /// The display with other numbers of its sheet, once they have been changed.
     fitted: Option<Display>,
     picture: control::Picture,
+    proving: prove::Proving,
     made: Count,
     on_screen: Option<OnScreen>,
     detail: sampling::Detail,
@@ -133,6 +135,7 @@ impl Layer {
         state.keep_errors(gl);
         let mut names = Names::default();
         let mut report = Report::default();
+        report.proof = config.prove.map(|_| Proof::default());
         support.notes().into_iter().for_each(|n| report.note(n));
         let driver = Driver::ask(gl);
         let programs = Programs::new(
@@ -221,6 +224,7 @@ impl Layer {
             comfort: comfort::Comfort::new(config, live.camera),
             fitted: None,
             picture: control::Picture::None,
+            proving: prove::Proving::default(),
             made: Count::default(),
             detail,
             undrawn: false,
@@ -240,6 +244,7 @@ impl Layer {
         if (self.state.window.width, self.state.window.height) == (width, height) {
             return Ok(());
         }
+        self.drop_proof(gl);
         self.state.window.width = width;
         self.state.window.height = height;
         let grid = self.grid();
@@ -268,10 +273,15 @@ impl Layer {
         self.on_screen = on_screen;
     }
 
+    /// The one that the program draws to, and that of a proof where there is one.
+    fn atlases(&self) -> impl Iterator<Item = &Atlas> {
+        std::iter::once(&self.atlas).chain(self.proving.atlas())
+    }
+
     /// Whether a texture is one of ours.
     pub fn owns_texture(&self, name: u32) -> bool {
         name != 0
-            && (self.atlas.owns(name)
+            && (self.atlases().any(|atlas| atlas.owns(name))
                 || self.interleaver.texture() == name
                 || self.copies.owns(name)
                 || self
@@ -285,7 +295,9 @@ impl Layer {
     pub fn owns_framebuffer(&self, name: u32) -> bool {
         let accumulation = self.accumulated.buffer.as_ref();
         name != 0
-            && (self.atlas.framebuffers().any(|t| t == name)
+            && (self
+                .atlases()
+                .any(|atlas| atlas.framebuffers().any(|t| t == name))
                 || accumulation.is_some_and(|a| a.framebuffer() == name))
     }
 
@@ -308,6 +320,7 @@ impl Layer {
 
     fn move_names(&mut self, gl: &Gl) {
         self.names.hide();
+        self.drop_proof(gl);
         self.copies.clear(gl);
         let note = if self.remake(gl) {
             "the program numbers its textures itself; ours moved out of its way"
@@ -334,6 +347,7 @@ impl Layer {
         let window = &mut self.state.window;
         if window.srgb_capable && !window.srgb {
             window.srgb = true;
+            self.drop_proof(gl);
             if !self.remake(gl) {
                 self.state.window.srgb = false;
                 self.report
@@ -395,8 +409,11 @@ impl Layer {
     pub fn leave(mut self) {
         let mut lists = self.lists.lock().unwrap_or_else(PoisonError::into_inner);
         let mask = Some(self.interleaver.texture()).filter(|&t| t != 0);
-        lists.left.framebuffers.extend(self.atlas.framebuffers());
-        let textures = self.atlas.textures().iter().copied();
+        for atlas in self.atlases() {
+            lists.left.framebuffers.extend(atlas.framebuffers());
+        }
+        let textures = self.atlases().flat_map(|atlas| atlas.textures());
+        let textures = textures.copied();
         let textures = textures.chain(mask).chain(self.copies.ours());
         lists.left.textures.extend(textures);
         let (buffer, fence) = self.atlas.give_buffer();

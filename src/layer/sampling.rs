@@ -134,6 +134,9 @@ impl Layer {
 
     /// Before a frame is shown: tiles that are not of the kind or the size that the output needs now are made anew from what is there.
     pub(super) fn refit(&mut self, gl: &Gl) {
+        if self.proving.replays() {
+            return;
+        }
         let (grid, size) = self.wanted();
         let tiles = &self.atlas.tiles;
         if size != [tiles.width, tiles.height]
@@ -145,6 +148,9 @@ impl Layer {
 
     /// After it: the window may have moved, and the next frame is drawn where its lenses are now.
     pub(super) fn follow_lenses(&mut self) {
+        if self.proving.replays() {
+            return;
+        }
         let ((grid, size), shown) = (self.wanted(), self.shown());
         let tiles = &mut self.atlas.tiles;
         if size == [tiles.width, tiles.height] {
@@ -156,7 +162,11 @@ impl Layer {
     /// The views that the next frame is drawn in.
     fn shown(&self) -> Shown {
         let captured = self.config.capture.as_ref().map(|capture| capture.what);
-        if self.undrawn || captured.is_some_and(|what| what != CaptureWhat::Output) {
+        // What is proved is compared view by view.
+        if self.undrawn
+            || self.config.prove.is_some()
+            || captured.is_some_and(|what| what != CaptureWhat::Output)
+        {
             return Shown::ALL;
         }
         self.seen()

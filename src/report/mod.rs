@@ -3,9 +3,11 @@
 
 mod counts;
 mod disparity;
+mod proof;
 
 pub use counts::Counts;
 pub use disparity::Disparity;
+pub use proof::{Culprit, Difference, Found, Proof, SpeedUp, Summary, Worst};
 
 use crate::gl::Count;
 use disparity::Disparities;
@@ -25,6 +27,8 @@ pub struct Report {
     errors: u64,
     shaders: u64,
     disparities: Disparities,
+    /// Where a proof is asked for.
+    pub proof: Option<Proof>,
     names: Names,
     last_swap: Option<Instant>,
     last_write: Option<Instant>,
@@ -49,6 +53,8 @@ struct Json<'a> {
     gl_errors: u64,
     #[serde(skip_serializing_if = "Option::is_none")]
     disparity: Option<disparity::Json<'a>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    proof: Option<Summary>,
     names: Names,
     notes: &'a [String],
 }
@@ -145,13 +151,17 @@ impl Report {
         }
     }
 
-    /// Tells the launcher how far the program is, and writes the report that belongs to a captured frame: the launcher ends the
-    /// program when it has its last picture.
+    /// Tells the launcher how far the program is, and writes the report that belongs to a captured or proved frame: the
+    /// launcher ends the program when it has its last one.
     pub fn write_status(&mut self, config: &crate::config::Config, frames: u64) {
         if let Some(path) = &config.status {
             let _ = crate::config::Status {
                 frames,
                 notes: self.notes.clone(),
+                proof: self
+                    .proof
+                    .as_ref()
+                    .and_then(|proof| serde_json::to_value(proof.summary()).ok()),
             }
             .write(path);
         }
@@ -183,6 +193,7 @@ impl Report {
             generated_shaders: self.shaders,
             gl_errors: self.errors,
             disparity: self.disparities.json(),
+            proof: self.proof.as_ref().map(Proof::summary),
             names: self.names,
             notes: &self.notes,
         };

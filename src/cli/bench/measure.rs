@@ -141,7 +141,7 @@ fn programs(groups: &[Group]) -> Result<Vec<PathBuf>, LaunchError> {
 }
 
 /// On stderr, and silent when that is no terminal.
-fn bar(steps: u64) -> ProgressBar {
+pub(super) fn bar(steps: u64) -> ProgressBar {
     let style = ProgressStyle::with_template("{spinner} {wide_bar} {percent} %, {eta} left  {msg}");
     ProgressBar::new(steps).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
 }

@@ -2,6 +2,7 @@
 #![forbid(unsafe_code)]
 
 mod measure;
+mod prove;
 
 use super::mask::size;
 use super::{Outcome, print, tell};
@@ -13,6 +14,7 @@ use manyview::bench::{
 use manyview::config::Config;
 use manyview::launch::{LaunchError, writable};
 use measure::Group;
+use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -86,6 +88,9 @@ pub(crate) struct Arguments {
     /// List scenes, configurations and presets, and measure nothing
     #[arg(long)]
     list: bool,
+    /// A program of your own and its arguments: each configuration is proved on so many --frames of it
+    #[arg(last = true, value_name = "APP", conflicts_with_all = ["scene", "preset", "size", "chart"])]
+    command: Vec<OsString>,
 }
 
 pub(crate) fn run(arguments: &Arguments) -> Outcome {
@@ -103,19 +108,12 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
     else {
         return Err(BenchError::Frames(arguments.frames.clone()).into());
     };
+    if !arguments.command.is_empty() {
+        check_files(arguments)?;
+        return prove::run(arguments, rounds);
+    }
     let groups = groups(arguments, preset)?;
-    for (purpose, file) in [
-        ("the JSON", &arguments.json),
-        ("the CSV", &arguments.csv),
-        ("the chart", &arguments.chart),
-    ] {
-        if let Some(file) = file {
-            writable(purpose, file)?;
-        }
-    }
-    if let Some(file) = &arguments.chart {
-        chart::Format::of(file)?;
-    }
+    check_files(arguments)?;
     let bench = measure::run(&groups, rounds, &arguments.api, preset)?;
     if let Some(preset) = preset {
         print(&format!("{}: {}\n\n", preset.name, preset.about))?;
@@ -137,6 +135,23 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
     Ok(ExitCode::SUCCESS)
 }
 
+/// What is written in the end can be written.
+fn check_files(arguments: &Arguments) -> Result<(), LaunchError> {
+    for (purpose, file) in [
+        ("the JSON", &arguments.json),
+        ("the CSV", &arguments.csv),
+        ("the chart", &arguments.chart),
+    ] {
+        if let Some(file) = file {
+            writable(purpose, file)?;
+        }
+    }
+    if let Some(file) = &arguments.chart {
+        chart::Format::of(file)?;
+    }
+    Ok(())
+}
+
 fn unwritten(file: &Path, reason: &dyn std::fmt::Display) -> LaunchError {
     BenchError::Write {
         file: file.to_owned(),
@@ -156,8 +171,7 @@ fn groups(
      -> Vec<String> {
         match preset {
             Some(preset) => owned(presets(preset)),
-            None if given.is_empty() => owned(default),
-            None => given.to_vec(),
+            None => or_default(given, default),
         }
     };
     let mut scenes: Vec<&'static Scene> = Vec::new();
@@ -204,6 +218,14 @@ fn groups(
         }
     }
     Ok(groups)
+}
+
+/// What was given, or else the default.
+fn or_default(given: &[String], default: &[&str]) -> Vec<String> {
+    match given {
+        [] => owned(default),
+        given => given.to_vec(),
+    }
 }
 
 fn owned(names: &[&str]) -> Vec<String> {

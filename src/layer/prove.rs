@@ -1,0 +1,536 @@
+//! The proof on the running program: every so many frames one is drawn by replay at the size of the window as well, from the same calls
+//! into a second atlas, and both are compared.
+//!
+//! Each draw goes to the second atlas first, with all state put back, then to the first one as always: so what the program sees of its
+//! state and of framebuffer 0 is what it would have seen. Time is not taken in such frames, which are slow, but in some between
+//! them: the same number by the strategy that was chosen and by nothing but replay, in turns.
+
+use super::{Layer, explain, frame::tile, keep_bindings, make_atlas};
+use crate::atlas::{Atlas, Grid};
+use crate::config::{Output, Strategy, Word};
+use crate::draw::{Again, replay};
+use crate::gl::{Gl, consts as c};
+use crate::metric::triptych;
+use crate::plan::{Facts, Kind, Method, Plan, Shear};
+use crate::present::{Saved, capture};
+use crate::report::{Culprit, Difference, Proof, Worst};
+use crate::state::BACK;
+use image::RgbImage;
+use std::time::{Duration, Instant};
+
+/// How the frames after a proved one are drawn, to be timed: true is by replay. As many of either, and none always first.
+const TRIALS: [bool; 4] = [false, true, true, false];
+/// Frames in which the draw is looked for that brought the worst pixel: after each draw a view is read twice.
+const SEARCHES: u32 = 3;
+/// For one of them.
+const PATIENCE: Duration = Duration::from_secs(10);
+
+const FRONT: &str = "the program draws to the front buffer or reads from it";
+const COPIES: &str = "the program draws with a texture copied from the frame";
+const ACCUM: &str = "the program uses the accumulation buffer";
+const ONCE: &str = "a profile keeps draws in the program's own view only";
+const STACK: &str = "the program's attribute stack was full";
+const LISTS: &str = "the program draws while it compiles a display list";
+const CHANGED: &str = "the window's size or format changed in the middle of the frame";
+const EMPTY: &str = "nothing was drawn";
+const MEMORY: &str = "the driver makes no second atlas";
+
+/// What the frame is that is being drawn.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+enum Now {
+    #[default]
+    Plain,
+    Proved,
+    Timed {
+        by_replay: bool,
+    },
+}
+
+/// What is kept from frame to frame, and of the one that is being drawn.
+#[derive(Debug, Default)]
+pub(super) struct Proving {
+    /// What replay draws to; while a frame is drawn by replay alone the two atlases change places.
+    atlas: Option<Atlas>,
+    now: Now,
+    /// Why the frame cannot be compared.
+    refused: Option<&'static str>,
+    /// The frame's first draw or clear was made.
+    begun: bool,
+    /// That was no clear of the whole window. Kept until the next proved frame: so the program is.
+    carries: bool,
+    /// Since when the frame is timed.
+    since: Option<Instant>,
+    trials: usize,
+    search: Option<Search>,
+    searches: u32,
+    /// The view with a pixel whose draw is to be found.
+    suspect: Option<u32>,
+}
+
+/// A draw to the window.
+#[derive(Clone, Copy, Debug)]
+struct Drawn {
+    facts: Facts,
+    class: &'static str,
+    method: Method,
+}
+
+/// A view of which is known what draw made each pixel differ.
+#[derive(Debug)]
+struct Search {
+    view: u32,
+    draws: Vec<Drawn>,
+    /// For each pixel that differs the number of draws when it first did, else 0.
+    since: Vec<usize>,
+    /// A draw has been made since the view was looked at.
+    pending: bool,
+    began: Instant,
+}
+
+impl Search {
+    fn settle(&mut self, [exact, shown]: &[RgbImage; 2]) {
+        self.pending = false;
+        self.since.resize(exact.pixels().len(), 0);
+        let pixels = exact.pixels().zip(shown.pixels());
+        for (since, (exact, shown)) in self.since.iter_mut().zip(pixels) {
+            if exact == shown {
+                *since = 0;
+            } else if *since == 0 {
+                *since = self.draws.len();
+            }
+        }
+    }
+
+    /// The draw that brought the worst pixel of the whole frame.
+    fn culprit(&self, frame: u64, width: u32, difference: &Difference) -> Option<Culprit> {
+        let [x, y] = difference.at();
+        let since = *self.since.get(y as usize * width as usize + x as usize)?;
+        let drawn = self.draws.get(since.checked_sub(1)?)?;
+        Some(Culprit {
+            worst: Worst {
+                difference: difference.worst(),
+                x,
+                y,
+                frame,
+            },
+            view: self.view,
+            draw: drawn.facts.draw,
+            kind: explain::kind(drawn.facts.kind),
+            class: drawn.class.to_owned(),
+            method: super::drawing::method_name(drawn.method).to_owned(),
+            texture: drawn.facts.texture,
+            list: drawn.facts.list,
+        })
+    }
+}
+
+impl Proving {
+    fn proves(&self) -> bool {
+        self.now == Now::Proved && self.refused.is_none() && self.atlas.is_some()
+    }
+
+    /// The frame is drawn by nothing but replay, in the other atlas.
+    pub(super) fn replays(&self) -> bool {
+        self.now == Now::Timed { by_replay: true }
+    }
+
+    fn refuse(&mut self, why: &'static str) {
+        self.refused.get_or_insert(why);
+        self.search = None;
+    }
+
+    /// What was drawn while a display list was compiled is in one atlas only.
+    pub(super) fn refuse_lists(&mut self) {
+        self.refuse(LISTS);
+    }
+
+    /// Something is drawn that is no draw of the list.
+    pub(super) fn stop_search(&mut self) {
+        self.search = None;
+    }
+
+    /// The last draw went by replay after all.
+    pub(super) fn replayed(&mut self) {
+        let search = self.search.as_mut();
+        if let Some(last) = search.and_then(|search| search.draws.last_mut()) {
+            last.method = Method::Replay;
+        }
+    }
+
+    /// The other atlas.
+    pub(super) fn atlas(&self) -> Option<&Atlas> {
+        self.atlas.as_ref()
+    }
+}
+
+impl Layer {
+    /// A draw is about to be made.
+    pub(super) fn prove_this(&mut self, gl: &Gl, facts: &Facts, plan: &Plan) {
+        let first = match self.proving.now {
+            Now::Plain => return,
+            Now::Proved if !self.state.draws_to_window() => return,
+            Now::Proved | Now::Timed { .. } => !std::mem::replace(&mut self.proving.begun, true),
+        };
+        if let Now::Timed { .. } = self.proving.now {
+            if first {
+                gl.finish();
+                self.proving.since = Some(Instant::now());
+            }
+            return;
+        }
+        if first {
+            let clears = matches!(facts.kind, Kind::Clear { .. });
+            self.proving.carries = !clears || self.state.scissor_test;
+        }
+        match plan.method {
+            Method::Once if self.state.render_mode == c::RENDER => self.proving.refuse(ONCE),
+            _ if facts.kind == Kind::Accum => self.proving.refuse(ACCUM),
+            _ => {}
+        }
+        self.settle(gl);
+        if let Some(search) = &mut self.proving.search {
+            search.draws.push(Drawn {
+                facts: *facts,
+                class: plan.class.word(),
+                method: plan.method,
+            });
+            search.pending = true;
+        }
+    }
+
+    /// Sends a draw, or a clear, to the other atlas by replay, if the frame is proved. All state is as before.
+    pub(super) fn prove(
+        &mut self,
+        gl: &Gl,
+        shear: Option<Shear>,
+        again: Again,
+        call: &mut dyn FnMut(u32),
+    ) {
+        if !self.proving.proves() {
+            return;
+        }
+        if !self.copies.bound(gl).is_empty() {
+            return self.proving.refuse(COPIES);
+        }
+        let mut sent = true;
+        self.in_proof(gl, |layer| {
+            let (atlas, state, rig) = (&mut layer.atlas, &layer.state, &layer.rig);
+            sent = replay(gl, atlas, state, rig, shear, again, false, call);
+        });
+        if !sent {
+            self.proving.refuse(STACK);
+        }
+    }
+
+    /// Runs something with the other atlas in the place of the first one, if the frame is proved; queries do not count it.
+    pub(super) fn in_proof(&mut self, gl: &Gl, work: impl FnOnce(&mut Self)) {
+        if self.proving.proves() && self.state.framebuffers.uses_front() {
+            self.proving.refuse(FRONT);
+        }
+        if !self.proving.proves() {
+            return;
+        }
+        let mut queries = std::mem::take(&mut self.queries);
+        queries.pause(gl);
+        self.change_places();
+        self.bind_draw(gl, true, true);
+        work(self);
+        self.change_places();
+        self.bind_draw(gl, true, true);
+        queries.resume(gl);
+        self.queries = queries;
+    }
+
+    fn change_places(&mut self) {
+        if let Some(other) = &mut self.proving.atlas {
+            std::mem::swap(&mut self.atlas, other);
+        }
+    }
+
+    /// The picture that the window would show of the other atlas; the true framebuffer 0 is bound and is drawn to.
+    pub(super) fn exact_picture(&mut self, gl: &Gl, image: u32) -> Option<RgbImage> {
+        // Those are made of more than one picture of colours.
+        let single = !matches!(self.output(), Output::Quad | Output::Rgbd);
+        if !single || !self.proving.proves() || !self.drawn {
+            return None;
+        }
+        self.change_places();
+        self.atlas.resolve(gl, false, c::COLOR_BUFFER_BIT);
+        gl.bind_framebuffer(c::FRAMEBUFFER, 0);
+        self.draw_picture(gl, image, None);
+        self.change_places();
+        Some(self.window_picture(gl))
+    }
+
+    fn window_picture(&self, gl: &Gl) -> RgbImage {
+        let (width, height) = self.size();
+        gl.bind_framebuffer(c::READ_FRAMEBUFFER, 0);
+        capture::read_rgb(gl, 0, 0, width, height)
+    }
+
+    /// After the picture: compares, or takes the time. `exact` is that of the other atlas, where the two can be compared.
+    pub(super) fn judge_proof(&mut self, gl: &Gl, exact: Option<RgbImage>) {
+        let now = self.proving.now;
+        if let (Now::Timed { by_replay }, Some(since)) = (now, self.proving.since.take()) {
+            gl.finish();
+            let ms = since.elapsed().as_secs_f64() * 1e3;
+            self.tell(|proof| proof.timed(by_replay, ms));
+        }
+        if now == Now::Proved {
+            let refused = self.proving.refused.or((!self.drawn).then_some(EMPTY));
+            if let Some(why) = refused {
+                self.proving.search = None;
+                self.tell(|proof| proof.skipped(why));
+            } else {
+                self.compare(gl, exact);
+            }
+        }
+    }
+
+    fn tell(&mut self, what: impl FnOnce(&mut Proof)) {
+        let frame = self.report.frames() + 1;
+        if let Some(proof) = &mut self.report.proof {
+            what(proof);
+        }
+        self.report.write_status(self.config, frame);
+    }
+
+    fn compare(&mut self, gl: &Gl, exact: Option<RgbImage>) {
+        let frame = self.report.frames() + 1;
+        let shown = exact.as_ref().map(|_| self.window_picture(gl));
+        let panel: Vec<_> = exact
+            .zip(shown)
+            .and_then(|(exact, shown)| Difference::new(&exact, &shown))
+            .into_iter()
+            .collect();
+        self.resolve_both(gl);
+        let mut search = self.proving.search.take();
+        let mut culprit = None;
+        let mut views: Vec<Difference> = Vec::new();
+        let mut least = self.report.proof.as_ref().map_or(0.0, Proof::psnr);
+        let mut worst_pair = None;
+        for view in 0..self.config.views {
+            let pair = self.pair(gl, view);
+            let Some(difference) = Difference::new(&pair[0], &pair[1]) else {
+                return;
+            };
+            if let Some(search) = search.as_mut().filter(|search| search.view == view) {
+                if search.pending {
+                    search.settle(&pair);
+                }
+                culprit = search.culprit(frame, pair[0].width(), &difference);
+            }
+            if difference.psnr() < least {
+                least = difference.psnr();
+                worst_pair = Some(pair);
+            }
+            views.push(difference);
+        }
+        gl.bind_framebuffer(c::FRAMEBUFFER, 0);
+        let picture = worst_pair.and_then(|[exact, shown]| self.draw_failure(&exact, &shown));
+        let carried = self.proving.carries;
+        self.tell(|proof| {
+            proof.frame(frame, carried, &views, &panel);
+            culprit.into_iter().for_each(|c| proof.culprit(c));
+            picture.into_iter().for_each(|file| proof.picture(file));
+        });
+        let explained = self.report.proof.as_ref().map_or(0, Proof::explained);
+        let worst = (0..).zip(&views).max_by_key(|(_, d)| d.worst());
+        self.proving.suspect = worst
+            .filter(|(_, d)| d.worst() > explained)
+            .map(|(view, _)| view);
+    }
+
+    /// What replay has drawn, the difference and what is shown, beside the report.
+    fn draw_failure(&mut self, exact: &RgbImage, shown: &RgbImage) -> Option<String> {
+        let file = self.config.report.as_ref()?.with_extension("proof.png");
+        match capture::write(&triptych(exact, shown), &file) {
+            Ok(()) => Some(file.display().to_string()),
+            Err(error) => {
+                self.report.note(format!("picture of the proof: {error}"));
+                None
+            }
+        }
+    }
+
+    fn resolve_both(&self, gl: &Gl) {
+        self.atlas.resolve(gl, false, c::COLOR_BUFFER_BIT);
+        if let Some(other) = &self.proving.atlas {
+            other.resolve(gl, false, c::COLOR_BUFFER_BIT);
+        }
+    }
+
+    /// A view by replay, and as it is shown, stretched to the window where it has fewer pixels. State is as [`Saved::take`] leaves
+    /// it; changes the framebuffers that are bound.
+    fn pair(&mut self, gl: &Gl, view: u32) -> [RgbImage; 2] {
+        let exact = self.proving.atlas.as_ref();
+        let exact = exact.map_or_else(RgbImage::default, |atlas| tile(gl, atlas, view));
+        if self.atlas.tiles.grid.is_full() {
+            return [exact, tile(gl, &self.atlas, view)];
+        }
+        self.make_singles(gl, false);
+        self.atlas.take_single(gl, view, BACK);
+        let (width, height) = self.size();
+        [exact, capture::read_rgb(gl, 0, 0, width, height)]
+    }
+
+    /// Before a draw: what has the one before it changed?
+    fn settle(&mut self, gl: &Gl) {
+        let Some(mut search) = self.proving.search.take() else {
+            return;
+        };
+        if search.began.elapsed() > PATIENCE {
+            return self.report.note(format!(
+                "the draw that brought the worst pixel was not found within {} s",
+                PATIENCE.as_secs()
+            ));
+        }
+        if search.pending {
+            self.queries.pause(gl);
+            self.queries.lift_condition(gl);
+            let saved = Saved::take(gl, self.state.compatibility);
+            let pair = self.reading(gl, BACK, |layer| {
+                layer.resolve_both(gl);
+                layer.pair(gl, search.view)
+            });
+            saved.restore(gl);
+            self.rebind(gl);
+            self.queries.put_condition(gl);
+            self.queries.resume(gl);
+            search.settle(&pair);
+        }
+        self.proving.search = Some(search);
+    }
+
+    /// At the end of a frame: decides how the next one is drawn. State is as [`Saved::take`] leaves it; changes the framebuffers that
+    /// are bound.
+    pub(super) fn next_proof(&mut self, gl: &Gl) {
+        let Some(every) = self.config.prove else {
+            return;
+        };
+        if self.proving.replays() {
+            self.choose_again(gl, true);
+        }
+        self.proving.now = Now::Plain;
+        self.proving.refused = None;
+        self.proving.begun = false;
+        self.proving.search = None;
+        // This one is not counted yet.
+        let at = (self.report.frames() + 2) % every;
+        if at == 0 {
+            self.begin_proof(gl);
+        } else if at <= TRIALS.len() as u64 && self.proving.atlas.is_some() {
+            self.begin_trial(gl);
+        }
+    }
+
+    fn uses_front(&self) -> bool {
+        self.atlas.has_front() || self.state.framebuffers.uses_front()
+    }
+
+    fn begin_proof(&mut self, gl: &Gl) {
+        self.proving.now = Now::Proved;
+        if self.uses_front() {
+            return self.proving.refuse(FRONT);
+        }
+        if self.proving.atlas.is_none() {
+            let (names, config, state) = (&mut self.names, self.config, &self.state);
+            let strategy = self.means.strategy;
+            match make_atlas(
+                gl,
+                names,
+                config,
+                state,
+                &self.support,
+                Grid::FULL,
+                strategy,
+            ) {
+                Ok(atlas) => self.proving.atlas = Some(atlas),
+                Err(error) => {
+                    self.report.note(format!("nothing is proved: {error}"));
+                    return self.proving.refuse(MEMORY);
+                }
+            }
+            self.apply_buffers(gl);
+        }
+        self.hand_over(gl);
+        if let Some(view) = self.proving.suspect.take()
+            && self.proving.searches < SEARCHES
+        {
+            self.proving.searches += 1;
+            self.proving.search = Some(Search {
+                view,
+                draws: Vec::new(),
+                since: Vec::new(),
+                pending: false,
+                began: Instant::now(),
+            });
+        }
+    }
+
+    /// What the program does not clear, both have.
+    fn hand_over(&mut self, gl: &Gl) {
+        let Some(mut other) = self.proving.atlas.take() else {
+            return;
+        };
+        self.reading(gl, BACK, |layer| {
+            if other.tiles.lies_like(&layer.atlas.tiles) {
+                return other.copy(gl, &layer.atlas);
+            }
+            let (names, window) = (&mut layer.names, &layer.state.window);
+            keep_bindings(gl, || {
+                other.copy_spread(gl, &mut layer.atlas, names, window);
+            });
+        });
+        self.proving.atlas = Some(other);
+    }
+
+    fn begin_trial(&mut self, gl: &Gl) {
+        let full = self.atlas.tiles.grid.is_full();
+        // What stands in an atlas, or beside it, would have to be there in the other one as well.
+        if self.uses_front() || self.accumulated.buffer.is_some() || self.proving.carries && !full {
+            return;
+        }
+        let trial = TRIALS.get(self.proving.trials % TRIALS.len());
+        let by_replay = trial.is_some_and(|by_replay| *by_replay);
+        self.proving.trials += 1;
+        self.proving.now = Now::Timed { by_replay };
+        if by_replay {
+            if full {
+                self.hand_over(gl);
+            }
+            self.means.strategy = Strategy::Replay;
+            self.put_other(gl);
+        }
+    }
+
+    /// After a frame by replay alone; `whole`: the frame is at its end.
+    fn choose_again(&mut self, gl: &Gl, whole: bool) {
+        self.proving.now = Now::Plain;
+        self.means.strategy = self.chosen();
+        let full = |atlas: &Atlas| atlas.tiles.grid.is_full();
+        if whole && self.proving.atlas.as_ref().is_some_and(full) {
+            self.hand_over(gl);
+        }
+        self.put_other(gl);
+    }
+
+    fn put_other(&mut self, gl: &Gl) {
+        self.change_places();
+        self.comfort.leave_pictures();
+        self.apply_buffers(gl);
+    }
+
+    /// The window, or what our textures are called, changes: the other atlas has to be another one. The caller binds framebuffers.
+    pub(super) fn drop_proof(&mut self, gl: &Gl) {
+        if self.proving.replays() {
+            self.choose_again(gl, false);
+        }
+        if self.proving.now == Now::Proved {
+            self.proving.refuse(CHANGED);
+        }
+        if let Some(other) = self.proving.atlas.take() {
+            other.delete(gl);
+        }
+    }
+}
