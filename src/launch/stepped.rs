@@ -32,7 +32,7 @@ impl Stop {
         signals::catch().map(Self)
     }
 
-    fn check(&mut self) -> Result<(), LaunchError> {
+    pub(super) fn check(&mut self) -> Result<(), LaunchError> {
         match self.0.pending().next() {
             Some(signal) => Err(LaunchError::Interrupted(signal)),
             None => Ok(()),
