@@ -161,9 +161,10 @@ static void usage(void)
            "  --time                 print the median milliseconds per frame on stderr\n"
            "  --bench                read numbers of frames from stdin, draw so many, print the times of each\n",
            program, api->name);
-    for (const struct demo_option *o = demo_options; o->name; o++)
-        printf("  %s%s%*s%s\n", o->name, o->takes_number ? " N" : "",
-               (int)(23 - strlen(o->name) - (o->takes_number ? 2 : 0)), "", o->help);
+    for (const struct demo_option *o = demo_options; o->name; o++) {
+        const char *value = (const char *[]){"", " N", " NAME"}[o->takes];
+        printf("  %s%s%*s%s\n", o->name, value, (int)(23 - strlen(o->name) - strlen(value)), "", o->help);
+    }
     exit(0);
 }
 
@@ -198,10 +199,13 @@ static int own_option(const char *name, const char *value)
     for (const struct demo_option *o = demo_options; o->name; o++) {
         if (strcmp(o->name, name))
             continue;
-        if (o->takes_number && !value)
+        if (o->takes && !value)
             demo_fail(2, "%s needs a value", name);
-        *o->value = o->takes_number ? integer(name, value, 1) : 1;
-        return 1 + o->takes_number;
+        if (o->takes == DEMO_WORD)
+            *(const char **)o->value = value;
+        else
+            *(int *)o->value = o->takes ? integer(name, value, 1) : 1;
+        return o->takes ? 2 : 1;
     }
     return 0;
 }

@@ -15,8 +15,8 @@
 struct demo_option {
     const char *name; /* "--vbo"; the list ends with a null name */
     const char *help;
-    int *value; /* set to 1, or to the number that follows the option if takes_number */
-    int takes_number;
+    void *value; /* an int, set to 1 or to the number that follows the option; a const char *, the word that follows it */
+    enum { DEMO_NOTHING, DEMO_NUMBER, DEMO_WORD } takes;
 };
 extern const struct demo_option demo_options[];
 #define DEMO_NO_OPTIONS const struct demo_option demo_options[] = {{0}}

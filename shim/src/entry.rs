@@ -539,6 +539,7 @@ pub(crate) static ENTRY: [AtomicPtr<()>; 1256] = [
     AtomicPtr::new(first_glDisableiNV as *mut ()),
     AtomicPtr::new(first_glDisableiOES as *mut ()),
     AtomicPtr::new(first_glDepthMask as *mut ()),
+    AtomicPtr::new(first_glDepthFunc as *mut ()),
     AtomicPtr::new(first_glDepthRange as *mut ()),
     AtomicPtr::new(first_glDepthRangef as *mut ()),
     AtomicPtr::new(first_glDepthRangefOES as *mut ()),
@@ -728,7 +729,6 @@ pub(crate) static ENTRY: [AtomicPtr<()>; 1256] = [
     AtomicPtr::new(first_glColorMaskiEXT as *mut ()),
     AtomicPtr::new(first_glColorMaskiOES as *mut ()),
     AtomicPtr::new(first_glCullFace as *mut ()),
-    AtomicPtr::new(first_glDepthFunc as *mut ()),
     AtomicPtr::new(first_glDepthBoundsEXT as *mut ()),
     AtomicPtr::new(first_glFrontFace as *mut ()),
     AtomicPtr::new(first_glIndexMask as *mut ()),
@@ -1799,6 +1799,7 @@ pub(crate) static HOOK: [Option<crate::Address>; 1256] = [
     Some(crate::Address(hook_glDisableiNV as *const ())),
     Some(crate::Address(hook_glDisableiOES as *const ())),
     Some(crate::Address(hook_glDepthMask as *const ())),
+    Some(crate::Address(hook_glDepthFunc as *const ())),
     Some(crate::Address(hook_glDepthRange as *const ())),
     Some(crate::Address(hook_glDepthRangef as *const ())),
     Some(crate::Address(hook_glDepthRangefOES as *const ())),
@@ -1988,7 +1989,6 @@ pub(crate) static HOOK: [Option<crate::Address>; 1256] = [
     Some(crate::Address(hook_glColorMaskiEXT as *const ())),
     Some(crate::Address(hook_glColorMaskiOES as *const ())),
     Some(crate::Address(hook_glCullFace as *const ())),
-    Some(crate::Address(hook_glDepthFunc as *const ())),
     Some(crate::Address(hook_glDepthBoundsEXT as *const ())),
     Some(crate::Address(hook_glFrontFace as *const ())),
     Some(crate::Address(hook_glIndexMask as *const ())),
@@ -2550,9 +2550,9 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1217] = [
     (b"eglSwapBuffersWithDamageEXT", 1199, crate::Address(eglSwapBuffersWithDamageEXT as *const ())),
     (b"eglSwapBuffersWithDamageKHR", 1198, crate::Address(eglSwapBuffersWithDamageKHR as *const ())),
     (b"glAccum", 956, crate::Address(glAccum as *const ())),
-    (b"glActiveTexture", 536, crate::Address(glActiveTexture as *const ())),
-    (b"glActiveTextureARB", 537, crate::Address(glActiveTextureARB as *const ())),
-    (b"glAlphaFunc", 675, crate::Address(glAlphaFunc as *const ())),
+    (b"glActiveTexture", 537, crate::Address(glActiveTexture as *const ())),
+    (b"glActiveTextureARB", 538, crate::Address(glActiveTextureARB as *const ())),
+    (b"glAlphaFunc", 676, crate::Address(glAlphaFunc as *const ())),
     (b"glArrayElement", 260, crate::Address(glArrayElement as *const ())),
     (b"glArrayElementEXT", 261, crate::Address(glArrayElementEXT as *const ())),
     (b"glBegin", 454, crate::Address(glBegin as *const ())),
@@ -2560,53 +2560,53 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1217] = [
     (b"glBeginConditionalRenderNV", 1060, crate::Address(glBeginConditionalRenderNV as *const ())),
     (b"glBeginQuery", 1064, crate::Address(glBeginQuery as *const ())),
     (b"glBeginQueryARB", 1065, crate::Address(glBeginQueryARB as *const ())),
-    (b"glBeginTransformFeedback", 669, crate::Address(glBeginTransformFeedback as *const ())),
-    (b"glBeginTransformFeedbackEXT", 670, crate::Address(glBeginTransformFeedbackEXT as *const ())),
-    (b"glBeginTransformFeedbackNV", 671, crate::Address(glBeginTransformFeedbackNV as *const ())),
+    (b"glBeginTransformFeedback", 670, crate::Address(glBeginTransformFeedback as *const ())),
+    (b"glBeginTransformFeedbackEXT", 671, crate::Address(glBeginTransformFeedbackEXT as *const ())),
+    (b"glBeginTransformFeedbackNV", 672, crate::Address(glBeginTransformFeedbackNV as *const ())),
     (b"glBindBuffer", 1146, crate::Address(glBindBuffer as *const ())),
     (b"glBindBufferARB", 1147, crate::Address(glBindBufferARB as *const ())),
     (b"glBindFramebuffer", 973, crate::Address(glBindFramebuffer as *const ())),
     (b"glBindFramebufferEXT", 974, crate::Address(glBindFramebufferEXT as *const ())),
-    (b"glBindMultiTextureEXT", 540, crate::Address(glBindMultiTextureEXT as *const ())),
-    (b"glBindProgramARB", 586, crate::Address(glBindProgramARB as *const ())),
-    (b"glBindProgramNV", 587, crate::Address(glBindProgramNV as *const ())),
-    (b"glBindProgramPipeline", 593, crate::Address(glBindProgramPipeline as *const ())),
+    (b"glBindMultiTextureEXT", 541, crate::Address(glBindMultiTextureEXT as *const ())),
+    (b"glBindProgramARB", 587, crate::Address(glBindProgramARB as *const ())),
+    (b"glBindProgramNV", 588, crate::Address(glBindProgramNV as *const ())),
+    (b"glBindProgramPipeline", 594, crate::Address(glBindProgramPipeline as *const ())),
     (b"glBindRenderbuffer", 1138, crate::Address(glBindRenderbuffer as *const ())),
     (b"glBindTexture", 967, crate::Address(glBindTexture as *const ())),
     (b"glBindTextureEXT", 968, crate::Address(glBindTextureEXT as *const ())),
-    (b"glBindTextureUnit", 539, crate::Address(glBindTextureUnit as *const ())),
-    (b"glBindTextures", 538, crate::Address(glBindTextures as *const ())),
+    (b"glBindTextureUnit", 540, crate::Address(glBindTextureUnit as *const ())),
+    (b"glBindTextures", 539, crate::Address(glBindTextures as *const ())),
     (b"glBitmap", 957, crate::Address(glBitmap as *const ())),
-    (b"glBlendColor", 704, crate::Address(glBlendColor as *const ())),
-    (b"glBlendColorEXT", 705, crate::Address(glBlendColorEXT as *const ())),
-    (b"glBlendEquation", 690, crate::Address(glBlendEquation as *const ())),
-    (b"glBlendEquationEXT", 691, crate::Address(glBlendEquationEXT as *const ())),
-    (b"glBlendEquationIndexedAMD", 700, crate::Address(glBlendEquationIndexedAMD as *const ())),
-    (b"glBlendEquationSeparate", 692, crate::Address(glBlendEquationSeparate as *const ())),
-    (b"glBlendEquationSeparateEXT", 693, crate::Address(glBlendEquationSeparateEXT as *const ())),
-    (b"glBlendEquationSeparateIndexedAMD", 695, crate::Address(glBlendEquationSeparateIndexedAMD as *const ())),
-    (b"glBlendEquationSeparatei", 694, crate::Address(glBlendEquationSeparatei as *const ())),
-    (b"glBlendEquationSeparateiARB", 696, crate::Address(glBlendEquationSeparateiARB as *const ())),
-    (b"glBlendEquationSeparateiEXT", 697, crate::Address(glBlendEquationSeparateiEXT as *const ())),
-    (b"glBlendEquationSeparateiOES", 698, crate::Address(glBlendEquationSeparateiOES as *const ())),
-    (b"glBlendEquationi", 699, crate::Address(glBlendEquationi as *const ())),
-    (b"glBlendEquationiARB", 701, crate::Address(glBlendEquationiARB as *const ())),
-    (b"glBlendEquationiEXT", 702, crate::Address(glBlendEquationiEXT as *const ())),
-    (b"glBlendEquationiOES", 703, crate::Address(glBlendEquationiOES as *const ())),
-    (b"glBlendFunc", 676, crate::Address(glBlendFunc as *const ())),
-    (b"glBlendFuncIndexedAMD", 686, crate::Address(glBlendFuncIndexedAMD as *const ())),
-    (b"glBlendFuncSeparate", 677, crate::Address(glBlendFuncSeparate as *const ())),
-    (b"glBlendFuncSeparateEXT", 678, crate::Address(glBlendFuncSeparateEXT as *const ())),
-    (b"glBlendFuncSeparateINGR", 679, crate::Address(glBlendFuncSeparateINGR as *const ())),
-    (b"glBlendFuncSeparateIndexedAMD", 681, crate::Address(glBlendFuncSeparateIndexedAMD as *const ())),
-    (b"glBlendFuncSeparatei", 680, crate::Address(glBlendFuncSeparatei as *const ())),
-    (b"glBlendFuncSeparateiARB", 682, crate::Address(glBlendFuncSeparateiARB as *const ())),
-    (b"glBlendFuncSeparateiEXT", 683, crate::Address(glBlendFuncSeparateiEXT as *const ())),
-    (b"glBlendFuncSeparateiOES", 684, crate::Address(glBlendFuncSeparateiOES as *const ())),
-    (b"glBlendFunci", 685, crate::Address(glBlendFunci as *const ())),
-    (b"glBlendFunciARB", 687, crate::Address(glBlendFunciARB as *const ())),
-    (b"glBlendFunciEXT", 688, crate::Address(glBlendFunciEXT as *const ())),
-    (b"glBlendFunciOES", 689, crate::Address(glBlendFunciOES as *const ())),
+    (b"glBlendColor", 705, crate::Address(glBlendColor as *const ())),
+    (b"glBlendColorEXT", 706, crate::Address(glBlendColorEXT as *const ())),
+    (b"glBlendEquation", 691, crate::Address(glBlendEquation as *const ())),
+    (b"glBlendEquationEXT", 692, crate::Address(glBlendEquationEXT as *const ())),
+    (b"glBlendEquationIndexedAMD", 701, crate::Address(glBlendEquationIndexedAMD as *const ())),
+    (b"glBlendEquationSeparate", 693, crate::Address(glBlendEquationSeparate as *const ())),
+    (b"glBlendEquationSeparateEXT", 694, crate::Address(glBlendEquationSeparateEXT as *const ())),
+    (b"glBlendEquationSeparateIndexedAMD", 696, crate::Address(glBlendEquationSeparateIndexedAMD as *const ())),
+    (b"glBlendEquationSeparatei", 695, crate::Address(glBlendEquationSeparatei as *const ())),
+    (b"glBlendEquationSeparateiARB", 697, crate::Address(glBlendEquationSeparateiARB as *const ())),
+    (b"glBlendEquationSeparateiEXT", 698, crate::Address(glBlendEquationSeparateiEXT as *const ())),
+    (b"glBlendEquationSeparateiOES", 699, crate::Address(glBlendEquationSeparateiOES as *const ())),
+    (b"glBlendEquationi", 700, crate::Address(glBlendEquationi as *const ())),
+    (b"glBlendEquationiARB", 702, crate::Address(glBlendEquationiARB as *const ())),
+    (b"glBlendEquationiEXT", 703, crate::Address(glBlendEquationiEXT as *const ())),
+    (b"glBlendEquationiOES", 704, crate::Address(glBlendEquationiOES as *const ())),
+    (b"glBlendFunc", 677, crate::Address(glBlendFunc as *const ())),
+    (b"glBlendFuncIndexedAMD", 687, crate::Address(glBlendFuncIndexedAMD as *const ())),
+    (b"glBlendFuncSeparate", 678, crate::Address(glBlendFuncSeparate as *const ())),
+    (b"glBlendFuncSeparateEXT", 679, crate::Address(glBlendFuncSeparateEXT as *const ())),
+    (b"glBlendFuncSeparateINGR", 680, crate::Address(glBlendFuncSeparateINGR as *const ())),
+    (b"glBlendFuncSeparateIndexedAMD", 682, crate::Address(glBlendFuncSeparateIndexedAMD as *const ())),
+    (b"glBlendFuncSeparatei", 681, crate::Address(glBlendFuncSeparatei as *const ())),
+    (b"glBlendFuncSeparateiARB", 683, crate::Address(glBlendFuncSeparateiARB as *const ())),
+    (b"glBlendFuncSeparateiEXT", 684, crate::Address(glBlendFuncSeparateiEXT as *const ())),
+    (b"glBlendFuncSeparateiOES", 685, crate::Address(glBlendFuncSeparateiOES as *const ())),
+    (b"glBlendFunci", 686, crate::Address(glBlendFunci as *const ())),
+    (b"glBlendFunciARB", 688, crate::Address(glBlendFunciARB as *const ())),
+    (b"glBlendFunciEXT", 689, crate::Address(glBlendFunciEXT as *const ())),
+    (b"glBlendFunciOES", 690, crate::Address(glBlendFunciOES as *const ())),
     (b"glBlitFramebuffer", 989, crate::Address(glBlitFramebuffer as *const ())),
     (b"glBlitFramebufferEXT", 990, crate::Address(glBlitFramebufferEXT as *const ())),
     (b"glBlitFramebufferNV", 991, crate::Address(glBlitFramebufferNV as *const ())),
@@ -2619,29 +2619,29 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1217] = [
     (b"glCallLists", 963, crate::Address(glCallLists as *const ())),
     (b"glCheckFramebufferStatus", 1021, crate::Address(glCheckFramebufferStatus as *const ())),
     (b"glCheckFramebufferStatusEXT", 1022, crate::Address(glCheckFramebufferStatusEXT as *const ())),
-    (b"glClampColor", 589, crate::Address(glClampColor as *const ())),
-    (b"glClampColorARB", 590, crate::Address(glClampColorARB as *const ())),
+    (b"glClampColor", 590, crate::Address(glClampColor as *const ())),
+    (b"glClampColorARB", 591, crate::Address(glClampColorARB as *const ())),
     (b"glClear", 890, crate::Address(glClear as *const ())),
-    (b"glClearAccum", 706, crate::Address(glClearAccum as *const ())),
+    (b"glClearAccum", 707, crate::Address(glClearAccum as *const ())),
     (b"glClearBufferfi", 891, crate::Address(glClearBufferfi as *const ())),
     (b"glClearBufferfv", 892, crate::Address(glClearBufferfv as *const ())),
     (b"glClearBufferiv", 893, crate::Address(glClearBufferiv as *const ())),
     (b"glClearBufferuiv", 894, crate::Address(glClearBufferuiv as *const ())),
-    (b"glClearColor", 707, crate::Address(glClearColor as *const ())),
-    (b"glClearDepth", 708, crate::Address(glClearDepth as *const ())),
-    (b"glClearDepthf", 709, crate::Address(glClearDepthf as *const ())),
-    (b"glClearDepthfOES", 710, crate::Address(glClearDepthfOES as *const ())),
-    (b"glClearIndex", 711, crate::Address(glClearIndex as *const ())),
+    (b"glClearColor", 708, crate::Address(glClearColor as *const ())),
+    (b"glClearDepth", 709, crate::Address(glClearDepth as *const ())),
+    (b"glClearDepthf", 710, crate::Address(glClearDepthf as *const ())),
+    (b"glClearDepthfOES", 711, crate::Address(glClearDepthfOES as *const ())),
+    (b"glClearIndex", 712, crate::Address(glClearIndex as *const ())),
     (b"glClearNamedFramebufferfi", 996, crate::Address(glClearNamedFramebufferfi as *const ())),
     (b"glClearNamedFramebufferfv", 993, crate::Address(glClearNamedFramebufferfv as *const ())),
     (b"glClearNamedFramebufferiv", 994, crate::Address(glClearNamedFramebufferiv as *const ())),
     (b"glClearNamedFramebufferuiv", 995, crate::Address(glClearNamedFramebufferuiv as *const ())),
-    (b"glClearStencil", 712, crate::Address(glClearStencil as *const ())),
+    (b"glClearStencil", 713, crate::Address(glClearStencil as *const ())),
     (b"glClientActiveTexture", 1160, crate::Address(glClientActiveTexture as *const ())),
     (b"glClientActiveTextureARB", 1161, crate::Address(glClientActiveTextureARB as *const ())),
-    (b"glClipControl", 584, crate::Address(glClipControl as *const ())),
-    (b"glClipControlEXT", 585, crate::Address(glClipControlEXT as *const ())),
-    (b"glClipPlane", 713, crate::Address(glClipPlane as *const ())),
+    (b"glClipControl", 585, crate::Address(glClipControl as *const ())),
+    (b"glClipControlEXT", 586, crate::Address(glClipControlEXT as *const ())),
+    (b"glClipPlane", 714, crate::Address(glClipPlane as *const ())),
     (b"glColor3b", 30, crate::Address(glColor3b as *const ())),
     (b"glColor3bv", 31, crate::Address(glColor3bv as *const ())),
     (b"glColor3d", 32, crate::Address(glColor3d as *const ())),
@@ -2678,12 +2678,12 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1217] = [
     (b"glColor4uiv", 59, crate::Address(glColor4uiv as *const ())),
     (b"glColor4us", 60, crate::Address(glColor4us as *const ())),
     (b"glColor4usv", 61, crate::Address(glColor4usv as *const ())),
-    (b"glColorMask", 714, crate::Address(glColorMask as *const ())),
-    (b"glColorMaskIndexedEXT", 716, crate::Address(glColorMaskIndexedEXT as *const ())),
-    (b"glColorMaski", 715, crate::Address(glColorMaski as *const ())),
-    (b"glColorMaskiEXT", 717, crate::Address(glColorMaskiEXT as *const ())),
-    (b"glColorMaskiOES", 718, crate::Address(glColorMaskiOES as *const ())),
-    (b"glColorMaterial", 549, crate::Address(glColorMaterial as *const ())),
+    (b"glColorMask", 715, crate::Address(glColorMask as *const ())),
+    (b"glColorMaskIndexedEXT", 717, crate::Address(glColorMaskIndexedEXT as *const ())),
+    (b"glColorMaski", 716, crate::Address(glColorMaski as *const ())),
+    (b"glColorMaskiEXT", 718, crate::Address(glColorMaskiEXT as *const ())),
+    (b"glColorMaskiOES", 719, crate::Address(glColorMaskiOES as *const ())),
+    (b"glColorMaterial", 550, crate::Address(glColorMaterial as *const ())),
     (b"glColorP3ui", 440, crate::Address(glColorP3ui as *const ())),
     (b"glColorP3uiv", 441, crate::Address(glColorP3uiv as *const ())),
     (b"glColorP4ui", 442, crate::Address(glColorP4ui as *const ())),
@@ -2725,7 +2725,7 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1217] = [
     (b"glCopyTextureSubImage1D", 1043, crate::Address(glCopyTextureSubImage1D as *const ())),
     (b"glCopyTextureSubImage2D", 1044, crate::Address(glCopyTextureSubImage2D as *const ())),
     (b"glCopyTextureSubImage3D", 1045, crate::Address(glCopyTextureSubImage3D as *const ())),
-    (b"glCullFace", 719, crate::Address(glCullFace as *const ())),
+    (b"glCullFace", 720, crate::Address(glCullFace as *const ())),
     (b"glDeleteBuffers", 1152, crate::Address(glDeleteBuffers as *const ())),
     (b"glDeleteBuffersARB", 1153, crate::Address(glDeleteBuffersARB as *const ())),
     (b"glDeleteFramebuffers", 975, crate::Address(glDeleteFramebuffers as *const ())),
@@ -2737,13 +2737,13 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1217] = [
     (b"glDeleteRenderbuffersEXT", 1145, crate::Address(glDeleteRenderbuffersEXT as *const ())),
     (b"glDeleteTextures", 969, crate::Address(glDeleteTextures as *const ())),
     (b"glDepthBoundsEXT", 721, crate::Address(glDepthBoundsEXT as *const ())),
-    (b"glDepthFunc", 720, crate::Address(glDepthFunc as *const ())),
+    (b"glDepthFunc", 531, crate::Address(glDepthFunc as *const ())),
     (b"glDepthMask", 530, crate::Address(glDepthMask as *const ())),
-    (b"glDepthRange", 531, crate::Address(glDepthRange as *const ())),
-    (b"glDepthRangeArrayv", 535, crate::Address(glDepthRangeArrayv as *const ())),
-    (b"glDepthRangeIndexed", 534, crate::Address(glDepthRangeIndexed as *const ())),
-    (b"glDepthRangef", 532, crate::Address(glDepthRangef as *const ())),
-    (b"glDepthRangefOES", 533, crate::Address(glDepthRangefOES as *const ())),
+    (b"glDepthRange", 532, crate::Address(glDepthRange as *const ())),
+    (b"glDepthRangeArrayv", 536, crate::Address(glDepthRangeArrayv as *const ())),
+    (b"glDepthRangeIndexed", 535, crate::Address(glDepthRangeIndexed as *const ())),
+    (b"glDepthRangef", 533, crate::Address(glDepthRangef as *const ())),
+    (b"glDepthRangefOES", 534, crate::Address(glDepthRangefOES as *const ())),
     (b"glDisable", 519, crate::Address(glDisable as *const ())),
     (b"glDisableClientState", 1159, crate::Address(glDisableClientState as *const ())),
     (b"glDisableIndexedEXT", 526, crate::Address(glDisableIndexedEXT as *const ())),
@@ -2818,9 +2818,9 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1217] = [
     (b"glEndList", 961, crate::Address(glEndList as *const ())),
     (b"glEndQuery", 1066, crate::Address(glEndQuery as *const ())),
     (b"glEndQueryARB", 1067, crate::Address(glEndQueryARB as *const ())),
-    (b"glEndTransformFeedback", 672, crate::Address(glEndTransformFeedback as *const ())),
-    (b"glEndTransformFeedbackEXT", 673, crate::Address(glEndTransformFeedbackEXT as *const ())),
-    (b"glEndTransformFeedbackNV", 674, crate::Address(glEndTransformFeedbackNV as *const ())),
+    (b"glEndTransformFeedback", 673, crate::Address(glEndTransformFeedback as *const ())),
+    (b"glEndTransformFeedbackEXT", 674, crate::Address(glEndTransformFeedbackEXT as *const ())),
+    (b"glEndTransformFeedbackNV", 675, crate::Address(glEndTransformFeedbackNV as *const ())),
     (b"glEvalCoord1d", 250, crate::Address(glEvalCoord1d as *const ())),
     (b"glEvalCoord1dv", 251, crate::Address(glEvalCoord1dv as *const ())),
     (b"glEvalCoord1f", 252, crate::Address(glEvalCoord1f as *const ())),
@@ -2848,10 +2848,10 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1217] = [
     (b"glFogCoordfvEXT", 231, crate::Address(glFogCoordfvEXT as *const ())),
     (b"glFogCoordhNV", 232, crate::Address(glFogCoordhNV as *const ())),
     (b"glFogCoordhvNV", 233, crate::Address(glFogCoordhvNV as *const ())),
-    (b"glFogf", 556, crate::Address(glFogf as *const ())),
-    (b"glFogfv", 557, crate::Address(glFogfv as *const ())),
-    (b"glFogi", 558, crate::Address(glFogi as *const ())),
-    (b"glFogiv", 559, crate::Address(glFogiv as *const ())),
+    (b"glFogf", 557, crate::Address(glFogf as *const ())),
+    (b"glFogfv", 558, crate::Address(glFogfv as *const ())),
+    (b"glFogi", 559, crate::Address(glFogi as *const ())),
+    (b"glFogiv", 560, crate::Address(glFogiv as *const ())),
     (b"glFramebufferDrawBufferEXT", 986, crate::Address(glFramebufferDrawBufferEXT as *const ())),
     (b"glFramebufferDrawBuffersEXT", 987, crate::Address(glFramebufferDrawBuffersEXT as *const ())),
     (b"glFramebufferParameteri", 1023, crate::Address(glFramebufferParameteri as *const ())),
@@ -2947,7 +2947,7 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1217] = [
     (b"glGetVertexAttribivARB", 1126, crate::Address(glGetVertexAttribivARB as *const ())),
     (b"glGetVertexAttribivNV", 1127, crate::Address(glGetVertexAttribivNV as *const ())),
     (b"glGetnTexImage", 1109, crate::Address(glGetnTexImage as *const ())),
-    (b"glHint", 580, crate::Address(glHint as *const ())),
+    (b"glHint", 581, crate::Address(glHint as *const ())),
     (b"glIndexMask", 723, crate::Address(glIndexMask as *const ())),
     (b"glIndexPointer", 1171, crate::Address(glIndexPointer as *const ())),
     (b"glIndexd", 236, crate::Address(glIndexd as *const ())),
@@ -2974,16 +2974,16 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1217] = [
     (b"glIsFramebufferEXT", 972, crate::Address(glIsFramebufferEXT as *const ())),
     (b"glIsList", 966, crate::Address(glIsList as *const ())),
     (b"glIsTexture", 970, crate::Address(glIsTexture as *const ())),
-    (b"glLightModelf", 545, crate::Address(glLightModelf as *const ())),
-    (b"glLightModelfv", 546, crate::Address(glLightModelfv as *const ())),
-    (b"glLightModeli", 547, crate::Address(glLightModeli as *const ())),
-    (b"glLightModeliv", 548, crate::Address(glLightModeliv as *const ())),
-    (b"glLightf", 541, crate::Address(glLightf as *const ())),
-    (b"glLightfv", 542, crate::Address(glLightfv as *const ())),
-    (b"glLighti", 543, crate::Address(glLighti as *const ())),
-    (b"glLightiv", 544, crate::Address(glLightiv as *const ())),
+    (b"glLightModelf", 546, crate::Address(glLightModelf as *const ())),
+    (b"glLightModelfv", 547, crate::Address(glLightModelfv as *const ())),
+    (b"glLightModeli", 548, crate::Address(glLightModeli as *const ())),
+    (b"glLightModeliv", 549, crate::Address(glLightModeliv as *const ())),
+    (b"glLightf", 542, crate::Address(glLightf as *const ())),
+    (b"glLightfv", 543, crate::Address(glLightfv as *const ())),
+    (b"glLighti", 544, crate::Address(glLighti as *const ())),
+    (b"glLightiv", 545, crate::Address(glLightiv as *const ())),
     (b"glLineStipple", 729, crate::Address(glLineStipple as *const ())),
-    (b"glLineWidth", 581, crate::Address(glLineWidth as *const ())),
+    (b"glLineWidth", 582, crate::Address(glLineWidth as *const ())),
     (b"glListBase", 730, crate::Address(glListBase as *const ())),
     (b"glLoadIdentity", 457, crate::Address(glLoadIdentity as *const ())),
     (b"glLoadMatrixd", 458, crate::Address(glLoadMatrixd as *const ())),
@@ -3155,26 +3155,26 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1217] = [
     (b"glPixelTransferf", 743, crate::Address(glPixelTransferf as *const ())),
     (b"glPixelTransferi", 744, crate::Address(glPixelTransferi as *const ())),
     (b"glPixelZoom", 745, crate::Address(glPixelZoom as *const ())),
-    (b"glPointParameterf", 560, crate::Address(glPointParameterf as *const ())),
-    (b"glPointParameterfARB", 561, crate::Address(glPointParameterfARB as *const ())),
-    (b"glPointParameterfEXT", 562, crate::Address(glPointParameterfEXT as *const ())),
-    (b"glPointParameterfSGIS", 563, crate::Address(glPointParameterfSGIS as *const ())),
-    (b"glPointParameterfv", 564, crate::Address(glPointParameterfv as *const ())),
-    (b"glPointParameterfvARB", 565, crate::Address(glPointParameterfvARB as *const ())),
-    (b"glPointParameterfvEXT", 566, crate::Address(glPointParameterfvEXT as *const ())),
-    (b"glPointParameterfvSGIS", 567, crate::Address(glPointParameterfvSGIS as *const ())),
-    (b"glPointParameteri", 568, crate::Address(glPointParameteri as *const ())),
-    (b"glPointParameteriNV", 569, crate::Address(glPointParameteriNV as *const ())),
-    (b"glPointParameteriv", 570, crate::Address(glPointParameteriv as *const ())),
-    (b"glPointParameterivNV", 571, crate::Address(glPointParameterivNV as *const ())),
-    (b"glPointSize", 572, crate::Address(glPointSize as *const ())),
-    (b"glPolygonMode", 574, crate::Address(glPolygonMode as *const ())),
-    (b"glPolygonModeNV", 575, crate::Address(glPolygonModeNV as *const ())),
+    (b"glPointParameterf", 561, crate::Address(glPointParameterf as *const ())),
+    (b"glPointParameterfARB", 562, crate::Address(glPointParameterfARB as *const ())),
+    (b"glPointParameterfEXT", 563, crate::Address(glPointParameterfEXT as *const ())),
+    (b"glPointParameterfSGIS", 564, crate::Address(glPointParameterfSGIS as *const ())),
+    (b"glPointParameterfv", 565, crate::Address(glPointParameterfv as *const ())),
+    (b"glPointParameterfvARB", 566, crate::Address(glPointParameterfvARB as *const ())),
+    (b"glPointParameterfvEXT", 567, crate::Address(glPointParameterfvEXT as *const ())),
+    (b"glPointParameterfvSGIS", 568, crate::Address(glPointParameterfvSGIS as *const ())),
+    (b"glPointParameteri", 569, crate::Address(glPointParameteri as *const ())),
+    (b"glPointParameteriNV", 570, crate::Address(glPointParameteriNV as *const ())),
+    (b"glPointParameteriv", 571, crate::Address(glPointParameteriv as *const ())),
+    (b"glPointParameterivNV", 572, crate::Address(glPointParameterivNV as *const ())),
+    (b"glPointSize", 573, crate::Address(glPointSize as *const ())),
+    (b"glPolygonMode", 575, crate::Address(glPolygonMode as *const ())),
+    (b"glPolygonModeNV", 576, crate::Address(glPolygonModeNV as *const ())),
     (b"glPolygonOffset", 746, crate::Address(glPolygonOffset as *const ())),
     (b"glPolygonOffsetClamp", 747, crate::Address(glPolygonOffsetClamp as *const ())),
     (b"glPolygonOffsetClampEXT", 748, crate::Address(glPolygonOffsetClampEXT as *const ())),
     (b"glPolygonStipple", 749, crate::Address(glPolygonStipple as *const ())),
-    (b"glPopAttrib", 595, crate::Address(glPopAttrib as *const ())),
+    (b"glPopAttrib", 596, crate::Address(glPopAttrib as *const ())),
     (b"glPopClientAttrib", 1157, crate::Address(glPopClientAttrib as *const ())),
     (b"glPopMatrix", 479, crate::Address(glPopMatrix as *const ())),
     (b"glPopName", 727, crate::Address(glPopName as *const ())),
@@ -3189,36 +3189,36 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1217] = [
     (b"glProgramLocalParameter4dvARB", 802, crate::Address(glProgramLocalParameter4dvARB as *const ())),
     (b"glProgramLocalParameter4fARB", 803, crate::Address(glProgramLocalParameter4fARB as *const ())),
     (b"glProgramLocalParameter4fvARB", 804, crate::Address(glProgramLocalParameter4fvARB as *const ())),
-    (b"glProvokingVertex", 582, crate::Address(glProvokingVertex as *const ())),
-    (b"glProvokingVertexEXT", 583, crate::Address(glProvokingVertexEXT as *const ())),
-    (b"glPushAttrib", 594, crate::Address(glPushAttrib as *const ())),
+    (b"glProvokingVertex", 583, crate::Address(glProvokingVertex as *const ())),
+    (b"glProvokingVertexEXT", 584, crate::Address(glProvokingVertexEXT as *const ())),
+    (b"glPushAttrib", 595, crate::Address(glPushAttrib as *const ())),
     (b"glPushClientAttrib", 1156, crate::Address(glPushClientAttrib as *const ())),
     (b"glPushMatrix", 478, crate::Address(glPushMatrix as *const ())),
     (b"glPushName", 726, crate::Address(glPushName as *const ())),
-    (b"glRasterPos2d", 596, crate::Address(glRasterPos2d as *const ())),
-    (b"glRasterPos2dv", 597, crate::Address(glRasterPos2dv as *const ())),
-    (b"glRasterPos2f", 598, crate::Address(glRasterPos2f as *const ())),
-    (b"glRasterPos2fv", 599, crate::Address(glRasterPos2fv as *const ())),
-    (b"glRasterPos2i", 600, crate::Address(glRasterPos2i as *const ())),
-    (b"glRasterPos2iv", 601, crate::Address(glRasterPos2iv as *const ())),
-    (b"glRasterPos2s", 602, crate::Address(glRasterPos2s as *const ())),
-    (b"glRasterPos2sv", 603, crate::Address(glRasterPos2sv as *const ())),
-    (b"glRasterPos3d", 604, crate::Address(glRasterPos3d as *const ())),
-    (b"glRasterPos3dv", 605, crate::Address(glRasterPos3dv as *const ())),
-    (b"glRasterPos3f", 606, crate::Address(glRasterPos3f as *const ())),
-    (b"glRasterPos3fv", 607, crate::Address(glRasterPos3fv as *const ())),
-    (b"glRasterPos3i", 608, crate::Address(glRasterPos3i as *const ())),
-    (b"glRasterPos3iv", 609, crate::Address(glRasterPos3iv as *const ())),
-    (b"glRasterPos3s", 610, crate::Address(glRasterPos3s as *const ())),
-    (b"glRasterPos3sv", 611, crate::Address(glRasterPos3sv as *const ())),
-    (b"glRasterPos4d", 612, crate::Address(glRasterPos4d as *const ())),
-    (b"glRasterPos4dv", 613, crate::Address(glRasterPos4dv as *const ())),
-    (b"glRasterPos4f", 614, crate::Address(glRasterPos4f as *const ())),
-    (b"glRasterPos4fv", 615, crate::Address(glRasterPos4fv as *const ())),
-    (b"glRasterPos4i", 616, crate::Address(glRasterPos4i as *const ())),
-    (b"glRasterPos4iv", 617, crate::Address(glRasterPos4iv as *const ())),
-    (b"glRasterPos4s", 618, crate::Address(glRasterPos4s as *const ())),
-    (b"glRasterPos4sv", 619, crate::Address(glRasterPos4sv as *const ())),
+    (b"glRasterPos2d", 597, crate::Address(glRasterPos2d as *const ())),
+    (b"glRasterPos2dv", 598, crate::Address(glRasterPos2dv as *const ())),
+    (b"glRasterPos2f", 599, crate::Address(glRasterPos2f as *const ())),
+    (b"glRasterPos2fv", 600, crate::Address(glRasterPos2fv as *const ())),
+    (b"glRasterPos2i", 601, crate::Address(glRasterPos2i as *const ())),
+    (b"glRasterPos2iv", 602, crate::Address(glRasterPos2iv as *const ())),
+    (b"glRasterPos2s", 603, crate::Address(glRasterPos2s as *const ())),
+    (b"glRasterPos2sv", 604, crate::Address(glRasterPos2sv as *const ())),
+    (b"glRasterPos3d", 605, crate::Address(glRasterPos3d as *const ())),
+    (b"glRasterPos3dv", 606, crate::Address(glRasterPos3dv as *const ())),
+    (b"glRasterPos3f", 607, crate::Address(glRasterPos3f as *const ())),
+    (b"glRasterPos3fv", 608, crate::Address(glRasterPos3fv as *const ())),
+    (b"glRasterPos3i", 609, crate::Address(glRasterPos3i as *const ())),
+    (b"glRasterPos3iv", 610, crate::Address(glRasterPos3iv as *const ())),
+    (b"glRasterPos3s", 611, crate::Address(glRasterPos3s as *const ())),
+    (b"glRasterPos3sv", 612, crate::Address(glRasterPos3sv as *const ())),
+    (b"glRasterPos4d", 613, crate::Address(glRasterPos4d as *const ())),
+    (b"glRasterPos4dv", 614, crate::Address(glRasterPos4dv as *const ())),
+    (b"glRasterPos4f", 615, crate::Address(glRasterPos4f as *const ())),
+    (b"glRasterPos4fv", 616, crate::Address(glRasterPos4fv as *const ())),
+    (b"glRasterPos4i", 617, crate::Address(glRasterPos4i as *const ())),
+    (b"glRasterPos4iv", 618, crate::Address(glRasterPos4iv as *const ())),
+    (b"glRasterPos4s", 619, crate::Address(glRasterPos4s as *const ())),
+    (b"glRasterPos4sv", 620, crate::Address(glRasterPos4sv as *const ())),
     (b"glReadBuffer", 982, crate::Address(glReadBuffer as *const ())),
     (b"glReadPixels", 1036, crate::Address(glReadPixels as *const ())),
     (b"glReadnPixels", 1037, crate::Address(glReadnPixels as *const ())),
@@ -3233,7 +3233,7 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1217] = [
     (b"glRectiv", 951, crate::Address(glRectiv as *const ())),
     (b"glRects", 952, crate::Address(glRects as *const ())),
     (b"glRectsv", 953, crate::Address(glRectsv as *const ())),
-    (b"glRenderMode", 668, crate::Address(glRenderMode as *const ())),
+    (b"glRenderMode", 669, crate::Address(glRenderMode as *const ())),
     (b"glRenderbufferStorage", 1139, crate::Address(glRenderbufferStorage as *const ())),
     (b"glRenderbufferStorageEXT", 1140, crate::Address(glRenderbufferStorageEXT as *const ())),
     (b"glRenderbufferStorageMultisample", 1141, crate::Address(glRenderbufferStorageMultisample as *const ())),
@@ -3294,7 +3294,7 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1217] = [
     (b"glSecondaryColorPointer", 1164, crate::Address(glSecondaryColorPointer as *const ())),
     (b"glSecondaryColorPointerEXT", 1165, crate::Address(glSecondaryColorPointerEXT as *const ())),
     (b"glSelectBuffer", 1132, crate::Address(glSelectBuffer as *const ())),
-    (b"glShadeModel", 573, crate::Address(glShadeModel as *const ())),
+    (b"glShadeModel", 574, crate::Address(glShadeModel as *const ())),
     (b"glStencilFunc", 757, crate::Address(glStencilFunc as *const ())),
     (b"glStencilFuncSeparate", 758, crate::Address(glStencilFuncSeparate as *const ())),
     (b"glStencilMask", 759, crate::Address(glStencilMask as *const ())),
@@ -3351,16 +3351,16 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1217] = [
     (b"glTexCoordP4ui", 430, crate::Address(glTexCoordP4ui as *const ())),
     (b"glTexCoordP4uiv", 431, crate::Address(glTexCoordP4uiv as *const ())),
     (b"glTexCoordPointer", 1166, crate::Address(glTexCoordPointer as *const ())),
-    (b"glTexEnvf", 576, crate::Address(glTexEnvf as *const ())),
-    (b"glTexEnvfv", 577, crate::Address(glTexEnvfv as *const ())),
-    (b"glTexEnvi", 578, crate::Address(glTexEnvi as *const ())),
-    (b"glTexEnviv", 579, crate::Address(glTexEnviv as *const ())),
-    (b"glTexGend", 550, crate::Address(glTexGend as *const ())),
-    (b"glTexGendv", 551, crate::Address(glTexGendv as *const ())),
-    (b"glTexGenf", 552, crate::Address(glTexGenf as *const ())),
-    (b"glTexGenfv", 553, crate::Address(glTexGenfv as *const ())),
-    (b"glTexGeni", 554, crate::Address(glTexGeni as *const ())),
-    (b"glTexGeniv", 555, crate::Address(glTexGeniv as *const ())),
+    (b"glTexEnvf", 577, crate::Address(glTexEnvf as *const ())),
+    (b"glTexEnvfv", 578, crate::Address(glTexEnvfv as *const ())),
+    (b"glTexEnvi", 579, crate::Address(glTexEnvi as *const ())),
+    (b"glTexEnviv", 580, crate::Address(glTexEnviv as *const ())),
+    (b"glTexGend", 551, crate::Address(glTexGend as *const ())),
+    (b"glTexGendv", 552, crate::Address(glTexGendv as *const ())),
+    (b"glTexGenf", 553, crate::Address(glTexGenf as *const ())),
+    (b"glTexGenfv", 554, crate::Address(glTexGenfv as *const ())),
+    (b"glTexGeni", 555, crate::Address(glTexGeni as *const ())),
+    (b"glTexGeniv", 556, crate::Address(glTexGeniv as *const ())),
     (b"glTexImage1D", 765, crate::Address(glTexImage1D as *const ())),
     (b"glTexImage2D", 766, crate::Address(glTexImage2D as *const ())),
     (b"glTexImage3D", 767, crate::Address(glTexImage3D as *const ())),
@@ -3466,9 +3466,9 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1217] = [
     (b"glUniformMatrix4x3dv", 885, crate::Address(glUniformMatrix4x3dv as *const ())),
     (b"glUniformMatrix4x3fv", 886, crate::Address(glUniformMatrix4x3fv as *const ())),
     (b"glUniformMatrix4x3fvNV", 887, crate::Address(glUniformMatrix4x3fvNV as *const ())),
-    (b"glUseProgram", 591, crate::Address(glUseProgram as *const ())),
-    (b"glUseProgramObjectARB", 592, crate::Address(glUseProgramObjectARB as *const ())),
-    (b"glUseProgramStages", 588, crate::Address(glUseProgramStages as *const ())),
+    (b"glUseProgram", 592, crate::Address(glUseProgram as *const ())),
+    (b"glUseProgramObjectARB", 593, crate::Address(glUseProgramObjectARB as *const ())),
+    (b"glUseProgramStages", 589, crate::Address(glUseProgramStages as *const ())),
     (b"glVertex2d", 0, crate::Address(glVertex2d as *const ())),
     (b"glVertex2dv", 1, crate::Address(glVertex2dv as *const ())),
     (b"glVertex2f", 2, crate::Address(glVertex2f as *const ())),
@@ -3680,54 +3680,54 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1217] = [
     (b"glViewportIndexedfv", 515, crate::Address(glViewportIndexedfv as *const ())),
     (b"glViewportIndexedfvNV", 516, crate::Address(glViewportIndexedfvNV as *const ())),
     (b"glViewportIndexedfvOES", 517, crate::Address(glViewportIndexedfvOES as *const ())),
-    (b"glWindowPos2d", 620, crate::Address(glWindowPos2d as *const ())),
-    (b"glWindowPos2dARB", 621, crate::Address(glWindowPos2dARB as *const ())),
-    (b"glWindowPos2dMESA", 622, crate::Address(glWindowPos2dMESA as *const ())),
-    (b"glWindowPos2dv", 623, crate::Address(glWindowPos2dv as *const ())),
-    (b"glWindowPos2dvARB", 624, crate::Address(glWindowPos2dvARB as *const ())),
-    (b"glWindowPos2dvMESA", 625, crate::Address(glWindowPos2dvMESA as *const ())),
-    (b"glWindowPos2f", 626, crate::Address(glWindowPos2f as *const ())),
-    (b"glWindowPos2fARB", 627, crate::Address(glWindowPos2fARB as *const ())),
-    (b"glWindowPos2fMESA", 628, crate::Address(glWindowPos2fMESA as *const ())),
-    (b"glWindowPos2fv", 629, crate::Address(glWindowPos2fv as *const ())),
-    (b"glWindowPos2fvARB", 630, crate::Address(glWindowPos2fvARB as *const ())),
-    (b"glWindowPos2fvMESA", 631, crate::Address(glWindowPos2fvMESA as *const ())),
-    (b"glWindowPos2i", 632, crate::Address(glWindowPos2i as *const ())),
-    (b"glWindowPos2iARB", 633, crate::Address(glWindowPos2iARB as *const ())),
-    (b"glWindowPos2iMESA", 634, crate::Address(glWindowPos2iMESA as *const ())),
-    (b"glWindowPos2iv", 635, crate::Address(glWindowPos2iv as *const ())),
-    (b"glWindowPos2ivARB", 636, crate::Address(glWindowPos2ivARB as *const ())),
-    (b"glWindowPos2ivMESA", 637, crate::Address(glWindowPos2ivMESA as *const ())),
-    (b"glWindowPos2s", 638, crate::Address(glWindowPos2s as *const ())),
-    (b"glWindowPos2sARB", 639, crate::Address(glWindowPos2sARB as *const ())),
-    (b"glWindowPos2sMESA", 640, crate::Address(glWindowPos2sMESA as *const ())),
-    (b"glWindowPos2sv", 641, crate::Address(glWindowPos2sv as *const ())),
-    (b"glWindowPos2svARB", 642, crate::Address(glWindowPos2svARB as *const ())),
-    (b"glWindowPos2svMESA", 643, crate::Address(glWindowPos2svMESA as *const ())),
-    (b"glWindowPos3d", 644, crate::Address(glWindowPos3d as *const ())),
-    (b"glWindowPos3dARB", 645, crate::Address(glWindowPos3dARB as *const ())),
-    (b"glWindowPos3dMESA", 646, crate::Address(glWindowPos3dMESA as *const ())),
-    (b"glWindowPos3dv", 647, crate::Address(glWindowPos3dv as *const ())),
-    (b"glWindowPos3dvARB", 648, crate::Address(glWindowPos3dvARB as *const ())),
-    (b"glWindowPos3dvMESA", 649, crate::Address(glWindowPos3dvMESA as *const ())),
-    (b"glWindowPos3f", 650, crate::Address(glWindowPos3f as *const ())),
-    (b"glWindowPos3fARB", 651, crate::Address(glWindowPos3fARB as *const ())),
-    (b"glWindowPos3fMESA", 652, crate::Address(glWindowPos3fMESA as *const ())),
-    (b"glWindowPos3fv", 653, crate::Address(glWindowPos3fv as *const ())),
-    (b"glWindowPos3fvARB", 654, crate::Address(glWindowPos3fvARB as *const ())),
-    (b"glWindowPos3fvMESA", 655, crate::Address(glWindowPos3fvMESA as *const ())),
-    (b"glWindowPos3i", 656, crate::Address(glWindowPos3i as *const ())),
-    (b"glWindowPos3iARB", 657, crate::Address(glWindowPos3iARB as *const ())),
-    (b"glWindowPos3iMESA", 658, crate::Address(glWindowPos3iMESA as *const ())),
-    (b"glWindowPos3iv", 659, crate::Address(glWindowPos3iv as *const ())),
-    (b"glWindowPos3ivARB", 660, crate::Address(glWindowPos3ivARB as *const ())),
-    (b"glWindowPos3ivMESA", 661, crate::Address(glWindowPos3ivMESA as *const ())),
-    (b"glWindowPos3s", 662, crate::Address(glWindowPos3s as *const ())),
-    (b"glWindowPos3sARB", 663, crate::Address(glWindowPos3sARB as *const ())),
-    (b"glWindowPos3sMESA", 664, crate::Address(glWindowPos3sMESA as *const ())),
-    (b"glWindowPos3sv", 665, crate::Address(glWindowPos3sv as *const ())),
-    (b"glWindowPos3svARB", 666, crate::Address(glWindowPos3svARB as *const ())),
-    (b"glWindowPos3svMESA", 667, crate::Address(glWindowPos3svMESA as *const ())),
+    (b"glWindowPos2d", 621, crate::Address(glWindowPos2d as *const ())),
+    (b"glWindowPos2dARB", 622, crate::Address(glWindowPos2dARB as *const ())),
+    (b"glWindowPos2dMESA", 623, crate::Address(glWindowPos2dMESA as *const ())),
+    (b"glWindowPos2dv", 624, crate::Address(glWindowPos2dv as *const ())),
+    (b"glWindowPos2dvARB", 625, crate::Address(glWindowPos2dvARB as *const ())),
+    (b"glWindowPos2dvMESA", 626, crate::Address(glWindowPos2dvMESA as *const ())),
+    (b"glWindowPos2f", 627, crate::Address(glWindowPos2f as *const ())),
+    (b"glWindowPos2fARB", 628, crate::Address(glWindowPos2fARB as *const ())),
+    (b"glWindowPos2fMESA", 629, crate::Address(glWindowPos2fMESA as *const ())),
+    (b"glWindowPos2fv", 630, crate::Address(glWindowPos2fv as *const ())),
+    (b"glWindowPos2fvARB", 631, crate::Address(glWindowPos2fvARB as *const ())),
+    (b"glWindowPos2fvMESA", 632, crate::Address(glWindowPos2fvMESA as *const ())),
+    (b"glWindowPos2i", 633, crate::Address(glWindowPos2i as *const ())),
+    (b"glWindowPos2iARB", 634, crate::Address(glWindowPos2iARB as *const ())),
+    (b"glWindowPos2iMESA", 635, crate::Address(glWindowPos2iMESA as *const ())),
+    (b"glWindowPos2iv", 636, crate::Address(glWindowPos2iv as *const ())),
+    (b"glWindowPos2ivARB", 637, crate::Address(glWindowPos2ivARB as *const ())),
+    (b"glWindowPos2ivMESA", 638, crate::Address(glWindowPos2ivMESA as *const ())),
+    (b"glWindowPos2s", 639, crate::Address(glWindowPos2s as *const ())),
+    (b"glWindowPos2sARB", 640, crate::Address(glWindowPos2sARB as *const ())),
+    (b"glWindowPos2sMESA", 641, crate::Address(glWindowPos2sMESA as *const ())),
+    (b"glWindowPos2sv", 642, crate::Address(glWindowPos2sv as *const ())),
+    (b"glWindowPos2svARB", 643, crate::Address(glWindowPos2svARB as *const ())),
+    (b"glWindowPos2svMESA", 644, crate::Address(glWindowPos2svMESA as *const ())),
+    (b"glWindowPos3d", 645, crate::Address(glWindowPos3d as *const ())),
+    (b"glWindowPos3dARB", 646, crate::Address(glWindowPos3dARB as *const ())),
+    (b"glWindowPos3dMESA", 647, crate::Address(glWindowPos3dMESA as *const ())),
+    (b"glWindowPos3dv", 648, crate::Address(glWindowPos3dv as *const ())),
+    (b"glWindowPos3dvARB", 649, crate::Address(glWindowPos3dvARB as *const ())),
+    (b"glWindowPos3dvMESA", 650, crate::Address(glWindowPos3dvMESA as *const ())),
+    (b"glWindowPos3f", 651, crate::Address(glWindowPos3f as *const ())),
+    (b"glWindowPos3fARB", 652, crate::Address(glWindowPos3fARB as *const ())),
+    (b"glWindowPos3fMESA", 653, crate::Address(glWindowPos3fMESA as *const ())),
+    (b"glWindowPos3fv", 654, crate::Address(glWindowPos3fv as *const ())),
+    (b"glWindowPos3fvARB", 655, crate::Address(glWindowPos3fvARB as *const ())),
+    (b"glWindowPos3fvMESA", 656, crate::Address(glWindowPos3fvMESA as *const ())),
+    (b"glWindowPos3i", 657, crate::Address(glWindowPos3i as *const ())),
+    (b"glWindowPos3iARB", 658, crate::Address(glWindowPos3iARB as *const ())),
+    (b"glWindowPos3iMESA", 659, crate::Address(glWindowPos3iMESA as *const ())),
+    (b"glWindowPos3iv", 660, crate::Address(glWindowPos3iv as *const ())),
+    (b"glWindowPos3ivARB", 661, crate::Address(glWindowPos3ivARB as *const ())),
+    (b"glWindowPos3ivMESA", 662, crate::Address(glWindowPos3ivMESA as *const ())),
+    (b"glWindowPos3s", 663, crate::Address(glWindowPos3s as *const ())),
+    (b"glWindowPos3sARB", 664, crate::Address(glWindowPos3sARB as *const ())),
+    (b"glWindowPos3sMESA", 665, crate::Address(glWindowPos3sMESA as *const ())),
+    (b"glWindowPos3sv", 666, crate::Address(glWindowPos3sv as *const ())),
+    (b"glWindowPos3svARB", 667, crate::Address(glWindowPos3svARB as *const ())),
+    (b"glWindowPos3svMESA", 668, crate::Address(glWindowPos3svMESA as *const ())),
     (b"glXChooseFBConfig", 1180, crate::Address(glXChooseFBConfig as *const ())),
     (b"glXChooseFBConfigSGIX", 1181, crate::Address(glXChooseFBConfigSGIX as *const ())),
     (b"glXChooseVisual", 1179, crate::Address(glXChooseVisual as *const ())),
@@ -9587,983 +9587,983 @@ export! { 530, glDepthMask, first_glDepthMask, hook_glDepthMask, (flag: u8) -> (
     // SAFETY: the program's own call.
     unsafe { gl.glDepthMask(flag) };
 } }
-export! { 531, glDepthRange, first_glDepthRange, hook_glDepthRange, (n: f64, f: f64) -> (), {
+export! { 531, glDepthFunc, first_glDepthFunc, hook_glDepthFunc, (func: u32) -> (), {
+    hooks::touch(Touch::DEPTH);
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glDepthFunc(func) };
+} }
+export! { 532, glDepthRange, first_glDepthRange, hook_glDepthRange, (n: f64, f: f64) -> (), {
     hooks::touch(Touch::RANGE);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glDepthRange(n, f) };
 } }
-export! { 532, glDepthRangef, first_glDepthRangef, hook_glDepthRangef, (n: f32, f: f32) -> (), {
+export! { 533, glDepthRangef, first_glDepthRangef, hook_glDepthRangef, (n: f32, f: f32) -> (), {
     hooks::touch(Touch::RANGE);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glDepthRangef(n, f) };
 } }
-export! { 533, glDepthRangefOES, first_glDepthRangefOES, hook_glDepthRangefOES, (n: f32, f: f32) -> (), {
+export! { 534, glDepthRangefOES, first_glDepthRangefOES, hook_glDepthRangefOES, (n: f32, f: f32) -> (), {
     hooks::touch(Touch::RANGE);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glDepthRangefOES(n, f) };
 } }
-export! { 534, glDepthRangeIndexed, first_glDepthRangeIndexed, hook_glDepthRangeIndexed, (index: u32, n: f64, f: f64) -> (), {
+export! { 535, glDepthRangeIndexed, first_glDepthRangeIndexed, hook_glDepthRangeIndexed, (index: u32, n: f64, f: f64) -> (), {
     hooks::touch(Touch::RANGE);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glDepthRangeIndexed(index, n, f) };
 } }
-export! { 535, glDepthRangeArrayv, first_glDepthRangeArrayv, hook_glDepthRangeArrayv, (first: u32, count: i32, v: Ptr) -> (), {
+export! { 536, glDepthRangeArrayv, first_glDepthRangeArrayv, hook_glDepthRangeArrayv, (first: u32, count: i32, v: Ptr) -> (), {
     hooks::touch(Touch::RANGE);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glDepthRangeArrayv(first, count, v) };
 } }
-export! { 536, glActiveTexture, first_glActiveTexture, hook_glActiveTexture, (texture: u32) -> (), {
+export! { 537, glActiveTexture, first_glActiveTexture, hook_glActiveTexture, (texture: u32) -> (), {
     hooks::touch(Touch::TEXTURE);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glActiveTexture(texture) };
 } }
-export! { 537, glActiveTextureARB, first_glActiveTextureARB, hook_glActiveTextureARB, (texture: u32) -> (), {
+export! { 538, glActiveTextureARB, first_glActiveTextureARB, hook_glActiveTextureARB, (texture: u32) -> (), {
     hooks::touch(Touch::TEXTURE);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glActiveTextureARB(texture) };
 } }
-export! { 538, glBindTextures, first_glBindTextures, hook_glBindTextures, (first: u32, count: i32, textures: Ptr) -> (), {
+export! { 539, glBindTextures, first_glBindTextures, hook_glBindTextures, (first: u32, count: i32, textures: Ptr) -> (), {
     hooks::touch(Touch::TEXTURE);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBindTextures(first, count, textures) };
 } }
-export! { 539, glBindTextureUnit, first_glBindTextureUnit, hook_glBindTextureUnit, (unit: u32, texture: u32) -> (), {
+export! { 540, glBindTextureUnit, first_glBindTextureUnit, hook_glBindTextureUnit, (unit: u32, texture: u32) -> (), {
     hooks::touch(Touch::TEXTURE);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBindTextureUnit(unit, texture) };
 } }
-export! { 540, glBindMultiTextureEXT, first_glBindMultiTextureEXT, hook_glBindMultiTextureEXT, (texunit: u32, target: u32, texture: u32) -> (), {
+export! { 541, glBindMultiTextureEXT, first_glBindMultiTextureEXT, hook_glBindMultiTextureEXT, (texunit: u32, target: u32, texture: u32) -> (), {
     hooks::touch(Touch::TEXTURE);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBindMultiTextureEXT(texunit, target, texture) };
 } }
-export! { 541, glLightf, first_glLightf, hook_glLightf, (light: u32, pname: u32, param: f32) -> (), {
+export! { 542, glLightf, first_glLightf, hook_glLightf, (light: u32, pname: u32, param: f32) -> (), {
     hooks::touch(Touch::FIXED);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glLightf(light, pname, param) };
 } }
-export! { 542, glLightfv, first_glLightfv, hook_glLightfv, (light: u32, pname: u32, params: Ptr) -> (), {
+export! { 543, glLightfv, first_glLightfv, hook_glLightfv, (light: u32, pname: u32, params: Ptr) -> (), {
     hooks::touch(Touch::FIXED);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glLightfv(light, pname, params) };
 } }
-export! { 543, glLighti, first_glLighti, hook_glLighti, (light: u32, pname: u32, param: i32) -> (), {
+export! { 544, glLighti, first_glLighti, hook_glLighti, (light: u32, pname: u32, param: i32) -> (), {
     hooks::touch(Touch::FIXED);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glLighti(light, pname, param) };
 } }
-export! { 544, glLightiv, first_glLightiv, hook_glLightiv, (light: u32, pname: u32, params: Ptr) -> (), {
+export! { 545, glLightiv, first_glLightiv, hook_glLightiv, (light: u32, pname: u32, params: Ptr) -> (), {
     hooks::touch(Touch::FIXED);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glLightiv(light, pname, params) };
 } }
-export! { 545, glLightModelf, first_glLightModelf, hook_glLightModelf, (pname: u32, param: f32) -> (), {
+export! { 546, glLightModelf, first_glLightModelf, hook_glLightModelf, (pname: u32, param: f32) -> (), {
     hooks::touch(Touch::FIXED);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glLightModelf(pname, param) };
 } }
-export! { 546, glLightModelfv, first_glLightModelfv, hook_glLightModelfv, (pname: u32, params: Ptr) -> (), {
+export! { 547, glLightModelfv, first_glLightModelfv, hook_glLightModelfv, (pname: u32, params: Ptr) -> (), {
     hooks::touch(Touch::FIXED);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glLightModelfv(pname, params) };
 } }
-export! { 547, glLightModeli, first_glLightModeli, hook_glLightModeli, (pname: u32, param: i32) -> (), {
+export! { 548, glLightModeli, first_glLightModeli, hook_glLightModeli, (pname: u32, param: i32) -> (), {
     hooks::touch(Touch::FIXED);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glLightModeli(pname, param) };
 } }
-export! { 548, glLightModeliv, first_glLightModeliv, hook_glLightModeliv, (pname: u32, params: Ptr) -> (), {
+export! { 549, glLightModeliv, first_glLightModeliv, hook_glLightModeliv, (pname: u32, params: Ptr) -> (), {
     hooks::touch(Touch::FIXED);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glLightModeliv(pname, params) };
 } }
-export! { 549, glColorMaterial, first_glColorMaterial, hook_glColorMaterial, (face: u32, mode: u32) -> (), {
+export! { 550, glColorMaterial, first_glColorMaterial, hook_glColorMaterial, (face: u32, mode: u32) -> (), {
     hooks::touch(Touch::FIXED);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glColorMaterial(face, mode) };
 } }
-export! { 550, glTexGend, first_glTexGend, hook_glTexGend, (coord: u32, pname: u32, param: f64) -> (), {
+export! { 551, glTexGend, first_glTexGend, hook_glTexGend, (coord: u32, pname: u32, param: f64) -> (), {
     hooks::touch(Touch::FIXED);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexGend(coord, pname, param) };
 } }
-export! { 551, glTexGendv, first_glTexGendv, hook_glTexGendv, (coord: u32, pname: u32, params: Ptr) -> (), {
+export! { 552, glTexGendv, first_glTexGendv, hook_glTexGendv, (coord: u32, pname: u32, params: Ptr) -> (), {
     hooks::touch(Touch::FIXED);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexGendv(coord, pname, params) };
 } }
-export! { 552, glTexGenf, first_glTexGenf, hook_glTexGenf, (coord: u32, pname: u32, param: f32) -> (), {
+export! { 553, glTexGenf, first_glTexGenf, hook_glTexGenf, (coord: u32, pname: u32, param: f32) -> (), {
     hooks::touch(Touch::FIXED);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexGenf(coord, pname, param) };
 } }
-export! { 553, glTexGenfv, first_glTexGenfv, hook_glTexGenfv, (coord: u32, pname: u32, params: Ptr) -> (), {
+export! { 554, glTexGenfv, first_glTexGenfv, hook_glTexGenfv, (coord: u32, pname: u32, params: Ptr) -> (), {
     hooks::touch(Touch::FIXED);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexGenfv(coord, pname, params) };
 } }
-export! { 554, glTexGeni, first_glTexGeni, hook_glTexGeni, (coord: u32, pname: u32, param: i32) -> (), {
+export! { 555, glTexGeni, first_glTexGeni, hook_glTexGeni, (coord: u32, pname: u32, param: i32) -> (), {
     hooks::touch(Touch::FIXED);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexGeni(coord, pname, param) };
 } }
-export! { 555, glTexGeniv, first_glTexGeniv, hook_glTexGeniv, (coord: u32, pname: u32, params: Ptr) -> (), {
+export! { 556, glTexGeniv, first_glTexGeniv, hook_glTexGeniv, (coord: u32, pname: u32, params: Ptr) -> (), {
     hooks::touch(Touch::FIXED);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexGeniv(coord, pname, params) };
 } }
-export! { 556, glFogf, first_glFogf, hook_glFogf, (pname: u32, param: f32) -> (), {
+export! { 557, glFogf, first_glFogf, hook_glFogf, (pname: u32, param: f32) -> (), {
     hooks::touch(Touch::FIXED);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glFogf(pname, param) };
 } }
-export! { 557, glFogfv, first_glFogfv, hook_glFogfv, (pname: u32, params: Ptr) -> (), {
+export! { 558, glFogfv, first_glFogfv, hook_glFogfv, (pname: u32, params: Ptr) -> (), {
     hooks::touch(Touch::FIXED);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glFogfv(pname, params) };
 } }
-export! { 558, glFogi, first_glFogi, hook_glFogi, (pname: u32, param: i32) -> (), {
+export! { 559, glFogi, first_glFogi, hook_glFogi, (pname: u32, param: i32) -> (), {
     hooks::touch(Touch::FIXED);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glFogi(pname, param) };
 } }
-export! { 559, glFogiv, first_glFogiv, hook_glFogiv, (pname: u32, params: Ptr) -> (), {
+export! { 560, glFogiv, first_glFogiv, hook_glFogiv, (pname: u32, params: Ptr) -> (), {
     hooks::touch(Touch::FIXED);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glFogiv(pname, params) };
 } }
-export! { 560, glPointParameterf, first_glPointParameterf, hook_glPointParameterf, (pname: u32, param: f32) -> (), {
+export! { 561, glPointParameterf, first_glPointParameterf, hook_glPointParameterf, (pname: u32, param: f32) -> (), {
     hooks::touch(Touch::FIXED);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPointParameterf(pname, param) };
 } }
-export! { 561, glPointParameterfARB, first_glPointParameterfARB, hook_glPointParameterfARB, (pname: u32, param: f32) -> (), {
+export! { 562, glPointParameterfARB, first_glPointParameterfARB, hook_glPointParameterfARB, (pname: u32, param: f32) -> (), {
     hooks::touch(Touch::FIXED);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPointParameterfARB(pname, param) };
 } }
-export! { 562, glPointParameterfEXT, first_glPointParameterfEXT, hook_glPointParameterfEXT, (pname: u32, param: f32) -> (), {
+export! { 563, glPointParameterfEXT, first_glPointParameterfEXT, hook_glPointParameterfEXT, (pname: u32, param: f32) -> (), {
     hooks::touch(Touch::FIXED);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPointParameterfEXT(pname, param) };
 } }
-export! { 563, glPointParameterfSGIS, first_glPointParameterfSGIS, hook_glPointParameterfSGIS, (pname: u32, param: f32) -> (), {
+export! { 564, glPointParameterfSGIS, first_glPointParameterfSGIS, hook_glPointParameterfSGIS, (pname: u32, param: f32) -> (), {
     hooks::touch(Touch::FIXED);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPointParameterfSGIS(pname, param) };
 } }
-export! { 564, glPointParameterfv, first_glPointParameterfv, hook_glPointParameterfv, (pname: u32, params: Ptr) -> (), {
+export! { 565, glPointParameterfv, first_glPointParameterfv, hook_glPointParameterfv, (pname: u32, params: Ptr) -> (), {
     hooks::touch(Touch::FIXED);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPointParameterfv(pname, params) };
 } }
-export! { 565, glPointParameterfvARB, first_glPointParameterfvARB, hook_glPointParameterfvARB, (pname: u32, params: Ptr) -> (), {
+export! { 566, glPointParameterfvARB, first_glPointParameterfvARB, hook_glPointParameterfvARB, (pname: u32, params: Ptr) -> (), {
     hooks::touch(Touch::FIXED);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPointParameterfvARB(pname, params) };
 } }
-export! { 566, glPointParameterfvEXT, first_glPointParameterfvEXT, hook_glPointParameterfvEXT, (pname: u32, params: Ptr) -> (), {
+export! { 567, glPointParameterfvEXT, first_glPointParameterfvEXT, hook_glPointParameterfvEXT, (pname: u32, params: Ptr) -> (), {
     hooks::touch(Touch::FIXED);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPointParameterfvEXT(pname, params) };
 } }
-export! { 567, glPointParameterfvSGIS, first_glPointParameterfvSGIS, hook_glPointParameterfvSGIS, (pname: u32, params: Ptr) -> (), {
+export! { 568, glPointParameterfvSGIS, first_glPointParameterfvSGIS, hook_glPointParameterfvSGIS, (pname: u32, params: Ptr) -> (), {
     hooks::touch(Touch::FIXED);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPointParameterfvSGIS(pname, params) };
 } }
-export! { 568, glPointParameteri, first_glPointParameteri, hook_glPointParameteri, (pname: u32, param: i32) -> (), {
+export! { 569, glPointParameteri, first_glPointParameteri, hook_glPointParameteri, (pname: u32, param: i32) -> (), {
     hooks::touch(Touch::FIXED);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPointParameteri(pname, param) };
 } }
-export! { 569, glPointParameteriNV, first_glPointParameteriNV, hook_glPointParameteriNV, (pname: u32, param: i32) -> (), {
+export! { 570, glPointParameteriNV, first_glPointParameteriNV, hook_glPointParameteriNV, (pname: u32, param: i32) -> (), {
     hooks::touch(Touch::FIXED);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPointParameteriNV(pname, param) };
 } }
-export! { 570, glPointParameteriv, first_glPointParameteriv, hook_glPointParameteriv, (pname: u32, params: Ptr) -> (), {
+export! { 571, glPointParameteriv, first_glPointParameteriv, hook_glPointParameteriv, (pname: u32, params: Ptr) -> (), {
     hooks::touch(Touch::FIXED);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPointParameteriv(pname, params) };
 } }
-export! { 571, glPointParameterivNV, first_glPointParameterivNV, hook_glPointParameterivNV, (pname: u32, params: Ptr) -> (), {
+export! { 572, glPointParameterivNV, first_glPointParameterivNV, hook_glPointParameterivNV, (pname: u32, params: Ptr) -> (), {
     hooks::touch(Touch::FIXED);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPointParameterivNV(pname, params) };
 } }
-export! { 572, glPointSize, first_glPointSize, hook_glPointSize, (size: f32) -> (), {
+export! { 573, glPointSize, first_glPointSize, hook_glPointSize, (size: f32) -> (), {
     hooks::touch(Touch::FIXED);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPointSize(size) };
 } }
-export! { 573, glShadeModel, first_glShadeModel, hook_glShadeModel, (mode: u32) -> (), {
+export! { 574, glShadeModel, first_glShadeModel, hook_glShadeModel, (mode: u32) -> (), {
     hooks::touch(Touch::FIXED);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glShadeModel(mode) };
 } }
-export! { 574, glPolygonMode, first_glPolygonMode, hook_glPolygonMode, (face: u32, mode: u32) -> (), {
+export! { 575, glPolygonMode, first_glPolygonMode, hook_glPolygonMode, (face: u32, mode: u32) -> (), {
     hooks::touch(Touch::FIXED);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPolygonMode(face, mode) };
 } }
-export! { 575, glPolygonModeNV, first_glPolygonModeNV, hook_glPolygonModeNV, (face: u32, mode: u32) -> (), {
+export! { 576, glPolygonModeNV, first_glPolygonModeNV, hook_glPolygonModeNV, (face: u32, mode: u32) -> (), {
     hooks::touch(Touch::FIXED);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPolygonModeNV(face, mode) };
 } }
-export! { 576, glTexEnvf, first_glTexEnvf, hook_glTexEnvf, (target: u32, pname: u32, param: f32) -> (), {
+export! { 577, glTexEnvf, first_glTexEnvf, hook_glTexEnvf, (target: u32, pname: u32, param: f32) -> (), {
     hooks::touch(Touch::FIXED);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexEnvf(target, pname, param) };
 } }
-export! { 577, glTexEnvfv, first_glTexEnvfv, hook_glTexEnvfv, (target: u32, pname: u32, params: Ptr) -> (), {
+export! { 578, glTexEnvfv, first_glTexEnvfv, hook_glTexEnvfv, (target: u32, pname: u32, params: Ptr) -> (), {
     hooks::touch(Touch::FIXED);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexEnvfv(target, pname, params) };
 } }
-export! { 578, glTexEnvi, first_glTexEnvi, hook_glTexEnvi, (target: u32, pname: u32, param: i32) -> (), {
+export! { 579, glTexEnvi, first_glTexEnvi, hook_glTexEnvi, (target: u32, pname: u32, param: i32) -> (), {
     hooks::touch(Touch::FIXED);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexEnvi(target, pname, param) };
 } }
-export! { 579, glTexEnviv, first_glTexEnviv, hook_glTexEnviv, (target: u32, pname: u32, params: Ptr) -> (), {
+export! { 580, glTexEnviv, first_glTexEnviv, hook_glTexEnviv, (target: u32, pname: u32, params: Ptr) -> (), {
     hooks::touch(Touch::FIXED);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexEnviv(target, pname, params) };
 } }
-export! { 580, glHint, first_glHint, hook_glHint, (target: u32, mode: u32) -> (), {
+export! { 581, glHint, first_glHint, hook_glHint, (target: u32, mode: u32) -> (), {
     hooks::touch(Touch::FIXED);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glHint(target, mode) };
 } }
-export! { 581, glLineWidth, first_glLineWidth, hook_glLineWidth, (width: f32) -> (), {
+export! { 582, glLineWidth, first_glLineWidth, hook_glLineWidth, (width: f32) -> (), {
     hooks::touch(Touch::FIXED);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glLineWidth(width) };
 } }
-export! { 582, glProvokingVertex, first_glProvokingVertex, hook_glProvokingVertex, (mode: u32) -> (), {
+export! { 583, glProvokingVertex, first_glProvokingVertex, hook_glProvokingVertex, (mode: u32) -> (), {
     hooks::touch(Touch::FIXED);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProvokingVertex(mode) };
 } }
-export! { 583, glProvokingVertexEXT, first_glProvokingVertexEXT, hook_glProvokingVertexEXT, (mode: u32) -> (), {
+export! { 584, glProvokingVertexEXT, first_glProvokingVertexEXT, hook_glProvokingVertexEXT, (mode: u32) -> (), {
     hooks::touch(Touch::FIXED);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProvokingVertexEXT(mode) };
 } }
-export! { 584, glClipControl, first_glClipControl, hook_glClipControl, (origin: u32, depth: u32) -> (), {
+export! { 585, glClipControl, first_glClipControl, hook_glClipControl, (origin: u32, depth: u32) -> (), {
     hooks::touch(Touch::FIXED | Touch::RANGE);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glClipControl(origin, depth) };
 } }
-export! { 585, glClipControlEXT, first_glClipControlEXT, hook_glClipControlEXT, (origin: u32, depth: u32) -> (), {
+export! { 586, glClipControlEXT, first_glClipControlEXT, hook_glClipControlEXT, (origin: u32, depth: u32) -> (), {
     hooks::touch(Touch::FIXED | Touch::RANGE);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glClipControlEXT(origin, depth) };
 } }
-export! { 586, glBindProgramARB, first_glBindProgramARB, hook_glBindProgramARB, (target: u32, program: u32) -> (), {
+export! { 587, glBindProgramARB, first_glBindProgramARB, hook_glBindProgramARB, (target: u32, program: u32) -> (), {
     hooks::touch(Touch::FIXED);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBindProgramARB(target, program) };
 } }
-export! { 587, glBindProgramNV, first_glBindProgramNV, hook_glBindProgramNV, (target: u32, id: u32) -> (), {
+export! { 588, glBindProgramNV, first_glBindProgramNV, hook_glBindProgramNV, (target: u32, id: u32) -> (), {
     hooks::touch(Touch::FIXED);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBindProgramNV(target, id) };
 } }
-export! { 588, glUseProgramStages, first_glUseProgramStages, hook_glUseProgramStages, (pipeline: u32, stages: u32, program: u32) -> (), {
+export! { 589, glUseProgramStages, first_glUseProgramStages, hook_glUseProgramStages, (pipeline: u32, stages: u32, program: u32) -> (), {
     hooks::touch(Touch::FIXED);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUseProgramStages(pipeline, stages, program) };
 } }
-export! { 589, glClampColor, first_glClampColor, hook_glClampColor, (target: u32, clamp: u32) -> (), {
+export! { 590, glClampColor, first_glClampColor, hook_glClampColor, (target: u32, clamp: u32) -> (), {
     hooks::touch(Touch::FIXED);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glClampColor(target, clamp) };
 } }
-export! { 590, glClampColorARB, first_glClampColorARB, hook_glClampColorARB, (target: u32, clamp: u32) -> (), {
+export! { 591, glClampColorARB, first_glClampColorARB, hook_glClampColorARB, (target: u32, clamp: u32) -> (), {
     hooks::touch(Touch::FIXED);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glClampColorARB(target, clamp) };
 } }
-export! { 591, glUseProgram, first_glUseProgram, hook_glUseProgram, (program: u32) -> (), {
+export! { 592, glUseProgram, first_glUseProgram, hook_glUseProgram, (program: u32) -> (), {
     hooks::touch(Touch::OBJECTS | Touch::FIXED | Touch::TEXTURE);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUseProgram(program) };
 } }
-export! { 592, glUseProgramObjectARB, first_glUseProgramObjectARB, hook_glUseProgramObjectARB, (programObj: u32) -> (), {
+export! { 593, glUseProgramObjectARB, first_glUseProgramObjectARB, hook_glUseProgramObjectARB, (programObj: u32) -> (), {
     hooks::touch(Touch::OBJECTS | Touch::FIXED | Touch::TEXTURE);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUseProgramObjectARB(programObj) };
 } }
-export! { 593, glBindProgramPipeline, first_glBindProgramPipeline, hook_glBindProgramPipeline, (pipeline: u32) -> (), {
+export! { 594, glBindProgramPipeline, first_glBindProgramPipeline, hook_glBindProgramPipeline, (pipeline: u32) -> (), {
     hooks::touch(Touch::OBJECTS | Touch::FIXED | Touch::TEXTURE);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBindProgramPipeline(pipeline) };
 } }
-export! { 594, glPushAttrib, first_glPushAttrib, hook_glPushAttrib, (mask: u32) -> (), {
+export! { 595, glPushAttrib, first_glPushAttrib, hook_glPushAttrib, (mask: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glPushAttrib(mask) }
 } }
-export! { 595, glPopAttrib, first_glPopAttrib, hook_glPopAttrib, () -> (), {
+export! { 596, glPopAttrib, first_glPopAttrib, hook_glPopAttrib, () -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glPopAttrib() }
 } }
-export! { 596, glRasterPos2d, first_glRasterPos2d, hook_glRasterPos2d, (x: f64, y: f64) -> (), {
+export! { 597, glRasterPos2d, first_glRasterPos2d, hook_glRasterPos2d, (x: f64, y: f64) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Scene, &mut |gl| unsafe { gl.glRasterPos2d(x, y) })
 } }
-export! { 597, glRasterPos2dv, first_glRasterPos2dv, hook_glRasterPos2dv, (v: Ptr) -> (), {
+export! { 598, glRasterPos2dv, first_glRasterPos2dv, hook_glRasterPos2dv, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Scene, &mut |gl| unsafe { gl.glRasterPos2dv(v) })
 } }
-export! { 598, glRasterPos2f, first_glRasterPos2f, hook_glRasterPos2f, (x: f32, y: f32) -> (), {
+export! { 599, glRasterPos2f, first_glRasterPos2f, hook_glRasterPos2f, (x: f32, y: f32) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Scene, &mut |gl| unsafe { gl.glRasterPos2f(x, y) })
 } }
-export! { 599, glRasterPos2fv, first_glRasterPos2fv, hook_glRasterPos2fv, (v: Ptr) -> (), {
+export! { 600, glRasterPos2fv, first_glRasterPos2fv, hook_glRasterPos2fv, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Scene, &mut |gl| unsafe { gl.glRasterPos2fv(v) })
 } }
-export! { 600, glRasterPos2i, first_glRasterPos2i, hook_glRasterPos2i, (x: i32, y: i32) -> (), {
+export! { 601, glRasterPos2i, first_glRasterPos2i, hook_glRasterPos2i, (x: i32, y: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Scene, &mut |gl| unsafe { gl.glRasterPos2i(x, y) })
 } }
-export! { 601, glRasterPos2iv, first_glRasterPos2iv, hook_glRasterPos2iv, (v: Ptr) -> (), {
+export! { 602, glRasterPos2iv, first_glRasterPos2iv, hook_glRasterPos2iv, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Scene, &mut |gl| unsafe { gl.glRasterPos2iv(v) })
 } }
-export! { 602, glRasterPos2s, first_glRasterPos2s, hook_glRasterPos2s, (x: i16, y: i16) -> (), {
+export! { 603, glRasterPos2s, first_glRasterPos2s, hook_glRasterPos2s, (x: i16, y: i16) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Scene, &mut |gl| unsafe { gl.glRasterPos2s(x, y) })
 } }
-export! { 603, glRasterPos2sv, first_glRasterPos2sv, hook_glRasterPos2sv, (v: Ptr) -> (), {
+export! { 604, glRasterPos2sv, first_glRasterPos2sv, hook_glRasterPos2sv, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Scene, &mut |gl| unsafe { gl.glRasterPos2sv(v) })
 } }
-export! { 604, glRasterPos3d, first_glRasterPos3d, hook_glRasterPos3d, (x: f64, y: f64, z: f64) -> (), {
+export! { 605, glRasterPos3d, first_glRasterPos3d, hook_glRasterPos3d, (x: f64, y: f64, z: f64) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Scene, &mut |gl| unsafe { gl.glRasterPos3d(x, y, z) })
 } }
-export! { 605, glRasterPos3dv, first_glRasterPos3dv, hook_glRasterPos3dv, (v: Ptr) -> (), {
+export! { 606, glRasterPos3dv, first_glRasterPos3dv, hook_glRasterPos3dv, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Scene, &mut |gl| unsafe { gl.glRasterPos3dv(v) })
 } }
-export! { 606, glRasterPos3f, first_glRasterPos3f, hook_glRasterPos3f, (x: f32, y: f32, z: f32) -> (), {
+export! { 607, glRasterPos3f, first_glRasterPos3f, hook_glRasterPos3f, (x: f32, y: f32, z: f32) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Scene, &mut |gl| unsafe { gl.glRasterPos3f(x, y, z) })
 } }
-export! { 607, glRasterPos3fv, first_glRasterPos3fv, hook_glRasterPos3fv, (v: Ptr) -> (), {
+export! { 608, glRasterPos3fv, first_glRasterPos3fv, hook_glRasterPos3fv, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Scene, &mut |gl| unsafe { gl.glRasterPos3fv(v) })
 } }
-export! { 608, glRasterPos3i, first_glRasterPos3i, hook_glRasterPos3i, (x: i32, y: i32, z: i32) -> (), {
+export! { 609, glRasterPos3i, first_glRasterPos3i, hook_glRasterPos3i, (x: i32, y: i32, z: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Scene, &mut |gl| unsafe { gl.glRasterPos3i(x, y, z) })
 } }
-export! { 609, glRasterPos3iv, first_glRasterPos3iv, hook_glRasterPos3iv, (v: Ptr) -> (), {
+export! { 610, glRasterPos3iv, first_glRasterPos3iv, hook_glRasterPos3iv, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Scene, &mut |gl| unsafe { gl.glRasterPos3iv(v) })
 } }
-export! { 610, glRasterPos3s, first_glRasterPos3s, hook_glRasterPos3s, (x: i16, y: i16, z: i16) -> (), {
+export! { 611, glRasterPos3s, first_glRasterPos3s, hook_glRasterPos3s, (x: i16, y: i16, z: i16) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Scene, &mut |gl| unsafe { gl.glRasterPos3s(x, y, z) })
 } }
-export! { 611, glRasterPos3sv, first_glRasterPos3sv, hook_glRasterPos3sv, (v: Ptr) -> (), {
+export! { 612, glRasterPos3sv, first_glRasterPos3sv, hook_glRasterPos3sv, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Scene, &mut |gl| unsafe { gl.glRasterPos3sv(v) })
 } }
-export! { 612, glRasterPos4d, first_glRasterPos4d, hook_glRasterPos4d, (x: f64, y: f64, z: f64, w: f64) -> (), {
+export! { 613, glRasterPos4d, first_glRasterPos4d, hook_glRasterPos4d, (x: f64, y: f64, z: f64, w: f64) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Scene, &mut |gl| unsafe { gl.glRasterPos4d(x, y, z, w) })
 } }
-export! { 613, glRasterPos4dv, first_glRasterPos4dv, hook_glRasterPos4dv, (v: Ptr) -> (), {
+export! { 614, glRasterPos4dv, first_glRasterPos4dv, hook_glRasterPos4dv, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Scene, &mut |gl| unsafe { gl.glRasterPos4dv(v) })
 } }
-export! { 614, glRasterPos4f, first_glRasterPos4f, hook_glRasterPos4f, (x: f32, y: f32, z: f32, w: f32) -> (), {
+export! { 615, glRasterPos4f, first_glRasterPos4f, hook_glRasterPos4f, (x: f32, y: f32, z: f32, w: f32) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Scene, &mut |gl| unsafe { gl.glRasterPos4f(x, y, z, w) })
 } }
-export! { 615, glRasterPos4fv, first_glRasterPos4fv, hook_glRasterPos4fv, (v: Ptr) -> (), {
+export! { 616, glRasterPos4fv, first_glRasterPos4fv, hook_glRasterPos4fv, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Scene, &mut |gl| unsafe { gl.glRasterPos4fv(v) })
 } }
-export! { 616, glRasterPos4i, first_glRasterPos4i, hook_glRasterPos4i, (x: i32, y: i32, z: i32, w: i32) -> (), {
+export! { 617, glRasterPos4i, first_glRasterPos4i, hook_glRasterPos4i, (x: i32, y: i32, z: i32, w: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Scene, &mut |gl| unsafe { gl.glRasterPos4i(x, y, z, w) })
 } }
-export! { 617, glRasterPos4iv, first_glRasterPos4iv, hook_glRasterPos4iv, (v: Ptr) -> (), {
+export! { 618, glRasterPos4iv, first_glRasterPos4iv, hook_glRasterPos4iv, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Scene, &mut |gl| unsafe { gl.glRasterPos4iv(v) })
 } }
-export! { 618, glRasterPos4s, first_glRasterPos4s, hook_glRasterPos4s, (x: i16, y: i16, z: i16, w: i16) -> (), {
+export! { 619, glRasterPos4s, first_glRasterPos4s, hook_glRasterPos4s, (x: i16, y: i16, z: i16, w: i16) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Scene, &mut |gl| unsafe { gl.glRasterPos4s(x, y, z, w) })
 } }
-export! { 619, glRasterPos4sv, first_glRasterPos4sv, hook_glRasterPos4sv, (v: Ptr) -> (), {
+export! { 620, glRasterPos4sv, first_glRasterPos4sv, hook_glRasterPos4sv, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Scene, &mut |gl| unsafe { gl.glRasterPos4sv(v) })
 } }
-export! { 620, glWindowPos2d, first_glWindowPos2d, hook_glWindowPos2d, (x: f64, y: f64) -> (), {
+export! { 621, glWindowPos2d, first_glWindowPos2d, hook_glWindowPos2d, (x: f64, y: f64) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos2d(x, y) })
 } }
-export! { 621, glWindowPos2dARB, first_glWindowPos2dARB, hook_glWindowPos2dARB, (x: f64, y: f64) -> (), {
+export! { 622, glWindowPos2dARB, first_glWindowPos2dARB, hook_glWindowPos2dARB, (x: f64, y: f64) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos2dARB(x, y) })
 } }
-export! { 622, glWindowPos2dMESA, first_glWindowPos2dMESA, hook_glWindowPos2dMESA, (x: f64, y: f64) -> (), {
+export! { 623, glWindowPos2dMESA, first_glWindowPos2dMESA, hook_glWindowPos2dMESA, (x: f64, y: f64) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos2dMESA(x, y) })
 } }
-export! { 623, glWindowPos2dv, first_glWindowPos2dv, hook_glWindowPos2dv, (v: Ptr) -> (), {
+export! { 624, glWindowPos2dv, first_glWindowPos2dv, hook_glWindowPos2dv, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos2dv(v) })
 } }
-export! { 624, glWindowPos2dvARB, first_glWindowPos2dvARB, hook_glWindowPos2dvARB, (v: Ptr) -> (), {
+export! { 625, glWindowPos2dvARB, first_glWindowPos2dvARB, hook_glWindowPos2dvARB, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos2dvARB(v) })
 } }
-export! { 625, glWindowPos2dvMESA, first_glWindowPos2dvMESA, hook_glWindowPos2dvMESA, (v: Ptr) -> (), {
+export! { 626, glWindowPos2dvMESA, first_glWindowPos2dvMESA, hook_glWindowPos2dvMESA, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos2dvMESA(v) })
 } }
-export! { 626, glWindowPos2f, first_glWindowPos2f, hook_glWindowPos2f, (x: f32, y: f32) -> (), {
+export! { 627, glWindowPos2f, first_glWindowPos2f, hook_glWindowPos2f, (x: f32, y: f32) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos2f(x, y) })
 } }
-export! { 627, glWindowPos2fARB, first_glWindowPos2fARB, hook_glWindowPos2fARB, (x: f32, y: f32) -> (), {
+export! { 628, glWindowPos2fARB, first_glWindowPos2fARB, hook_glWindowPos2fARB, (x: f32, y: f32) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos2fARB(x, y) })
 } }
-export! { 628, glWindowPos2fMESA, first_glWindowPos2fMESA, hook_glWindowPos2fMESA, (x: f32, y: f32) -> (), {
+export! { 629, glWindowPos2fMESA, first_glWindowPos2fMESA, hook_glWindowPos2fMESA, (x: f32, y: f32) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos2fMESA(x, y) })
 } }
-export! { 629, glWindowPos2fv, first_glWindowPos2fv, hook_glWindowPos2fv, (v: Ptr) -> (), {
+export! { 630, glWindowPos2fv, first_glWindowPos2fv, hook_glWindowPos2fv, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos2fv(v) })
 } }
-export! { 630, glWindowPos2fvARB, first_glWindowPos2fvARB, hook_glWindowPos2fvARB, (v: Ptr) -> (), {
+export! { 631, glWindowPos2fvARB, first_glWindowPos2fvARB, hook_glWindowPos2fvARB, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos2fvARB(v) })
 } }
-export! { 631, glWindowPos2fvMESA, first_glWindowPos2fvMESA, hook_glWindowPos2fvMESA, (v: Ptr) -> (), {
+export! { 632, glWindowPos2fvMESA, first_glWindowPos2fvMESA, hook_glWindowPos2fvMESA, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos2fvMESA(v) })
 } }
-export! { 632, glWindowPos2i, first_glWindowPos2i, hook_glWindowPos2i, (x: i32, y: i32) -> (), {
+export! { 633, glWindowPos2i, first_glWindowPos2i, hook_glWindowPos2i, (x: i32, y: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos2i(x, y) })
 } }
-export! { 633, glWindowPos2iARB, first_glWindowPos2iARB, hook_glWindowPos2iARB, (x: i32, y: i32) -> (), {
+export! { 634, glWindowPos2iARB, first_glWindowPos2iARB, hook_glWindowPos2iARB, (x: i32, y: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos2iARB(x, y) })
 } }
-export! { 634, glWindowPos2iMESA, first_glWindowPos2iMESA, hook_glWindowPos2iMESA, (x: i32, y: i32) -> (), {
+export! { 635, glWindowPos2iMESA, first_glWindowPos2iMESA, hook_glWindowPos2iMESA, (x: i32, y: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos2iMESA(x, y) })
 } }
-export! { 635, glWindowPos2iv, first_glWindowPos2iv, hook_glWindowPos2iv, (v: Ptr) -> (), {
+export! { 636, glWindowPos2iv, first_glWindowPos2iv, hook_glWindowPos2iv, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos2iv(v) })
 } }
-export! { 636, glWindowPos2ivARB, first_glWindowPos2ivARB, hook_glWindowPos2ivARB, (v: Ptr) -> (), {
+export! { 637, glWindowPos2ivARB, first_glWindowPos2ivARB, hook_glWindowPos2ivARB, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos2ivARB(v) })
 } }
-export! { 637, glWindowPos2ivMESA, first_glWindowPos2ivMESA, hook_glWindowPos2ivMESA, (v: Ptr) -> (), {
+export! { 638, glWindowPos2ivMESA, first_glWindowPos2ivMESA, hook_glWindowPos2ivMESA, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos2ivMESA(v) })
 } }
-export! { 638, glWindowPos2s, first_glWindowPos2s, hook_glWindowPos2s, (x: i16, y: i16) -> (), {
+export! { 639, glWindowPos2s, first_glWindowPos2s, hook_glWindowPos2s, (x: i16, y: i16) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos2s(x, y) })
 } }
-export! { 639, glWindowPos2sARB, first_glWindowPos2sARB, hook_glWindowPos2sARB, (x: i16, y: i16) -> (), {
+export! { 640, glWindowPos2sARB, first_glWindowPos2sARB, hook_glWindowPos2sARB, (x: i16, y: i16) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos2sARB(x, y) })
 } }
-export! { 640, glWindowPos2sMESA, first_glWindowPos2sMESA, hook_glWindowPos2sMESA, (x: i16, y: i16) -> (), {
+export! { 641, glWindowPos2sMESA, first_glWindowPos2sMESA, hook_glWindowPos2sMESA, (x: i16, y: i16) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos2sMESA(x, y) })
 } }
-export! { 641, glWindowPos2sv, first_glWindowPos2sv, hook_glWindowPos2sv, (v: Ptr) -> (), {
+export! { 642, glWindowPos2sv, first_glWindowPos2sv, hook_glWindowPos2sv, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos2sv(v) })
 } }
-export! { 642, glWindowPos2svARB, first_glWindowPos2svARB, hook_glWindowPos2svARB, (v: Ptr) -> (), {
+export! { 643, glWindowPos2svARB, first_glWindowPos2svARB, hook_glWindowPos2svARB, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos2svARB(v) })
 } }
-export! { 643, glWindowPos2svMESA, first_glWindowPos2svMESA, hook_glWindowPos2svMESA, (v: Ptr) -> (), {
+export! { 644, glWindowPos2svMESA, first_glWindowPos2svMESA, hook_glWindowPos2svMESA, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos2svMESA(v) })
 } }
-export! { 644, glWindowPos3d, first_glWindowPos3d, hook_glWindowPos3d, (x: f64, y: f64, z: f64) -> (), {
+export! { 645, glWindowPos3d, first_glWindowPos3d, hook_glWindowPos3d, (x: f64, y: f64, z: f64) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos3d(x, y, z) })
 } }
-export! { 645, glWindowPos3dARB, first_glWindowPos3dARB, hook_glWindowPos3dARB, (x: f64, y: f64, z: f64) -> (), {
+export! { 646, glWindowPos3dARB, first_glWindowPos3dARB, hook_glWindowPos3dARB, (x: f64, y: f64, z: f64) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos3dARB(x, y, z) })
 } }
-export! { 646, glWindowPos3dMESA, first_glWindowPos3dMESA, hook_glWindowPos3dMESA, (x: f64, y: f64, z: f64) -> (), {
+export! { 647, glWindowPos3dMESA, first_glWindowPos3dMESA, hook_glWindowPos3dMESA, (x: f64, y: f64, z: f64) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos3dMESA(x, y, z) })
 } }
-export! { 647, glWindowPos3dv, first_glWindowPos3dv, hook_glWindowPos3dv, (v: Ptr) -> (), {
+export! { 648, glWindowPos3dv, first_glWindowPos3dv, hook_glWindowPos3dv, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos3dv(v) })
 } }
-export! { 648, glWindowPos3dvARB, first_glWindowPos3dvARB, hook_glWindowPos3dvARB, (v: Ptr) -> (), {
+export! { 649, glWindowPos3dvARB, first_glWindowPos3dvARB, hook_glWindowPos3dvARB, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos3dvARB(v) })
 } }
-export! { 649, glWindowPos3dvMESA, first_glWindowPos3dvMESA, hook_glWindowPos3dvMESA, (v: Ptr) -> (), {
+export! { 650, glWindowPos3dvMESA, first_glWindowPos3dvMESA, hook_glWindowPos3dvMESA, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos3dvMESA(v) })
 } }
-export! { 650, glWindowPos3f, first_glWindowPos3f, hook_glWindowPos3f, (x: f32, y: f32, z: f32) -> (), {
+export! { 651, glWindowPos3f, first_glWindowPos3f, hook_glWindowPos3f, (x: f32, y: f32, z: f32) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos3f(x, y, z) })
 } }
-export! { 651, glWindowPos3fARB, first_glWindowPos3fARB, hook_glWindowPos3fARB, (x: f32, y: f32, z: f32) -> (), {
+export! { 652, glWindowPos3fARB, first_glWindowPos3fARB, hook_glWindowPos3fARB, (x: f32, y: f32, z: f32) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos3fARB(x, y, z) })
 } }
-export! { 652, glWindowPos3fMESA, first_glWindowPos3fMESA, hook_glWindowPos3fMESA, (x: f32, y: f32, z: f32) -> (), {
+export! { 653, glWindowPos3fMESA, first_glWindowPos3fMESA, hook_glWindowPos3fMESA, (x: f32, y: f32, z: f32) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos3fMESA(x, y, z) })
 } }
-export! { 653, glWindowPos3fv, first_glWindowPos3fv, hook_glWindowPos3fv, (v: Ptr) -> (), {
+export! { 654, glWindowPos3fv, first_glWindowPos3fv, hook_glWindowPos3fv, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos3fv(v) })
 } }
-export! { 654, glWindowPos3fvARB, first_glWindowPos3fvARB, hook_glWindowPos3fvARB, (v: Ptr) -> (), {
+export! { 655, glWindowPos3fvARB, first_glWindowPos3fvARB, hook_glWindowPos3fvARB, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos3fvARB(v) })
 } }
-export! { 655, glWindowPos3fvMESA, first_glWindowPos3fvMESA, hook_glWindowPos3fvMESA, (v: Ptr) -> (), {
+export! { 656, glWindowPos3fvMESA, first_glWindowPos3fvMESA, hook_glWindowPos3fvMESA, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos3fvMESA(v) })
 } }
-export! { 656, glWindowPos3i, first_glWindowPos3i, hook_glWindowPos3i, (x: i32, y: i32, z: i32) -> (), {
+export! { 657, glWindowPos3i, first_glWindowPos3i, hook_glWindowPos3i, (x: i32, y: i32, z: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos3i(x, y, z) })
 } }
-export! { 657, glWindowPos3iARB, first_glWindowPos3iARB, hook_glWindowPos3iARB, (x: i32, y: i32, z: i32) -> (), {
+export! { 658, glWindowPos3iARB, first_glWindowPos3iARB, hook_glWindowPos3iARB, (x: i32, y: i32, z: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos3iARB(x, y, z) })
 } }
-export! { 658, glWindowPos3iMESA, first_glWindowPos3iMESA, hook_glWindowPos3iMESA, (x: i32, y: i32, z: i32) -> (), {
+export! { 659, glWindowPos3iMESA, first_glWindowPos3iMESA, hook_glWindowPos3iMESA, (x: i32, y: i32, z: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos3iMESA(x, y, z) })
 } }
-export! { 659, glWindowPos3iv, first_glWindowPos3iv, hook_glWindowPos3iv, (v: Ptr) -> (), {
+export! { 660, glWindowPos3iv, first_glWindowPos3iv, hook_glWindowPos3iv, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos3iv(v) })
 } }
-export! { 660, glWindowPos3ivARB, first_glWindowPos3ivARB, hook_glWindowPos3ivARB, (v: Ptr) -> (), {
+export! { 661, glWindowPos3ivARB, first_glWindowPos3ivARB, hook_glWindowPos3ivARB, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos3ivARB(v) })
 } }
-export! { 661, glWindowPos3ivMESA, first_glWindowPos3ivMESA, hook_glWindowPos3ivMESA, (v: Ptr) -> (), {
+export! { 662, glWindowPos3ivMESA, first_glWindowPos3ivMESA, hook_glWindowPos3ivMESA, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos3ivMESA(v) })
 } }
-export! { 662, glWindowPos3s, first_glWindowPos3s, hook_glWindowPos3s, (x: i16, y: i16, z: i16) -> (), {
+export! { 663, glWindowPos3s, first_glWindowPos3s, hook_glWindowPos3s, (x: i16, y: i16, z: i16) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos3s(x, y, z) })
 } }
-export! { 663, glWindowPos3sARB, first_glWindowPos3sARB, hook_glWindowPos3sARB, (x: i16, y: i16, z: i16) -> (), {
+export! { 664, glWindowPos3sARB, first_glWindowPos3sARB, hook_glWindowPos3sARB, (x: i16, y: i16, z: i16) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos3sARB(x, y, z) })
 } }
-export! { 664, glWindowPos3sMESA, first_glWindowPos3sMESA, hook_glWindowPos3sMESA, (x: i16, y: i16, z: i16) -> (), {
+export! { 665, glWindowPos3sMESA, first_glWindowPos3sMESA, hook_glWindowPos3sMESA, (x: i16, y: i16, z: i16) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos3sMESA(x, y, z) })
 } }
-export! { 665, glWindowPos3sv, first_glWindowPos3sv, hook_glWindowPos3sv, (v: Ptr) -> (), {
+export! { 666, glWindowPos3sv, first_glWindowPos3sv, hook_glWindowPos3sv, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos3sv(v) })
 } }
-export! { 666, glWindowPos3svARB, first_glWindowPos3svARB, hook_glWindowPos3svARB, (v: Ptr) -> (), {
+export! { 667, glWindowPos3svARB, first_glWindowPos3svARB, hook_glWindowPos3svARB, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos3svARB(v) })
 } }
-export! { 667, glWindowPos3svMESA, first_glWindowPos3svMESA, hook_glWindowPos3svMESA, (v: Ptr) -> (), {
+export! { 668, glWindowPos3svMESA, first_glWindowPos3svMESA, hook_glWindowPos3svMESA, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos3svMESA(v) })
 } }
-export! { 668, glRenderMode, first_glRenderMode, hook_glRenderMode, (mode: u32) -> i32, {
+export! { 669, glRenderMode, first_glRenderMode, hook_glRenderMode, (mode: u32) -> i32, {
     // SAFETY: the program's own arguments.
     unsafe { special::glRenderMode(mode) }
 } }
-export! { 669, glBeginTransformFeedback, first_glBeginTransformFeedback, hook_glBeginTransformFeedback, (primitiveMode: u32) -> (), {
+export! { 670, glBeginTransformFeedback, first_glBeginTransformFeedback, hook_glBeginTransformFeedback, (primitiveMode: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBeginTransformFeedback(primitiveMode) }
 } }
-export! { 670, glBeginTransformFeedbackEXT, first_glBeginTransformFeedbackEXT, hook_glBeginTransformFeedbackEXT, (primitiveMode: u32) -> (), {
+export! { 671, glBeginTransformFeedbackEXT, first_glBeginTransformFeedbackEXT, hook_glBeginTransformFeedbackEXT, (primitiveMode: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBeginTransformFeedback(primitiveMode) }
 } }
-export! { 671, glBeginTransformFeedbackNV, first_glBeginTransformFeedbackNV, hook_glBeginTransformFeedbackNV, (primitiveMode: u32) -> (), {
+export! { 672, glBeginTransformFeedbackNV, first_glBeginTransformFeedbackNV, hook_glBeginTransformFeedbackNV, (primitiveMode: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBeginTransformFeedback(primitiveMode) }
 } }
-export! { 672, glEndTransformFeedback, first_glEndTransformFeedback, hook_glEndTransformFeedback, () -> (), {
+export! { 673, glEndTransformFeedback, first_glEndTransformFeedback, hook_glEndTransformFeedback, () -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glEndTransformFeedback() }
 } }
-export! { 673, glEndTransformFeedbackEXT, first_glEndTransformFeedbackEXT, hook_glEndTransformFeedbackEXT, () -> (), {
+export! { 674, glEndTransformFeedbackEXT, first_glEndTransformFeedbackEXT, hook_glEndTransformFeedbackEXT, () -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glEndTransformFeedback() }
 } }
-export! { 674, glEndTransformFeedbackNV, first_glEndTransformFeedbackNV, hook_glEndTransformFeedbackNV, () -> (), {
+export! { 675, glEndTransformFeedbackNV, first_glEndTransformFeedbackNV, hook_glEndTransformFeedbackNV, () -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glEndTransformFeedback() }
 } }
-export! { 675, glAlphaFunc, first_glAlphaFunc, hook_glAlphaFunc, (func: u32, ref_: f32) -> (), {
+export! { 676, glAlphaFunc, first_glAlphaFunc, hook_glAlphaFunc, (func: u32, ref_: f32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glAlphaFunc(func, ref_) };
 } }
-export! { 676, glBlendFunc, first_glBlendFunc, hook_glBlendFunc, (sfactor: u32, dfactor: u32) -> (), {
+export! { 677, glBlendFunc, first_glBlendFunc, hook_glBlendFunc, (sfactor: u32, dfactor: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendFunc(sfactor, dfactor) };
 } }
-export! { 677, glBlendFuncSeparate, first_glBlendFuncSeparate, hook_glBlendFuncSeparate, (sfactorRGB: u32, dfactorRGB: u32, sfactorAlpha: u32, dfactorAlpha: u32) -> (), {
+export! { 678, glBlendFuncSeparate, first_glBlendFuncSeparate, hook_glBlendFuncSeparate, (sfactorRGB: u32, dfactorRGB: u32, sfactorAlpha: u32, dfactorAlpha: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendFuncSeparate(sfactorRGB, dfactorRGB, sfactorAlpha, dfactorAlpha) };
 } }
-export! { 678, glBlendFuncSeparateEXT, first_glBlendFuncSeparateEXT, hook_glBlendFuncSeparateEXT, (sfactorRGB: u32, dfactorRGB: u32, sfactorAlpha: u32, dfactorAlpha: u32) -> (), {
+export! { 679, glBlendFuncSeparateEXT, first_glBlendFuncSeparateEXT, hook_glBlendFuncSeparateEXT, (sfactorRGB: u32, dfactorRGB: u32, sfactorAlpha: u32, dfactorAlpha: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendFuncSeparateEXT(sfactorRGB, dfactorRGB, sfactorAlpha, dfactorAlpha) };
 } }
-export! { 679, glBlendFuncSeparateINGR, first_glBlendFuncSeparateINGR, hook_glBlendFuncSeparateINGR, (sfactorRGB: u32, dfactorRGB: u32, sfactorAlpha: u32, dfactorAlpha: u32) -> (), {
+export! { 680, glBlendFuncSeparateINGR, first_glBlendFuncSeparateINGR, hook_glBlendFuncSeparateINGR, (sfactorRGB: u32, dfactorRGB: u32, sfactorAlpha: u32, dfactorAlpha: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendFuncSeparateINGR(sfactorRGB, dfactorRGB, sfactorAlpha, dfactorAlpha) };
 } }
-export! { 680, glBlendFuncSeparatei, first_glBlendFuncSeparatei, hook_glBlendFuncSeparatei, (buf: u32, srcRGB: u32, dstRGB: u32, srcAlpha: u32, dstAlpha: u32) -> (), {
+export! { 681, glBlendFuncSeparatei, first_glBlendFuncSeparatei, hook_glBlendFuncSeparatei, (buf: u32, srcRGB: u32, dstRGB: u32, srcAlpha: u32, dstAlpha: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendFuncSeparatei(buf, srcRGB, dstRGB, srcAlpha, dstAlpha) };
 } }
-export! { 681, glBlendFuncSeparateIndexedAMD, first_glBlendFuncSeparateIndexedAMD, hook_glBlendFuncSeparateIndexedAMD, (buf: u32, srcRGB: u32, dstRGB: u32, srcAlpha: u32, dstAlpha: u32) -> (), {
+export! { 682, glBlendFuncSeparateIndexedAMD, first_glBlendFuncSeparateIndexedAMD, hook_glBlendFuncSeparateIndexedAMD, (buf: u32, srcRGB: u32, dstRGB: u32, srcAlpha: u32, dstAlpha: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendFuncSeparateIndexedAMD(buf, srcRGB, dstRGB, srcAlpha, dstAlpha) };
 } }
-export! { 682, glBlendFuncSeparateiARB, first_glBlendFuncSeparateiARB, hook_glBlendFuncSeparateiARB, (buf: u32, srcRGB: u32, dstRGB: u32, srcAlpha: u32, dstAlpha: u32) -> (), {
+export! { 683, glBlendFuncSeparateiARB, first_glBlendFuncSeparateiARB, hook_glBlendFuncSeparateiARB, (buf: u32, srcRGB: u32, dstRGB: u32, srcAlpha: u32, dstAlpha: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendFuncSeparateiARB(buf, srcRGB, dstRGB, srcAlpha, dstAlpha) };
 } }
-export! { 683, glBlendFuncSeparateiEXT, first_glBlendFuncSeparateiEXT, hook_glBlendFuncSeparateiEXT, (buf: u32, srcRGB: u32, dstRGB: u32, srcAlpha: u32, dstAlpha: u32) -> (), {
+export! { 684, glBlendFuncSeparateiEXT, first_glBlendFuncSeparateiEXT, hook_glBlendFuncSeparateiEXT, (buf: u32, srcRGB: u32, dstRGB: u32, srcAlpha: u32, dstAlpha: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendFuncSeparateiEXT(buf, srcRGB, dstRGB, srcAlpha, dstAlpha) };
 } }
-export! { 684, glBlendFuncSeparateiOES, first_glBlendFuncSeparateiOES, hook_glBlendFuncSeparateiOES, (buf: u32, srcRGB: u32, dstRGB: u32, srcAlpha: u32, dstAlpha: u32) -> (), {
+export! { 685, glBlendFuncSeparateiOES, first_glBlendFuncSeparateiOES, hook_glBlendFuncSeparateiOES, (buf: u32, srcRGB: u32, dstRGB: u32, srcAlpha: u32, dstAlpha: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendFuncSeparateiOES(buf, srcRGB, dstRGB, srcAlpha, dstAlpha) };
 } }
-export! { 685, glBlendFunci, first_glBlendFunci, hook_glBlendFunci, (buf: u32, src: u32, dst: u32) -> (), {
+export! { 686, glBlendFunci, first_glBlendFunci, hook_glBlendFunci, (buf: u32, src: u32, dst: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendFunci(buf, src, dst) };
 } }
-export! { 686, glBlendFuncIndexedAMD, first_glBlendFuncIndexedAMD, hook_glBlendFuncIndexedAMD, (buf: u32, src: u32, dst: u32) -> (), {
+export! { 687, glBlendFuncIndexedAMD, first_glBlendFuncIndexedAMD, hook_glBlendFuncIndexedAMD, (buf: u32, src: u32, dst: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendFuncIndexedAMD(buf, src, dst) };
 } }
-export! { 687, glBlendFunciARB, first_glBlendFunciARB, hook_glBlendFunciARB, (buf: u32, src: u32, dst: u32) -> (), {
+export! { 688, glBlendFunciARB, first_glBlendFunciARB, hook_glBlendFunciARB, (buf: u32, src: u32, dst: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendFunciARB(buf, src, dst) };
 } }
-export! { 688, glBlendFunciEXT, first_glBlendFunciEXT, hook_glBlendFunciEXT, (buf: u32, src: u32, dst: u32) -> (), {
+export! { 689, glBlendFunciEXT, first_glBlendFunciEXT, hook_glBlendFunciEXT, (buf: u32, src: u32, dst: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendFunciEXT(buf, src, dst) };
 } }
-export! { 689, glBlendFunciOES, first_glBlendFunciOES, hook_glBlendFunciOES, (buf: u32, src: u32, dst: u32) -> (), {
+export! { 690, glBlendFunciOES, first_glBlendFunciOES, hook_glBlendFunciOES, (buf: u32, src: u32, dst: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendFunciOES(buf, src, dst) };
 } }
-export! { 690, glBlendEquation, first_glBlendEquation, hook_glBlendEquation, (mode: u32) -> (), {
+export! { 691, glBlendEquation, first_glBlendEquation, hook_glBlendEquation, (mode: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendEquation(mode) };
 } }
-export! { 691, glBlendEquationEXT, first_glBlendEquationEXT, hook_glBlendEquationEXT, (mode: u32) -> (), {
+export! { 692, glBlendEquationEXT, first_glBlendEquationEXT, hook_glBlendEquationEXT, (mode: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendEquationEXT(mode) };
 } }
-export! { 692, glBlendEquationSeparate, first_glBlendEquationSeparate, hook_glBlendEquationSeparate, (modeRGB: u32, modeAlpha: u32) -> (), {
+export! { 693, glBlendEquationSeparate, first_glBlendEquationSeparate, hook_glBlendEquationSeparate, (modeRGB: u32, modeAlpha: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendEquationSeparate(modeRGB, modeAlpha) };
 } }
-export! { 693, glBlendEquationSeparateEXT, first_glBlendEquationSeparateEXT, hook_glBlendEquationSeparateEXT, (modeRGB: u32, modeAlpha: u32) -> (), {
+export! { 694, glBlendEquationSeparateEXT, first_glBlendEquationSeparateEXT, hook_glBlendEquationSeparateEXT, (modeRGB: u32, modeAlpha: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendEquationSeparateEXT(modeRGB, modeAlpha) };
 } }
-export! { 694, glBlendEquationSeparatei, first_glBlendEquationSeparatei, hook_glBlendEquationSeparatei, (buf: u32, modeRGB: u32, modeAlpha: u32) -> (), {
+export! { 695, glBlendEquationSeparatei, first_glBlendEquationSeparatei, hook_glBlendEquationSeparatei, (buf: u32, modeRGB: u32, modeAlpha: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendEquationSeparatei(buf, modeRGB, modeAlpha) };
 } }
-export! { 695, glBlendEquationSeparateIndexedAMD, first_glBlendEquationSeparateIndexedAMD, hook_glBlendEquationSeparateIndexedAMD, (buf: u32, modeRGB: u32, modeAlpha: u32) -> (), {
+export! { 696, glBlendEquationSeparateIndexedAMD, first_glBlendEquationSeparateIndexedAMD, hook_glBlendEquationSeparateIndexedAMD, (buf: u32, modeRGB: u32, modeAlpha: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendEquationSeparateIndexedAMD(buf, modeRGB, modeAlpha) };
 } }
-export! { 696, glBlendEquationSeparateiARB, first_glBlendEquationSeparateiARB, hook_glBlendEquationSeparateiARB, (buf: u32, modeRGB: u32, modeAlpha: u32) -> (), {
+export! { 697, glBlendEquationSeparateiARB, first_glBlendEquationSeparateiARB, hook_glBlendEquationSeparateiARB, (buf: u32, modeRGB: u32, modeAlpha: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendEquationSeparateiARB(buf, modeRGB, modeAlpha) };
 } }
-export! { 697, glBlendEquationSeparateiEXT, first_glBlendEquationSeparateiEXT, hook_glBlendEquationSeparateiEXT, (buf: u32, modeRGB: u32, modeAlpha: u32) -> (), {
+export! { 698, glBlendEquationSeparateiEXT, first_glBlendEquationSeparateiEXT, hook_glBlendEquationSeparateiEXT, (buf: u32, modeRGB: u32, modeAlpha: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendEquationSeparateiEXT(buf, modeRGB, modeAlpha) };
 } }
-export! { 698, glBlendEquationSeparateiOES, first_glBlendEquationSeparateiOES, hook_glBlendEquationSeparateiOES, (buf: u32, modeRGB: u32, modeAlpha: u32) -> (), {
+export! { 699, glBlendEquationSeparateiOES, first_glBlendEquationSeparateiOES, hook_glBlendEquationSeparateiOES, (buf: u32, modeRGB: u32, modeAlpha: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendEquationSeparateiOES(buf, modeRGB, modeAlpha) };
 } }
-export! { 699, glBlendEquationi, first_glBlendEquationi, hook_glBlendEquationi, (buf: u32, mode: u32) -> (), {
+export! { 700, glBlendEquationi, first_glBlendEquationi, hook_glBlendEquationi, (buf: u32, mode: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendEquationi(buf, mode) };
 } }
-export! { 700, glBlendEquationIndexedAMD, first_glBlendEquationIndexedAMD, hook_glBlendEquationIndexedAMD, (buf: u32, mode: u32) -> (), {
+export! { 701, glBlendEquationIndexedAMD, first_glBlendEquationIndexedAMD, hook_glBlendEquationIndexedAMD, (buf: u32, mode: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendEquationIndexedAMD(buf, mode) };
 } }
-export! { 701, glBlendEquationiARB, first_glBlendEquationiARB, hook_glBlendEquationiARB, (buf: u32, mode: u32) -> (), {
+export! { 702, glBlendEquationiARB, first_glBlendEquationiARB, hook_glBlendEquationiARB, (buf: u32, mode: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendEquationiARB(buf, mode) };
 } }
-export! { 702, glBlendEquationiEXT, first_glBlendEquationiEXT, hook_glBlendEquationiEXT, (buf: u32, mode: u32) -> (), {
+export! { 703, glBlendEquationiEXT, first_glBlendEquationiEXT, hook_glBlendEquationiEXT, (buf: u32, mode: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendEquationiEXT(buf, mode) };
 } }
-export! { 703, glBlendEquationiOES, first_glBlendEquationiOES, hook_glBlendEquationiOES, (buf: u32, mode: u32) -> (), {
+export! { 704, glBlendEquationiOES, first_glBlendEquationiOES, hook_glBlendEquationiOES, (buf: u32, mode: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendEquationiOES(buf, mode) };
 } }
-export! { 704, glBlendColor, first_glBlendColor, hook_glBlendColor, (red: f32, green: f32, blue: f32, alpha: f32) -> (), {
+export! { 705, glBlendColor, first_glBlendColor, hook_glBlendColor, (red: f32, green: f32, blue: f32, alpha: f32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendColor(red, green, blue, alpha) };
 } }
-export! { 705, glBlendColorEXT, first_glBlendColorEXT, hook_glBlendColorEXT, (red: f32, green: f32, blue: f32, alpha: f32) -> (), {
+export! { 706, glBlendColorEXT, first_glBlendColorEXT, hook_glBlendColorEXT, (red: f32, green: f32, blue: f32, alpha: f32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendColorEXT(red, green, blue, alpha) };
 } }
-export! { 706, glClearAccum, first_glClearAccum, hook_glClearAccum, (red: f32, green: f32, blue: f32, alpha: f32) -> (), {
+export! { 707, glClearAccum, first_glClearAccum, hook_glClearAccum, (red: f32, green: f32, blue: f32, alpha: f32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glClearAccum(red, green, blue, alpha) };
 } }
-export! { 707, glClearColor, first_glClearColor, hook_glClearColor, (red: f32, green: f32, blue: f32, alpha: f32) -> (), {
+export! { 708, glClearColor, first_glClearColor, hook_glClearColor, (red: f32, green: f32, blue: f32, alpha: f32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glClearColor(red, green, blue, alpha) };
 } }
-export! { 708, glClearDepth, first_glClearDepth, hook_glClearDepth, (depth: f64) -> (), {
+export! { 709, glClearDepth, first_glClearDepth, hook_glClearDepth, (depth: f64) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glClearDepth(depth) };
 } }
-export! { 709, glClearDepthf, first_glClearDepthf, hook_glClearDepthf, (d: f32) -> (), {
+export! { 710, glClearDepthf, first_glClearDepthf, hook_glClearDepthf, (d: f32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glClearDepthf(d) };
 } }
-export! { 710, glClearDepthfOES, first_glClearDepthfOES, hook_glClearDepthfOES, (depth: f32) -> (), {
+export! { 711, glClearDepthfOES, first_glClearDepthfOES, hook_glClearDepthfOES, (depth: f32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glClearDepthfOES(depth) };
 } }
-export! { 711, glClearIndex, first_glClearIndex, hook_glClearIndex, (c: f32) -> (), {
+export! { 712, glClearIndex, first_glClearIndex, hook_glClearIndex, (c: f32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glClearIndex(c) };
 } }
-export! { 712, glClearStencil, first_glClearStencil, hook_glClearStencil, (s: i32) -> (), {
+export! { 713, glClearStencil, first_glClearStencil, hook_glClearStencil, (s: i32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glClearStencil(s) };
 } }
-export! { 713, glClipPlane, first_glClipPlane, hook_glClipPlane, (plane: u32, equation: Ptr) -> (), {
+export! { 714, glClipPlane, first_glClipPlane, hook_glClipPlane, (plane: u32, equation: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glClipPlane(plane, equation) };
 } }
-export! { 714, glColorMask, first_glColorMask, hook_glColorMask, (red: u8, green: u8, blue: u8, alpha: u8) -> (), {
+export! { 715, glColorMask, first_glColorMask, hook_glColorMask, (red: u8, green: u8, blue: u8, alpha: u8) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glColorMask(red, green, blue, alpha) };
 } }
-export! { 715, glColorMaski, first_glColorMaski, hook_glColorMaski, (index: u32, r: u8, g: u8, b: u8, a: u8) -> (), {
+export! { 716, glColorMaski, first_glColorMaski, hook_glColorMaski, (index: u32, r: u8, g: u8, b: u8, a: u8) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glColorMaski(index, r, g, b, a) };
 } }
-export! { 716, glColorMaskIndexedEXT, first_glColorMaskIndexedEXT, hook_glColorMaskIndexedEXT, (index: u32, r: u8, g: u8, b: u8, a: u8) -> (), {
+export! { 717, glColorMaskIndexedEXT, first_glColorMaskIndexedEXT, hook_glColorMaskIndexedEXT, (index: u32, r: u8, g: u8, b: u8, a: u8) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glColorMaskIndexedEXT(index, r, g, b, a) };
 } }
-export! { 717, glColorMaskiEXT, first_glColorMaskiEXT, hook_glColorMaskiEXT, (index: u32, r: u8, g: u8, b: u8, a: u8) -> (), {
+export! { 718, glColorMaskiEXT, first_glColorMaskiEXT, hook_glColorMaskiEXT, (index: u32, r: u8, g: u8, b: u8, a: u8) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glColorMaskiEXT(index, r, g, b, a) };
 } }
-export! { 718, glColorMaskiOES, first_glColorMaskiOES, hook_glColorMaskiOES, (index: u32, r: u8, g: u8, b: u8, a: u8) -> (), {
+export! { 719, glColorMaskiOES, first_glColorMaskiOES, hook_glColorMaskiOES, (index: u32, r: u8, g: u8, b: u8, a: u8) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glColorMaskiOES(index, r, g, b, a) };
 } }
-export! { 719, glCullFace, first_glCullFace, hook_glCullFace, (mode: u32) -> (), {
+export! { 720, glCullFace, first_glCullFace, hook_glCullFace, (mode: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glCullFace(mode) };
-} }
-export! { 720, glDepthFunc, first_glDepthFunc, hook_glDepthFunc, (func: u32) -> (), {
-    hooks::any();
-    let gl = hooks::real();
-    // SAFETY: the program's own call.
-    unsafe { gl.glDepthFunc(func) };
 } }
 export! { 721, glDepthBoundsEXT, first_glDepthBoundsEXT, hook_glDepthBoundsEXT, (zmin: f64, zmax: f64) -> (), {
     hooks::any();

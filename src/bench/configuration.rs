@@ -32,6 +32,9 @@ const REPLAY: (OptionId, &str) = (OptionId::Strategy, "replay");
 const INSTANCED: (OptionId, &str) = (OptionId::Strategy, "instanced");
 const GEOMETRY: (OptionId, &str) = (OptionId::Strategy, "geometry");
 
+const DISTANCES: (OptionId, &str) = (OptionId::Clip, "distances");
+const DISCARD: (OptionId, &str) = (OptionId::Clip, "discard");
+
 const fn row(
     name: &'static str,
     options: &'static [(OptionId, &'static str)],
@@ -76,6 +79,26 @@ pub const CONFIGURATIONS: &[Configuration] = &[
         "geometry-layers",
         &[GEOMETRY, LAYERS],
         "geometry, the views in layers of the atlas, so without clip distances",
+    ),
+    row(
+        "instanced-distances",
+        &[INSTANCED, DISTANCES],
+        "instanced, the views beside each other, cut by clip distances",
+    ),
+    row(
+        "geometry-distances",
+        &[GEOMETRY, DISTANCES],
+        "geometry, the views beside each other, cut by clip distances",
+    ),
+    row(
+        "instanced-discard",
+        &[INSTANCED, DISCARD],
+        "instanced, the views beside each other, fragments outside discarded",
+    ),
+    row(
+        "geometry-discard",
+        &[GEOMETRY, DISCARD],
+        "geometry, the views beside each other, fragments outside discarded",
     ),
 ];
 

@@ -7,6 +7,7 @@
 pub mod chart;
 mod configuration;
 mod error;
+pub mod hard;
 mod outcome;
 mod pareto;
 mod preset;

@@ -1,5 +1,5 @@
-//! State that is counted in pixels, where those of the tiles are larger than the window's: widths of lines and points, and the level
-//! of detail of textures.
+//! State that is counted in pixels, where those of the tiles are larger than the window's: widths of lines and points, offsets of
+//! polygons, and the level of detail of textures.
 
 use crate::atlas::Grid;
 use crate::gl::{Gl, consts as c};
@@ -10,6 +10,8 @@ use crate::state::State;
 pub(super) struct Tuned {
     /// Of lines and points.
     widths: Option<[f32; 2]>,
+    /// GL_POLYGON_OFFSET_FACTOR, _UNITS and _CLAMP.
+    offset: Option<[f32; 3]>,
     /// By texture unit: GL_TEXTURE_LOD_BIAS.
     biases: Vec<(u32, f32)>,
     /// GL_ACTIVE_TEXTURE.
@@ -49,6 +51,7 @@ impl Tuned {
         gl.point_size(point);
         let mut tuned = Tuned {
             widths: Some(widths),
+            offset: flatten(gl, state, grid),
             ..Tuned::default()
         };
         if state.compatibility && units != Units::None {
@@ -83,6 +86,9 @@ impl Tuned {
             gl.line_width(line);
             gl.point_size(point);
         }
+        if let Some(offset) = self.offset {
+            put_offset(gl, offset);
+        }
         for &(unit, was) in &self.biases {
             gl.active_texture(unit);
             gl.tex_envf(c::TEXTURE_FILTER_CONTROL, c::TEXTURE_LOD_BIAS, was);
@@ -90,5 +96,29 @@ impl Tuned {
         if !self.biases.is_empty() {
             gl.active_texture(self.active);
         }
+    }
+}
+
+/// From one pixel to the next depths change as many times more as pixels are farther apart, and the factor of an offset multiplies that.
+/// Where they are farther apart along one axis only, no factor is right for all slopes; the mean is.
+fn flatten(gl: &Gl, state: &State, grid: &Grid) -> Option<[f32; 3]> {
+    if !gl.is_enabled(c::POLYGON_OFFSET_FILL) {
+        return None;
+    }
+    let [factor, units] =
+        [c::POLYGON_OFFSET_FACTOR, c::POLYGON_OFFSET_UNITS].map(|name| gl.get_floats::<1>(name)[0]);
+    let clamp = match state.offset_clamp {
+        true => gl.get_floats::<1>(c::POLYGON_OFFSET_CLAMP)[0],
+        false => 0.0,
+    };
+    put_offset(gl, [factor / grid.spacing() as f32, units, clamp]);
+    Some([factor, units, clamp])
+}
+
+fn put_offset(gl: &Gl, [factor, units, clamp]: [f32; 3]) {
+    if clamp == 0.0 {
+        gl.polygon_offset(factor, units);
+    } else {
+        gl.polygon_offset_clamp(factor, units, clamp);
     }
 }

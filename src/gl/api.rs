@@ -39,6 +39,8 @@ plain! {
     tex_envf = glTexEnvf(target: u32, name: u32, value: f32);
     line_width = glLineWidth(width: f32);
     point_size = glPointSize(size: f32);
+    polygon_offset = glPolygonOffset(factor: f32, units: f32);
+    polygon_offset_clamp = glPolygonOffsetClamp(factor: f32, units: f32, clamp: f32);
     scissor = glScissor(x: i32, y: i32, w: i32, h: i32);
     enable = glEnable(cap: u32);
     disable = glDisable(cap: u32);

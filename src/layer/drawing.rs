@@ -1,7 +1,7 @@
 //! A draw call of the program: refresh, plan, execute, count.
 
 use super::Layer;
-use crate::config::{Class, Output, Projection, Word};
+use crate::config::{Class, Output, Projection, Strategy, Word};
 use crate::draw::{Again, Amplified, Current, FixedState, Programs, replay};
 use crate::gl::api::Indices;
 use crate::gl::{Ends, Gl, Recording, consts as c};
@@ -197,6 +197,7 @@ impl Layer {
             }
         }
         self.watch_depths(gl, kind, &classed);
+        self.keep_together(gl);
         let plan = plan(kind, &self.state, &self.rig, &self.means, &classed);
         let plan = self.uncopied(gl, self.uncounted(plan));
         self.explain_this(&facts, &classed);
@@ -215,6 +216,22 @@ impl Layer {
             self.fallbacks.add(reason.clone());
         }
         plan
+    }
+
+    /// Some draws of a program are always replayed, such as those of display lists. Instances in layers have the very depths that
+    /// these have; views beside each other and what comes out of a geometry shader do not, so from the first draw with GL_EQUAL on
+    /// all draws go the same way. A pass before that one, in the program's first frame, is not made again.
+    fn keep_together(&mut self, gl: &Gl) {
+        let alike = match self.means.strategy {
+            Strategy::Replay | Strategy::Auto => true,
+            Strategy::Instanced => self.config.clip.is_none() && self.support.layers,
+            Strategy::Geometry => false,
+        };
+        if alike || self.means.together || !self.state.draws_to_window() {
+            return;
+        }
+        self.state.look(gl, Touch::DEPTH);
+        self.means.together = self.state.look.equal;
     }
 
     pub(super) fn replay(&mut self, gl: &Gl, plan: &Plan, again: Again, call: &mut dyn FnMut(u32)) {

@@ -132,6 +132,8 @@ impl Layer {
             support.compatibility,
         );
         state.clip_control = gl.version() >= (4, 5) || gl.has_extension("GL_ARB_clip_control");
+        state.offset_clamp =
+            gl.version() >= (4, 6) || gl.has_extension("GL_ARB_polygon_offset_clamp");
         state.keep_errors(gl);
         let mut names = Names::default();
         let mut report = Report::default();
@@ -157,6 +159,7 @@ impl Layer {
             strategy: auto.as_ref().map_or(config.strategy, auto::Auto::strategy),
             instanced: support.instanced(),
             geometry: support.geometry(),
+            together: false,
         };
         let interleaver = Interleaver::new(gl, &mut names, support.glsl);
         if let Some(note) = interleaver.note() {

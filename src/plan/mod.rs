@@ -101,6 +101,8 @@ pub struct Means {
     pub instanced: bool,
     /// Geometry shaders too.
     pub geometry: bool,
+    /// The program has passes that have to meet in every pixel, and replayed draws would not meet the others.
+    pub together: bool,
 }
 
 /// Decides one draw.
@@ -157,6 +159,11 @@ fn method(kind: Kind, state: &State, means: &Means) -> Result<Method, Option<Rea
     };
     match kind {
         Kind::Clear { .. } | Kind::Pixels | Kind::Accum => return Err(None),
+        _ if means.together => {
+            return Err(Some(Reason::Kind(
+                "draws of a program whose passes have to meet in every pixel (GL_EQUAL)",
+            )));
+        }
         Kind::List => return Err(Some(Reason::Kind("display lists"))),
         Kind::Other => {
             return Err(Some(Reason::Kind(
@@ -212,6 +219,7 @@ mod tests {
             strategy: Strategy::Replay,
             instanced: false,
             geometry: false,
+            together: false,
         };
         let classed = Classed {
             class: Class::Flat,

@@ -9,6 +9,8 @@ use crate::gl::{Gl, consts as c};
 pub struct Look {
     /// Depth test and mask.
     pub depth: DepthState,
+    /// Fragments have to have the very depth that is there already: GL_EQUAL.
+    pub equal: bool,
     /// Which part of the depth buffer is drawn to.
     pub range: DepthRange,
     /// GL_DEPTH_RANGE, as it is.
@@ -25,6 +27,7 @@ impl Default for Look {
     fn default() -> Self {
         Look {
             depth: DepthState::Off,
+            equal: false,
             range: DepthRange::Whole,
             depths: [0.0, 1.0],
             zero_to_one: false,
@@ -47,6 +50,8 @@ impl State {
             } else {
                 DepthState::On
             };
+            self.look.equal = self.look.depth != DepthState::Off
+                && gl.get_integer(c::DEPTH_FUNC) as u32 == c::EQUAL;
         }
         if stale(Touch::RANGE) {
             self.look.depths = gl.get_floats(c::DEPTH_RANGE);

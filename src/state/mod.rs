@@ -119,6 +119,8 @@ pub struct State {
     pub compatibility: bool,
     /// Whether it has glClipControl.
     pub clip_control: bool,
+    /// The driver has glPolygonOffsetClamp.
+    pub offset_clamp: bool,
 }
 
 impl State {
@@ -142,6 +144,7 @@ impl State {
             errors: std::collections::VecDeque::new(),
             compatibility,
             clip_control: false,
+            offset_clamp: false,
         }
     }
 

@@ -124,20 +124,24 @@ pub(super) fn run(
 
 /// The program of each group; all are there before the first is started.
 fn programs(groups: &[Group]) -> Result<Vec<PathBuf>, LaunchError> {
+    let scenes = groups.iter().map(|group| group.scene);
+    scenes
+        .map(|scene| program(scene.name, scene.program))
+        .collect()
+}
+
+/// Finds the program of a scene.
+pub(super) fn program(scene: &'static str, program: &'static str) -> Result<PathBuf, LaunchError> {
     let folders = library::scene_folders()?;
-    let program = |group: &Group| {
-        let Scene { name, program, .. } = *group.scene;
-        let mut places = folders.iter().map(|folder| folder.join(program));
-        places.find(|path| path.is_file()).ok_or_else(|| {
-            BenchError::NoScene {
-                scene: name,
-                program,
-                searched: folders.to_vec(),
-            }
-            .into()
-        })
-    };
-    groups.iter().map(program).collect()
+    let mut places = folders.iter().map(|folder| folder.join(program));
+    places.find(|path| path.is_file()).ok_or_else(|| {
+        BenchError::NoScene {
+            scene,
+            program,
+            searched: folders.to_vec(),
+        }
+        .into()
+    })
 }
 
 /// On stderr, and silent when that is no terminal.
@@ -359,7 +363,7 @@ impl Place {
 
 /// What we read of the layer's report.
 #[derive(Default, serde::Deserialize)]
-struct Report {
+pub(super) struct Report {
     draws: BTreeMap<String, u64>,
     fallbacks: BTreeMap<String, u64>,
     notes: Vec<String>,
@@ -367,8 +371,14 @@ struct Report {
 
 impl Report {
     /// Empty if there is none: the times stand without it.
-    fn read(file: &Path) -> Self {
+    pub(super) fn read(file: &Path) -> Self {
         let text = std::fs::read_to_string(file).unwrap_or_default();
         serde_json::from_str(&text).unwrap_or_default()
+    }
+
+    /// Why draws fell to replay, and what else there is to say.
+    pub(super) fn words(self) -> String {
+        let reasons: Vec<_> = self.fallbacks.into_keys().chain(self.notes).collect();
+        reasons.join("; ")
     }
 }

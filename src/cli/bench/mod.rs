@@ -1,12 +1,14 @@
 //! `manyview bench`: what may be asked for; `measure` does it.
 #![forbid(unsafe_code)]
 
+mod hard;
 mod measure;
 mod prove;
 
 use super::mask::size;
 use super::{Outcome, print, tell};
 use clap::Args;
+use manyview::bench::hard::CASES;
 use manyview::bench::{
     BenchError, CONFIGURATIONS, DEFAULT_CONFIGURATIONS, DEFAULT_SCENES, PRESETS, Preset, SCENES,
     Scene, Variant, chart, find, table,
@@ -85,7 +87,13 @@ pub(crate) struct Arguments {
     /// Draw time against error, one panel for each scene
     #[arg(long, value_name = "FILE.png|FILE.svg")]
     chart: Option<PathBuf>,
-    /// List scenes, configurations and presets, and measure nothing
+    /// Draw the hard cases under every strategy and compare them with their bounds; status 1 if one is missed
+    #[arg(long, conflicts_with_all = ["scene", "preset", "views", "view_scale", "size", "frames", "chart", "list"])]
+    hard: bool,
+    /// Hard case to draw, several by commas or by giving it again [default: all of them]
+    #[arg(long, value_name = "NAME", value_delimiter = ',', requires = "hard")]
+    case: Vec<String>,
+    /// List scenes, configurations, presets and hard cases, and measure nothing
     #[arg(long)]
     list: bool,
     /// A program of your own and its arguments: each configuration is proved on so many --frames of it
@@ -96,6 +104,9 @@ pub(crate) struct Arguments {
 pub(crate) fn run(arguments: &Arguments) -> Outcome {
     if arguments.list {
         return print(&list());
+    }
+    if arguments.hard {
+        return hard::run(arguments);
     }
     let preset = match &arguments.preset {
         Some(name) => Some(find(PRESETS, |preset| preset.name, "--preset", name)?),
@@ -244,5 +255,7 @@ fn list() -> String {
     );
     lines.push(vec!["presets".to_owned()]);
     lines.extend(PRESETS.iter().map(|preset| line(preset.name, preset.about)));
+    lines.push(vec!["hard cases".to_owned()]);
+    lines.extend(CASES.iter().map(|case| line(case.name, case.about)));
     table::columns(&lines)
 }

@@ -1,0 +1,40 @@
+/* Scenes that are hard to draw in several views; manyview's src/bench/hard.rs says what is measured of each.
+ * Each draws by itself: nothing is left from the case before, because a process draws one. */
+#ifndef HARD_H
+#define HARD_H
+
+#include "demo.h"
+#include <stddef.h>
+
+struct hard_case {
+    const char *name, *about;
+    void (*setup)(void); /* null if there is nothing to prepare */
+    void (*draw)(int frame);
+};
+extern const struct hard_case places_cases[], depths_cases[], surfaces_cases[], answers_cases[];
+
+/* ---- vertices, collected and drawn by glDrawArrays, or by glBegin between send_immediate(1) and send_immediate(0) ---- */
+void send_immediate(int immediate);
+void start(GLenum mode);
+void colour(unsigned rgb);
+void normal(double x, double y, double z);
+void texture(double s, double t);
+void at(double x, double y, double z);
+void at4(double x, double y, double z, double w);
+void finish(void);
+/* A patch of columns x rows cells between four corners, in the order of a strip: the first two are one side. */
+void patch(const double corner[4][3], int columns, int rows, const unsigned rgb[2]);
+
+/* ---- markers: parallelograms whose centre a picture tells to 0.01 pixels ----
+ * Their edges lean by 10 pixels over 149 rows, so that the rows together round to 1/149 of a pixel. */
+enum { MARKER_ROWS = 149, MARKER_LEAN = 10 };
+/* Corners of the marker whose centre is at the pixel column x: pixels, the lowest row first. */
+void marker_corners(double x, double corner[4][2]);
+/* Tells what is to be found: colour, column in the program's own picture, depth, INFINITY too. */
+void tell_marker(unsigned rgb, double x, double depth);
+/* P[0][0] of the camera over the length of row 3. */
+void tell_lens(double a);
+/* A marker of depth d under a frustum |x| <= 1/a, |y| <= 1/b at depth 1, its vertices multiplied by w. */
+void marker(unsigned rgb, double x, double depth, double w, double a, double b);
+
+#endif

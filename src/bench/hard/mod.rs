@@ -1,0 +1,176 @@
+//! The hard cases: scenes that several views at once are most likely to spoil, each with a bound on how far they may be off.
+//!
+//! Pure: the table, what is measured of pictures, verdicts. The command draws, and `tests/hard.rs` asserts what it says.
+
+mod cases;
+pub mod measure;
+mod outcome;
+
+use super::configuration::{CONFIGURATIONS, Configuration};
+use crate::config::OptionId;
+pub use cases::{CASES, MISSES};
+pub use outcome::{Outcome, Verdict, text, write_csv};
+
+/// A scene and what has to hold of it.
+#[derive(Debug)]
+pub struct Case {
+    /// For `--case`.
+    pub name: &'static str,
+    /// What is hard about it.
+    pub about: &'static str,
+    /// What is drawn.
+    pub subject: Subject,
+    /// What has to hold.
+    pub bounds: &'static [Bound],
+    /// Where the number comes from.
+    pub source: &'static str,
+}
+
+/// What a case looks at.
+#[derive(Debug)]
+pub enum Subject {
+    /// A scene of the program `hard`.
+    Scene {
+        /// Its `--case`.
+        scene: &'static str,
+        /// N
+        views: u32,
+        /// κ and ξ.
+        cameras: [&'static str; 2],
+        /// Further options of the layer.
+        options: &'static [(OptionId, &'static str)],
+    },
+    /// The mask of a panel of 7680 x 4320 pixels: no strategy has a part in it.
+    Mask,
+    /// Nothing yet, and why.
+    NotYet(&'static str),
+}
+
+/// A bound that is known to be missed.
+#[derive(Debug)]
+pub struct Miss {
+    /// Name of the case.
+    pub case: &'static str,
+    /// Names of the configurations.
+    pub strategies: &'static [&'static str],
+    /// In words.
+    pub why: &'static str,
+}
+
+/// Why a bound is missed, where that is known.
+#[must_use]
+pub fn why(case: &str, strategy: &str) -> Option<&'static str> {
+    let miss = MISSES
+        .iter()
+        .find(|miss| miss.case == case && miss.strategies.contains(&strategy));
+    miss.map(|miss| miss.why)
+}
+
+/// A quantity and its largest value.
+#[derive(Clone, Copy, Debug)]
+pub struct Bound {
+    /// What is measured, the worst of all views.
+    pub measure: Measure,
+    /// Inclusive. Replay into layers makes the program's own calls: where pictures are compared it has to have 0.
+    pub most: f64,
+    /// The same where views lie beside each other, so that their vertices are rounded at another place.
+    pub beside: f64,
+}
+
+/// What is measured. The oracle is the scene drawing the view itself, by fixed function, at the place where the layer's view lies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Measure {
+    /// Pixels that differ from the oracle's, %.
+    Differing,
+    /// Steps of 255 by which a pixel is off every pixel of the oracle's within one pixel of it: edges may be rounded, colours may not.
+    Steps,
+    /// Pixels that are more than 8 steps off every one of the oracle's within one pixel: what leaks, and what is drawn wrong.
+    Foreign,
+    /// How far the centre of a marker is from where the equation of the cameras puts it, pixels.
+    Place,
+    /// How far the edges of areas of one colour are from the oracle's on average, pixels.
+    Edge,
+    /// Pixels that differ from the bare program's own picture, %.
+    Same,
+    /// Pixels that a second pass has missed: they are still red.
+    Missed,
+    /// How far the green area is from the oracle's, %.
+    Area,
+    /// How far the level of detail is from the window's.
+    Level,
+    /// Lines of answers that differ from the bare program's.
+    Answers,
+    /// Subpixels of the mask whose view is not that of whole numbers, %.
+    Mask,
+}
+
+impl Measure {
+    /// In a table.
+    #[must_use]
+    pub fn unit(self) -> &'static str {
+        match self {
+            Self::Differing => "% of pixels",
+            Self::Steps => "steps of 255",
+            Self::Foreign => "wrong pixels",
+            Self::Place => "px of place",
+            Self::Edge => "px of edges",
+            Self::Same => "% not the same",
+            Self::Missed => "missed pixels",
+            Self::Area => "% of area",
+            Self::Level => "levels",
+            Self::Answers => "answers",
+            Self::Mask => "% of subpixels",
+        }
+    }
+
+    /// Against the picture that the program draws itself, which replay has to give bit by bit.
+    fn of_oracle(self) -> bool {
+        matches!(
+            self,
+            Self::Differing | Self::Steps | Self::Foreign | Self::Edge | Self::Area
+        )
+    }
+}
+
+impl Bound {
+    /// The largest value under a configuration.
+    #[must_use]
+    pub fn under(&self, configuration: &Configuration, options: &[(OptionId, &str)]) -> f64 {
+        let full = !options.iter().any(|(id, _)| *id == OptionId::ViewScale);
+        if full && self.measure.of_oracle() && replays(configuration) {
+            0.0
+        } else if beside(configuration) {
+            self.beside
+        } else {
+            self.most
+        }
+    }
+}
+
+fn value(configuration: &Configuration, id: OptionId) -> Option<&'static str> {
+    let mut options = configuration.options.iter();
+    options.find(|(of, _)| *of == id).map(|(_, value)| *value)
+}
+
+fn replays(configuration: &Configuration) -> bool {
+    value(configuration, OptionId::Strategy) == Some("replay")
+}
+
+/// Whether the views lie beside each other: replay's do unless it is told otherwise, those that are drawn at once where that is asked for.
+#[must_use]
+pub fn beside(configuration: &Configuration) -> bool {
+    if replays(configuration) {
+        value(configuration, OptionId::Atlas) != Some("layers")
+    } else {
+        value(configuration, OptionId::Clip).is_some()
+    }
+}
+
+/// The configurations of `manyview bench --hard` without `--strategy`: every strategy in every layout that it has.
+pub fn configurations() -> impl Iterator<Item = &'static Configuration> {
+    // `auto` is one of the others, and what is drawn at once lies in layers by itself.
+    let twice = ["auto", "instanced-layers", "geometry-layers"];
+    CONFIGURATIONS
+        .iter()
+        .filter(move |known| !twice.contains(&known.name))
+}

@@ -1,0 +1,106 @@
+//! A scene that is drawn once and says something: what it said.
+#![forbid(unsafe_code)]
+
+use super::error::LaunchError;
+use super::program::{Ended, Launch};
+use super::screen::Screen;
+use super::stepped::Stop;
+use crate::bench::BenchError;
+use crate::config::{DISABLE, OPTIONS};
+use std::ffi::OsString;
+use std::io::Read;
+use std::path::Path;
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
+
+const LIMIT: Duration = Duration::from_secs(60);
+const POLL: Duration = Duration::from_millis(2);
+
+/// Runs a scene without the layer; `what` is what messages call it.
+///
+/// # Errors
+/// If it does not start, does not end, or ends with another status than 0.
+pub fn bare(
+    program: &Path,
+    arguments: &[OsString],
+    screen: &Screen,
+    what: &str,
+    stop: &mut Stop,
+) -> Result<String, LaunchError> {
+    let mut command = Command::new(program);
+    command.args(arguments).env_remove("LD_PRELOAD");
+    for option in OPTIONS {
+        command.env_remove(option.variable);
+    }
+    run(command, screen, what, stop)
+}
+
+/// Runs a scene under the layer.
+///
+/// # Errors
+/// As [`bare`].
+pub fn layered(
+    launch: &Launch,
+    screen: &Screen,
+    what: &str,
+    stop: &mut Stop,
+) -> Result<String, LaunchError> {
+    run(launch.command(), screen, what, stop)
+}
+
+fn run(
+    mut command: Command,
+    screen: &Screen,
+    what: &str,
+    stop: &mut Stop,
+) -> Result<String, LaunchError> {
+    screen.give(&mut command);
+    command
+        .env_remove(DISABLE)
+        .env("MESA_DEBUG", "silent")
+        .stdin(Stdio::null())
+        .stdout(Stdio::piped());
+    let system = |doing| move |source| LaunchError::System { doing, source };
+    let mut child = command.spawn().map_err(system("starting a scene"))?;
+    // In a thread of its own: a scene may say more than a pipe holds.
+    let said = child.stdout.take().map(|mut stdout| {
+        std::thread::spawn(move || {
+            let mut text = String::new();
+            stdout.read_to_string(&mut text).map(|_| text)
+        })
+    });
+    let limit = Instant::now() + LIMIT;
+    let ended = loop {
+        match child.try_wait().map_err(system("waiting for a scene"))? {
+            Some(status) => break Ok(status),
+            None if Instant::now() > limit => break Err(None),
+            None => match stop.check() {
+                Ok(()) => std::thread::sleep(POLL),
+                Err(error) => break Err(Some(error)),
+            },
+        }
+    };
+    if ended.is_err() {
+        let _ = child.kill();
+        let _ = child.wait();
+    }
+    let what = what.to_owned();
+    let status = ended.map_err(|error| {
+        error.unwrap_or_else(|| {
+            let seconds = LIMIT.as_secs();
+            BenchError::Silent {
+                what: what.clone(),
+                frames: 1,
+                seconds,
+            }
+            .into()
+        })
+    })?;
+    if !status.success() {
+        let how = Ended(status).describe();
+        return Err(BenchError::Ended { what, how }.into());
+    }
+    let said = said.and_then(|thread| thread.join().ok());
+    said.unwrap_or_else(|| Ok(String::new()))
+        .map_err(system("reading what a scene said"))
+}
