@@ -83,6 +83,10 @@ impl Programs {
     }
 
     /// Whether and how a draw can be made by an amplifier; the program is compiled if it is new.
+    #[allow(
+        clippy::too_many_arguments,
+        reason = "the parts of one draw; a struct of them would be built for this call alone"
+    )]
     pub fn prepare(
         &mut self,
         gl: &Gl,
