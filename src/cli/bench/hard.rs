@@ -211,7 +211,27 @@ impl Runner<'_> {
         &mut self,
         configuration: &'static Configuration,
     ) -> Result<Vec<Outcome>, LaunchError> {
-        let layered = self.layered(configuration)?;
+        let layered = match self.layered(configuration) {
+            Ok(layered) => layered,
+            // The program ends well without the layer, so this is an answer as well.
+            Err(LaunchError::Bench(error)) => {
+                let failed = |bound: &Bound| {
+                    let most = bound.under(configuration, self.options);
+                    let note = error.to_string();
+                    outcome(
+                        self.case,
+                        configuration.name,
+                        bound,
+                        most,
+                        f64::INFINITY,
+                        note,
+                    )
+                };
+                self.oracle(None, SIZE[0], 0)?;
+                return Ok(self.case.bounds.iter().map(failed).collect());
+            }
+            Err(error) => return Err(error),
+        };
         let layout = if beside(configuration) && self.options.is_empty() {
             AtlasLayout::SideBySide
         } else {
