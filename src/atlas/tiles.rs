@@ -209,6 +209,22 @@ mod tests {
     }
 
     #[test]
+    fn what_nobody_sees_is_not_drawn_but_for_the_own_view() {
+        let all = Tiles::new(8, [8, 8], Grid::FULL, AtlasLayout::Layers, BIG).expect("fits");
+        let drawn = |views: &[u32]| {
+            let shown = views.iter().copied().collect();
+            let mut drawn: Vec<u32> = Tiles { shown, ..all }.order().collect();
+            assert_eq!(drawn.last(), Some(&all.own()));
+            drawn.sort_unstable();
+            drawn
+        };
+        assert_eq!(drawn(&[0, 7]), [0, 3, 7]);
+        assert_eq!(drawn(&[3]), [3]);
+        assert_eq!(drawn(&[]), [3]);
+        assert_eq!(all.order().count(), 8);
+    }
+
+    #[test]
     fn what_does_not_fit_is_said() {
         assert!(Tiles::new(9, [20000, 10], Grid::FULL, AtlasLayout::SideBySide, BIG).is_err());
         let e = Tiles::new(

@@ -2,11 +2,11 @@
 #![forbid(unsafe_code)]
 
 use super::error::LaunchError;
-use super::program::{Ended, Launch};
+use super::program::{Ended, Launch, without_layer};
 use super::screen::Screen;
 use super::stepped::Stop;
 use crate::bench::BenchError;
-use crate::config::{DISABLE, OPTIONS};
+use crate::config::DISABLE;
 use std::ffi::OsString;
 use std::io::Read;
 use std::path::Path;
@@ -27,11 +27,7 @@ pub fn bare(
     what: &str,
     stop: &mut Stop,
 ) -> Result<String, LaunchError> {
-    let mut command = Command::new(program);
-    command.args(arguments).env_remove("LD_PRELOAD");
-    for option in OPTIONS {
-        command.env_remove(option.variable);
-    }
+    let command = without_layer(program, arguments);
     run(command, screen, what, stop)
 }
 

@@ -129,6 +129,16 @@ impl Launch {
 }
 
 /// The name by which the layer will know a program: that of its file, links followed.
+/// A program as it is without the layer, with nothing of the caller's own settings.
+pub(super) fn without_layer(program: &Path, arguments: &[OsString]) -> Command {
+    let mut command = Command::new(program);
+    command.args(arguments).env_remove("LD_PRELOAD");
+    for option in OPTIONS {
+        command.env_remove(option.variable);
+    }
+    command
+}
+
 fn program_name(app: &Path) -> Option<String> {
     let path = app.canonicalize().ok()?;
     Some(path.file_name()?.to_string_lossy().into_owned())

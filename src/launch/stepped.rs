@@ -2,12 +2,12 @@
 #![forbid(unsafe_code)]
 
 use super::error::LaunchError;
-use super::program::{Ended, Launch};
+use super::program::{Ended, Launch, without_layer};
 use super::screen::Screen;
 use super::signals;
 use crate::bench::BenchError;
 use crate::bench::protocol::{Hello, Times};
-use crate::config::{DISABLE, OPTIONS};
+use crate::config::DISABLE;
 use signal_hook::iterator::Signals;
 use std::ffi::OsString;
 use std::io::{BufRead, BufReader, Write};
@@ -61,11 +61,7 @@ impl Stepped {
         what: &str,
         stop: &mut Stop,
     ) -> Result<Self, LaunchError> {
-        let mut command = Command::new(program);
-        command.args(arguments).env_remove("LD_PRELOAD");
-        for option in OPTIONS {
-            command.env_remove(option.variable);
-        }
+        let command = without_layer(program, arguments);
         Self::start(command, screen, what, stop)
     }
 

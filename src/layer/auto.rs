@@ -75,9 +75,9 @@ impl Layer {
 
     /// A frame is in the true framebuffer 0: its time counts, and the next one may be drawn otherwise.
     pub(super) fn time_frame(&mut self, gl: &Gl) {
-        // What lies beside the views does not move with them.
+        // What lies beside the views does not move with them: nothing else is tried as long as there is such a thing.
         if self.accumulated.buffer.is_some() || self.atlas.has_front() {
-            self.auto = None;
+            return;
         }
         let Some(auto) = &mut self.auto else { return };
         if auto.trial.measures() {
