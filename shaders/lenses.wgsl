@@ -1,4 +1,4 @@
-// The picture of a panel whose views were drawn lens by lens: the tile's texels lie where the panel shows its view, or next to it. The
+// The picture of a panel whose views have fewer texels than it: lens by lens, where the panel shows the view or next to it, or evenly. The
 // mask has views. A pixel is looked up by its place, whatever the phase of its view, so that what lies between two lenses is drawn
 // between them.
 
@@ -30,43 +30,46 @@ fn lens_pixels(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32>
     return lit(texel_up(view, floor(place(view, at))), views);
 }
 
-fn between_columns(view: u32, at: vec2<u32>) -> vec3<f32> {
-    let place = place(view, at) - vec2<f32>(0.5, 0.0);
-    let low = floor(place);
-    let left = texel_up(view, low);
-    return mix(left, texel_up(view, low + vec2<f32>(1.0, 0.0)), place.x - low.x);
+fn fetched(x: f32, y: f32, layer: f32) -> vec3<f32> {
+    return textureLoad(views_texture, vec2<i32>(vec2<f32>(x, y)), i32(layer), 0).rgb;
 }
 
-// Rows are those of the window.
-@fragment
-fn lens_columns(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
-    let at = top_down(position);
-    let views = mask(at);
-    let colour = vec3<f32>(
-        between_columns(shown(views.r), at).r,
-        between_columns(shown(views.g), at).g,
-        between_columns(shown(views.b), at).b,
+fn corner(x: vec3<f32>, y: vec3<f32>, layer: vec3<f32>) -> vec3<f32> {
+    return vec3<f32>(
+        fetched(x.r, y.r, layer.r).r,
+        fetched(x.g, y.g, layer.g).g,
+        fetched(x.b, y.b, layer.b).b,
     );
-    return lit(colour, views);
 }
 
-fn between_texels(view: u32, at: vec2<u32>) -> vec3<f32> {
-    let place = place(view, at) - 0.5;
-    let low = floor(place);
-    let weight = place - low;
-    let lower = mix(texel_up(view, low), texel_up(view, low + vec2<f32>(1.0, 0.0)), weight.x);
-    let upper = mix(texel_up(view, low + vec2<f32>(0.0, 1.0)), texel_up(view, low + 1.0), weight.x);
-    return mix(lower, upper, weight.y);
-}
-
+// All three colours at once: on a CPU most of the time goes to what is around the fetches.
 @fragment
 fn lens_texels(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
-    let at = top_down(position);
-    let views = mask(at);
-    let colour = vec3<f32>(
-        between_texels(shown(views.r), at).r,
-        between_texels(shown(views.g), at).g,
-        between_texels(shown(views.b), at).b,
-    );
-    return lit(colour, views);
+    let window = vec3<f32>(position.xy, 1.0);
+    let views = mask(top_down(position));
+    let view = vec3<f32>(vec3<i32>(min(views, vec3<u32>(u.views - 1u))));
+
+    let last = vec2<f32>(u.tile) - 1.0;
+    let x = clamp(dot(u.column.xyz, window) - 0.5 + u.column.w * view, vec3<f32>(0.0), vec3<f32>(last.x));
+    let y = clamp(dot(u.row.xyz, window) - 0.5 + u.row.w * view, vec3<f32>(0.0), vec3<f32>(last.y));
+    let low = floor(y);
+    let high = min(low + 1.0, vec3<f32>(last.y));
+    let left = floor(x);
+    let right = min(left + 1.0, vec3<f32>(last.x));
+
+    // As `slot` and `texel` have it.
+    let own = f32(middle());
+    let first = select(view, vec3<f32>(own), view == vec3<f32>(0.0));
+    let slots = select(first, vec3<f32>(0.0), view == vec3<f32>(own));
+    let columns = f32(u.columns);
+    let layer = floor((slots + 0.5) / columns);
+    let start = (slots - layer * columns) * f32(u.stride);
+    let flipped = u.rows_top_down != 0u;
+    let lower = select(low, last.y - low, flipped);
+    let upper = select(high, last.y - high, flipped);
+
+    let beside = x - left;
+    let below = mix(corner(start + left, lower, layer), corner(start + right, lower, layer), beside);
+    let above = mix(corner(start + left, upper, layer), corner(start + right, upper, layer), beside);
+    return lit(mix(below, above, y - low), views);
 }

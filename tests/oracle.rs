@@ -95,6 +95,8 @@ fn scene(name: &str) -> Scene {
         "mirror" => scene("mirror", &[], 1),
         "mesh" => scene("mesh", &["--triangles", "10000"], 1),
         "mesh_vbo" => scene("mesh", &["--triangles", "10000", "--vbo"], 1),
+        // Enough calls for a list to be made of them.
+        "mesh_immediate" => scene("mesh", &["--triangles", "1000", "--immediate"], 1),
         "mesh_list" => scene("mesh", &["--triangles", "10000", "--list"], 1),
         "fill" => scene("fill", &["--overdraw", "6", "--textured"], 1),
         "prims" => scene("prims", &[], 1),
@@ -541,9 +543,9 @@ macro_rules! oracle {
 }
 
 oracle! {
-    glx: gears lists echo blur teapot room fogtexgen points clip mirror mesh mesh_vbo mesh_list fill prims arrays immediate sky;
-    egl: gears lists echo teapot room fogtexgen points clip mirror mesh mesh_vbo mesh_list fill prims arrays immediate sky;
-    osmesa: gears lists echo blur teapot room fogtexgen points clip mirror mesh mesh_vbo mesh_list fill prims arrays immediate sky;
+    glx: gears lists echo blur teapot room fogtexgen points clip mirror mesh mesh_vbo mesh_immediate mesh_list fill prims arrays immediate sky;
+    egl: gears lists echo teapot room fogtexgen points clip mirror mesh mesh_vbo mesh_immediate mesh_list fill prims arrays immediate sky;
+    osmesa: gears lists echo blur teapot room fogtexgen points clip mirror mesh mesh_vbo mesh_immediate mesh_list fill prims arrays immediate sky;
 }
 
 /// Surfaces of other kinds, by replay.

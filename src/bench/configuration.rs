@@ -24,6 +24,9 @@ pub const EXACT: Configuration = Configuration {
     about: "every draw again for each view, each view at the origin of its own layer",
 };
 
+/// The configuration that comes to one of the others.
+pub const AUTO: &str = "auto";
+
 /// Of `manyview bench` without `--strategy`.
 pub const DEFAULT_CONFIGURATIONS: &[&str] = &["replay", "instanced", "geometry"];
 
@@ -50,7 +53,7 @@ const fn row(
 /// All configurations.
 pub const CONFIGURATIONS: &[Configuration] = &[
     row(
-        "auto",
+        AUTO,
         &[(OptionId::Strategy, "auto")],
         "what the layer takes by itself",
     ),

@@ -17,7 +17,9 @@ mod scene;
 mod statistics;
 pub mod table;
 
-pub use configuration::{CONFIGURATIONS, Configuration, DEFAULT_CONFIGURATIONS, EXACT, Variant};
+pub use configuration::{
+    AUTO, CONFIGURATIONS, Configuration, DEFAULT_CONFIGURATIONS, EXACT, Variant,
+};
 pub use error::BenchError;
 pub use outcome::{Bench, Limit, Paper, PictureError, Row, tile_bytes};
 pub use pareto::front;

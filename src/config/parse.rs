@@ -68,7 +68,7 @@ pub(super) const STRATEGIES: &[(&str, Strategy)] = &[
     ("geometry", Strategy::Geometry),
 ];
 
-const CLIPS: &[(&str, Clip)] = &[
+pub(super) const CLIPS: &[(&str, Clip)] = &[
     ("distances", Clip::Distances),
     ("discard", Clip::Discard),
     ("both", Clip::Both),

@@ -211,7 +211,7 @@ impl Interleaver {
                 Form::Anaglyph(anaglyph) => anaglyph.matrices(),
                 _ => Default::default(),
             },
-            grid: t.grid.follows_lenses().then_some(t.grid),
+            grid: t.grid,
             depth: source.depth.map_or([0.0; 2], |(_, depth)| depth.ends),
         };
         program.bind(gl, &uniforms.words());
@@ -239,7 +239,7 @@ impl Interleaver {
             Form::Panel(_, filter) => *filter,
             Form::Eyes(_) => Filter::Nearest,
         };
-        let lenses = tiles.grid.follows_lenses() && filter == Filter::Nearest;
+        let lenses = !tiles.grid.is_full() && filter == Filter::Nearest;
         let fits = tiles.rows << column_bits(tiles) < u32::from(GUARD);
         let places = (texels && filter == Filter::Nearest && fits).then_some(*tiles);
         let eyes = matches!(form, Form::Eyes(_));
@@ -248,7 +248,6 @@ impl Interleaver {
         };
         match places {
             None if lenses && tiles.grid.exact && known.whole => Pass::Lenses(Lenses::Pixels),
-            None if lenses && tiles.grid.up == 1.0 => Pass::Lenses(Lenses::Columns),
             None if lenses => Pass::Lenses(Lenses::Texels),
             None => Pass::Interleave,
             Some(_) if known.whole => Pass::Texels(Texels::Pixels),

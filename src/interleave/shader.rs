@@ -40,7 +40,7 @@ pub enum Pass {
     Interleave,
     /// The same for views of the picture's size.
     Texels(Texels),
-    /// The same for views that were drawn lens by lens.
+    /// The same for views that have fewer texels, lens by lens or evenly.
     Lenses(Lenses),
     /// Quilt, side by side or a single view.
     Layout,
@@ -72,9 +72,7 @@ pub enum Texels {
 pub enum Lenses {
     /// Nowhere: each pixel shows one view.
     Pixels,
-    /// Along rows.
-    Columns,
-    /// Along both.
+    /// Between texels.
     Texels,
 }
 
@@ -99,13 +97,12 @@ pub enum Step {
 
 impl Pass {
     /// All that make a picture of views.
-    pub const OUTPUTS: [Self; 11] = [
+    pub const OUTPUTS: [Self; 10] = [
         Self::Interleave,
         Self::Texels(Texels::Subpixels),
         Self::Texels(Texels::SubpixelsOfOneLayer),
         Self::Texels(Texels::Pixels),
         Self::Lenses(Lenses::Pixels),
-        Self::Lenses(Lenses::Columns),
         Self::Lenses(Lenses::Texels),
         Self::Layout,
         Self::Whole,
@@ -256,8 +253,8 @@ pub struct Uniforms {
     pub matrices: (Matrix, Matrix),
     /// White and black as values of the depth buffer; only the RGBD pass reads them.
     pub depth: [f32; 2],
-    /// Where the picture's pixels lie in the tiles; only passes by lenses read it.
-    pub grid: Option<Grid>,
+    /// Where the picture's pixels lie in the tiles; only the passes of lenses read it.
+    pub grid: Grid,
 }
 
 impl Uniforms {
@@ -306,12 +303,11 @@ impl Uniforms {
         for (word, value) in words.iter_mut().skip(44).zip(self.depth) {
             *word = value.to_bits();
         }
-        if let Some(grid) = self.grid {
-            let [[x, y], [step_x, step_y]] = [grid.origin, grid.step];
-            let lenses = [grid.across, grid.shear, x, step_x, 0.0, grid.up, y, step_y];
-            for (word, value) in words.iter_mut().skip(48).zip(lenses) {
-                *word = (value as f32).to_bits();
-            }
+        let grid = &self.grid;
+        let [[x, y], [step_x, step_y]] = [grid.origin, grid.step];
+        let lenses = [grid.across, grid.shear, x, step_x, 0.0, grid.up, y, step_y];
+        for (word, value) in words.iter_mut().skip(48).zip(lenses) {
+            *word = (value as f32).to_bits();
         }
         words
     }
@@ -429,7 +425,6 @@ fn entry(pass: Pass) -> &'static str {
         Pass::Texels(Texels::SubpixelsOfOneLayer) => "subpixels_of_one_layer",
         Pass::Texels(Texels::Pixels) => "pixels",
         Pass::Lenses(Lenses::Pixels) => "lens_pixels",
-        Pass::Lenses(Lenses::Columns) => "lens_columns",
         Pass::Lenses(Lenses::Texels) => "lens_texels",
         Pass::Layout => "arrange",
         Pass::Whole => "whole",

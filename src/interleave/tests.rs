@@ -255,14 +255,14 @@ fn uniforms_are_found_by_name() {
         black: 14,
         matrices: ([[1.0; 3]; 3], [[2.0; 3]; 3]),
         depth: [3.0, 4.0],
-        grid: Some(Grid {
+        grid: Grid {
             across: 5.0,
             shear: 6.0,
             up: 7.0,
             origin: [8.0, 9.0],
             step: [10.0, 11.0],
             exact: true,
-        }),
+        },
     };
     let version = GlslVersion::Desktop(330);
     let got = translate(Pass::Layout, Stage::Fragment, version).unwrap();

@@ -75,6 +75,19 @@ impl Stepped {
         Self::start(launch.command(), screen, what, stop)
     }
 
+    /// Starts a scene under the layer that keeps what `--strategy auto` finds in a folder of ours.
+    pub fn trying(
+        launch: &Launch,
+        screen: &Screen,
+        cache: &Path,
+        what: &str,
+        stop: &mut Stop,
+    ) -> Result<Self, LaunchError> {
+        let mut command = launch.command();
+        command.env("XDG_CACHE_HOME", cache);
+        Self::start(command, screen, what, stop)
+    }
+
     fn start(
         mut command: Command,
         screen: &Screen,

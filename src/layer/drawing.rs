@@ -2,11 +2,11 @@
 
 use super::Layer;
 use crate::config::{Class, Output, Projection, Strategy, Word};
-use crate::draw::{Again, Amplified, Current, FixedState, Programs, replay};
+use crate::draw::{Again, Amplified, FixedState, Programs, replay};
+use crate::gl::Gl;
 use crate::gl::api::Indices;
-use crate::gl::{Ends, Gl, Recording, consts as c};
 use crate::plan::{Kind, Method, Plan, Ramp, plan};
-use crate::state::{Begin, Command, Effect, Immediate, Run, Touch};
+use crate::state::{Command, Run, Touch};
 
 /// A draw from arrays that may be instanced. Counts, types and modes are GL's.
 #[derive(Clone, Copy, Debug)]
@@ -136,7 +136,13 @@ impl Layer {
     }
 
     /// Prepares an amplified draw and counts it; `None`: it has to be replayed, and the reason is counted.
-    fn amplify(&mut self, gl: &Gl, plan: &Plan, mode: u32, material: bool) -> Option<Amplified> {
+    pub(super) fn amplify(
+        &mut self,
+        gl: &Gl,
+        plan: &Plan,
+        mode: u32,
+        material: bool,
+    ) -> Option<Amplified> {
         if self.state.touched.has(Touch::FIXED) || self.fixed.is_none() {
             self.fixed = Some(FixedState::read(gl, self.driver, self.state.window.samples));
         } else if self.state.touched.has(Touch::MATERIAL)
@@ -167,7 +173,13 @@ impl Layer {
         }
     }
 
-    fn amplified(&mut self, gl: &Gl, plan: &Plan, how: &Amplified, draw: &mut dyn FnMut(u32)) {
+    pub(super) fn amplified(
+        &mut self,
+        gl: &Gl,
+        plan: &Plan,
+        how: &Amplified,
+        draw: &mut dyn FnMut(u32),
+    ) {
         if let Some(fixed) = &self.fixed {
             self.programs.draw(
                 gl,
@@ -222,9 +234,9 @@ impl Layer {
     /// these have; views beside each other and what comes out of a geometry shader do not, so from the first draw with GL_EQUAL on
     /// all draws go the same way. A pass before that one, in the program's first frame, is not made again.
     fn keep_together(&mut self, gl: &Gl) {
-        let alike = match self.means.strategy {
+        let alike = match self.means.way.strategy {
             Strategy::Replay | Strategy::Auto => true,
-            Strategy::Instanced => self.config.clip.is_none() && self.support.layers,
+            Strategy::Instanced => self.means.way.clip.is_none() && self.support.layers,
             Strategy::Geometry => false,
         };
         if alike || self.means.together || !self.state.draws_to_window() {
@@ -263,96 +275,6 @@ impl Layer {
                 "the program's attribute stack was full: some draws are in its own view only"
                     .into(),
             );
-        }
-    }
-
-    /// Before a glBegin that goes to the driver: answers whether the calls up to glEnd are to be recorded; if not, they go there too.
-    pub fn begin(&mut self, gl: &Gl, mode: u32) -> bool {
-        // In a list it is compiled.
-        if self.compiles() {
-            self.compile(gl, Command::Begin(mode), Touch::NONE);
-            return false;
-        }
-        // A mode that does not exist begins nothing.
-        if mode > c::PATCHES {
-            return false;
-        }
-        self.state.refresh(gl);
-        if !self.state.draws_to_window() || mode > c::POLYGON {
-            if self.state.list.is_none() && self.state.framebuffers.draw != 0 {
-                // Only to be counted, as other draws to the program's own framebuffers are.
-                self.plan(gl, Kind::Begin(mode));
-            } else {
-                self.queries.drawn();
-            }
-            self.state.begin = Begin::Direct;
-            return false;
-        }
-        self.start_recording(mode);
-        true
-    }
-
-    pub(super) fn start_recording(&mut self, mode: u32) {
-        self.recording.clear();
-        self.immediate = Immediate::default();
-        self.ends = Ends::default();
-        self.state.begin = Begin::Recorded(mode);
-    }
-
-    /// Where a call between glBegin and glEnd is written.
-    #[inline]
-    pub fn record(&mut self, slot: usize, effect: Effect) -> &mut Recording {
-        self.immediate.note(effect);
-        self.recording.call(slot);
-        &mut self.recording
-    }
-
-    /// After the driver's glEnd: makes the recorded calls.
-    pub fn end(&mut self, gl: &Gl) {
-        let Begin::Recorded(mode) = std::mem::replace(&mut self.state.begin, Begin::Outside) else {
-            return;
-        };
-        let plan = self.plan(gl, Kind::Begin(mode));
-        let again = match self.immediate.must_restore() {
-            Effect::NONE => Again::Same,
-            effects => Again::Current(effects),
-        };
-        let recording = std::mem::take(&mut self.recording);
-        let amplified = match plan.method {
-            Method::Instanced | Method::Geometry if self.ends == Ends::default() => {
-                self.amplify(gl, &plan, mode, self.immediate.changes_material())
-            }
-            _ => None,
-        };
-        let ends = self.ends;
-        match amplified {
-            Some(how) => {
-                self.prove(gl, plan.shear, again, &mut |_| {
-                    gl.replay(mode, &recording, ends);
-                });
-                // Several calls (many views, several layers) each start from the same current values.
-                let current = match again {
-                    Again::Current(e) => Current::take(gl, e, false),
-                    _ => Current::default(),
-                };
-                let mut first = true;
-                self.amplified(gl, &plan, &how, &mut |_| {
-                    if !std::mem::take(&mut first) {
-                        current.put(gl);
-                    }
-                    gl.replay(how.mode, &recording, ends);
-                });
-            }
-            None if plan.method == Method::Once => {
-                self.once(gl, &mut || gl.replay(mode, &recording, ends));
-            }
-            None => self.replay(gl, &plan, again, &mut |_| {
-                gl.replay(mode, &recording, ends);
-            }),
-        }
-        self.recording = recording;
-        if self.immediate.changes_material() {
-            self.state.touch(Touch::MATERIAL);
         }
     }
 

@@ -23,11 +23,18 @@ impl Layer {
         Some(name)
     }
 
-    fn list_name(&self, gl: &Gl) -> u32 {
+    pub(super) fn list_name(&self, gl: &Gl) -> u32 {
         self.lists
             .lock()
             .unwrap_or_else(PoisonError::into_inner)
             .name(|name| gl.is_list(name))
+    }
+
+    /// A list of ours is of no use any more.
+    pub(super) fn drop_list(&self, gl: &Gl, name: u32) {
+        gl.delete_list(name);
+        let mut lists = self.lists.lock().unwrap_or_else(PoisonError::into_inner);
+        lists.spare(name);
     }
 
     /// Whether a list is being compiled.
@@ -467,7 +474,7 @@ impl Layer {
 
 /// Before the driver's call of a list that sets current values. One of them, whichever, has to have been set by a call since the last
 /// such list: else Mesa 22.3 sets those from before the list's vertices once more, at the next change of state.
-fn settle(gl: &Gl, sets: Effect) {
+pub(super) fn settle(gl: &Gl, sets: Effect) {
     if sets != Effect::NONE {
         let [r, g, b, a] = gl.get_floats(c::CURRENT_COLOR);
         gl.color_4f(r, g, b, a);

@@ -171,6 +171,11 @@ impl Lists {
         self.next + 1
     }
 
+    /// A name that is of no use any more.
+    pub fn spare(&mut self, name: u32) {
+        self.spare.push(name);
+    }
+
     /// How many names of ours are in use.
     pub fn held(&self) -> u32 {
         TOP - self.next - self.spare.len() as u32

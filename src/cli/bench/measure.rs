@@ -5,8 +5,8 @@ use image::RgbImage;
 use indicatif::{ProgressBar, ProgressStyle};
 use manyview::bench::protocol::{Hello, Times};
 use manyview::bench::{
-    Bench, BenchError, EXACT, Limit, PictureError, Preset, Row, Scene, Spread, Variant, median,
-    ratios, tile_bytes,
+    AUTO, Bench, BenchError, CONFIGURATIONS, Configuration, EXACT, Limit, PictureError, Preset,
+    Row, Scene, Spread, Variant, median, ratios, tile_bytes,
 };
 use manyview::config::{OptionId, Origin};
 use manyview::launch::{Launch, LaunchError, Screen, Stepped, Stop, library};
@@ -22,6 +22,9 @@ const WARM_UP: u32 = 4;
 /// turn finds its caches cold.
 const TURN: f64 = 15.0;
 const MOST_OF_A_TURN: u32 = 10;
+
+/// Frames in which `auto` finds what it takes.
+const TRIAL: u32 = 80;
 
 /// What takes turns.
 pub(super) struct Group {
@@ -212,8 +215,15 @@ impl Runner<'_> {
         let warm = bare.stepped.step(WARM_UP, stop)?;
         bar.inc(1);
         let mut members = Vec::new();
+        let mut found = Vec::new();
         for (variant, place) in self.group.variants.iter().zip(&places) {
-            let mut stepped = self.layered(variant, place, stop)?;
+            let taken = self.found(variant, stop)?;
+            let taken_variant = Variant {
+                configuration: taken.unwrap_or(variant.configuration),
+                ..variant.clone()
+            };
+            found.push(taken);
+            let mut stepped = self.layered(&taken_variant, place, stop)?;
             stepped.step(WARM_UP, stop)?;
             members.push(Member::new(stepped));
             bar.inc(1);
@@ -238,15 +248,19 @@ impl Runner<'_> {
         }
         let hello = bare.stepped.hello.clone();
         let mut rows = Vec::new();
-        for ((member, variant), place) in members.into_iter().zip(&self.group.variants).zip(&places)
-        {
+        let ran = self.group.variants.iter().zip(found).zip(&places);
+        for (member, ((variant, found), place)) in members.into_iter().zip(ran) {
             let picture = self.picture(variant, place)?;
             let compared =
                 Comparison::new(&exact, &picture, None).map_err(|error| BenchError::NoPicture {
                     what: self.what(variant),
                     reason: error.to_string(),
                 })?;
-            rows.extend(self.row(variant, frames, &bare, &member, compared.into(), place));
+            let row = self.row(variant, frames, &bare, &member, compared.into(), place);
+            rows.extend(row.map(|mut row| {
+                row.notes.extend(found.map(|f| format!("takes {}", f.name)));
+                row
+            }));
         }
         Ok((hello, rows))
     }
@@ -285,6 +299,35 @@ impl Runner<'_> {
         })
     }
 
+    /// What `auto` comes to, drawn by itself: pictures that are captured are replayed. None for other configurations.
+    fn found(
+        &self,
+        variant: &Variant,
+        stop: &mut Stop,
+    ) -> Result<Option<&'static Configuration>, LaunchError> {
+        if variant.configuration.name != AUTO {
+            return Ok(None);
+        }
+        let cache = tempfile::tempdir().map_err(|source| LaunchError::System {
+            doing: "making a temporary folder",
+            source,
+        })?;
+        let settings = variant.settings(&self.group.views.to_string());
+        let launch = Launch::prepare(&self.command(), &settings)?;
+        let what = self.what(variant);
+        let mut stepped = Stepped::trying(&launch, self.screen, cache.path(), &what, stop)?;
+        stepped.step(TRIAL, stop)?;
+        let kept = std::fs::read_to_string(cache.path().join("manyview/strategies.json"));
+        let kept: BTreeMap<String, String> =
+            serde_json::from_str(&kept.unwrap_or_default()).unwrap_or_default();
+        let name = kept.into_values().next().unwrap_or_default();
+        let found = CONFIGURATIONS.iter().find(|known| known.name == name);
+        found.map(Some).ok_or_else(|| {
+            let reason = "it found no strategy".to_owned();
+            BenchError::NoPicture { what, reason }.into()
+        })
+    }
+
     fn layered(
         &self,
         variant: &Variant,
@@ -306,10 +349,14 @@ impl Runner<'_> {
         ] {
             settings.set(id, value, Origin::Default);
         }
+        let launch = Launch::prepare(&self.command(), &settings)?;
+        Stepped::layered(&launch, self.screen, &self.what(variant), stop)
+    }
+
+    fn command(&self) -> Vec<OsString> {
         let mut command = vec![self.program.as_os_str().to_owned()];
         command.extend(self.arguments());
-        let launch = Launch::prepare(&command, &settings)?;
-        Stepped::layered(&launch, self.screen, &self.what(variant), stop)
+        command
     }
 
     fn arguments(&self) -> Vec<OsString> {
