@@ -27,7 +27,7 @@ PICTURE_PACKAGES := netpbm
 # A game with a timedemo: 423 MB, and only for the targets that play it.
 OPENARENA_PACKAGES := openarena unzip
 
-.PHONY: help build demos demo bench pictures gallery test test-long test-full programs soak openarena openarena-pictures lint packages \
+.PHONY: help build demos demo bench overhead pictures gallery test test-long test-full programs soak openarena openarena-pictures lint packages \
 	install uninstall clean
 
 help: ## list the targets
@@ -105,6 +105,9 @@ openarena-pictures: packages build ## make the pictures of OpenArena in the READ
 	@sh scripts/openarena.sh $(BIN) $(TARGET)/openarena pictures
 	cp $(TARGET)/openarena/quilt.png docs/openarena-views.png
 	cp $(TARGET)/openarena/panel.png docs/openarena-panel.png
+
+overhead: packages build demos ## measure the layer where it does nothing: switched off, and with one view (ten minutes)
+	@sh scripts/overhead.sh $(BIN) $(TARGET)/overhead $(DEMOS)
 
 lint: rust ## check format, clippy and documentation
 	$(CARGO) fmt --all --check
