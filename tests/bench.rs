@@ -57,7 +57,7 @@ fn a_small_run_is_told_in_every_form() {
             "{row}"
         );
         // 96 x 64 pixels of 8 bytes.
-        assert_eq!(row["tile_bytes"], 2 * 96 * 64 * 8);
+        assert_eq!(row["view_bytes"], 2 * 96 * 64 * 8);
     }
     // That is what it is compared with.
     assert_eq!(rows[0]["configuration"], "replay-layers");
@@ -103,7 +103,7 @@ fn row(scene: &'static str, configuration: &str, views: u32, times: f64, psnr: O
             worst: 0,
             wrong_subpixels_percent: 0.0,
         },
-        tile_bytes: None,
+        view_bytes: None,
         paper: None,
         draws: BTreeMap::new(),
         fallbacks: BTreeMap::new(),

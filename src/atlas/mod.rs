@@ -32,6 +32,8 @@ pub struct Atlas {
     pub color: u32,
     /// The depth texture that is sampled, resolved as [`Atlas::resolve`] does; 0 where the window has no depth.
     pub depth: u32,
+    /// Memory of the views, all samples of them and what they are resolved to.
+    pub bytes: u64,
     textures: Vec<u32>,
     rows: Vec<u32>,
     layered: Option<u32>,
@@ -118,6 +120,15 @@ fn depth_format(w: &Window) -> Option<(u32, u32, u32, u32)> {
     }
 }
 
+/// Memory of a texel in an internal format of [`color_format`] or [`depth_format`]; drivers give three bytes a fourth.
+fn texel_bytes(format: u32) -> u64 {
+    match format {
+        c::RGBA16 | c::RGBA16F => 8,
+        c::RGB565 | c::RGB5_A1 | c::RGBA4 | c::DEPTH_COMPONENT16 => 2,
+        _ => 4,
+    }
+}
+
 /// A width at which rows are not a multiple of 4096 bytes apart, where the driver has one: else the same columns of neighbouring rows
 /// would share a few lines of a cache.
 fn padded(gl: &Gl, width: u32) -> u32 {
@@ -159,10 +170,15 @@ impl Atlas {
             tiles.height as i32,
             tiles.rows as i32,
         );
-        let mut textures = Vec::new();
+        let texels: u64 = [width, height, layers]
+            .map(|n| n.max(0) as u64)
+            .iter()
+            .product();
+        let (mut textures, mut bytes) = (Vec::new(), 0);
         let mut texture = |format: (u32, u32, u32), samples: u32| {
             let name = names.texture(gl);
             textures.push(name);
+            bytes += texels * texel_bytes(format.0) * u64::from(samples.max(1));
             if samples > 0 {
                 gl.bind_texture(c::TEXTURE_2D_MULTISAMPLE_ARRAY, name);
                 gl.tex_image_3d_multisample(
@@ -224,6 +240,7 @@ impl Atlas {
             flipped: flip,
             color: sampled,
             depth: resolve_depth.or(depth).map_or(0, |(name, _)| name),
+            bytes,
             textures,
             rows,
             layered,

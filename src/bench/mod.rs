@@ -21,7 +21,7 @@ pub use configuration::{
     AUTO, CONFIGURATIONS, Configuration, DEFAULT_CONFIGURATIONS, EXACT, Variant,
 };
 pub use error::BenchError;
-pub use outcome::{Bench, Limit, Paper, PictureError, Row, tile_bytes};
+pub use outcome::{Bench, Limit, Paper, PictureError, Row};
 pub use pareto::front;
 pub use preset::{Figure, PRESETS, Preset};
 pub use proof::{ProofRow, Proofs};

@@ -64,8 +64,8 @@ pub struct Row {
     pub gpu_ms: Option<Spread>,
     /// Against the exact picture of the same frame.
     pub picture: PictureError,
-    /// See [`tile_bytes`]; none where the layer chooses the size of the views.
-    pub tile_bytes: Option<u64>,
+    /// Of the layer's report: memory of the views' colour, depth and stencil; none where there is no report.
+    pub view_bytes: Option<u64>,
     /// What the paper of the preset says.
     pub paper: Option<Paper>,
     /// Of the layer's report: draws by method.
@@ -131,17 +131,6 @@ pub struct Limit {
     pub unit: &'static str,
 }
 
-/// The memory of the views' tiles: 4 bytes of colour and 4 of depth and stencil for each pixel, rows rounded up to 32 pixels.
-/// One view has no tiles. None where `view_scale` is no number.
-#[must_use]
-pub fn tile_bytes(views: u32, (width, height): (u32, u32), view_scale: &str) -> Option<u64> {
-    const BYTES: u64 = 8;
-    let scale: f64 = view_scale.parse().ok()?;
-    let side = |pixels: u32| (f64::from(pixels) * scale).ceil() as u64;
-    let tiles = if views > 1 { u64::from(views) } else { 0 };
-    Some(tiles * side(width).next_multiple_of(32) * side(height) * BYTES)
-}
-
 impl Bench {
     /// Puts the paper's figure beside a row, once all rows of its group are there.
     pub fn compare(&mut self, at: usize, figure: &Figure) {
@@ -202,7 +191,7 @@ struct Line<'a> {
     ssim: f64,
     worst: u8,
     wrong_subpixels_percent: f64,
-    tile_bytes: Option<u64>,
+    view_bytes: Option<u64>,
     paper_times: Option<f64>,
     paper_speedup: Option<f64>,
     our_speedup: Option<f64>,
@@ -235,25 +224,12 @@ impl<'a> From<&'a Row> for Line<'a> {
             ssim: row.picture.ssim,
             worst: row.picture.worst,
             wrong_subpixels_percent: row.picture.wrong_subpixels_percent,
-            tile_bytes: row.tile_bytes,
+            view_bytes: row.view_bytes,
             paper_times: paper.and_then(|paper| paper.times),
             paper_speedup: paper.and_then(|paper| paper.speedup),
             our_speedup: paper.and_then(|paper| paper.our_speedup),
             paper_words: paper.map_or("", |paper| paper.words),
             fallbacks: row.fallbacks.values().sum(),
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn tiles_are_counted_in_whole_steps() {
-        assert_eq!(tile_bytes(8, (512, 384), "1"), Some(8 * 512 * 384 * 8));
-        assert_eq!(tile_bytes(2, (100, 10), "0.5"), Some(2 * 64 * 5 * 8));
-        assert_eq!(tile_bytes(1, (512, 384), "1"), Some(0));
-        assert_eq!(tile_bytes(8, (512, 384), "auto"), None);
     }
 }

@@ -96,7 +96,7 @@ fn cells(row: &Row, gpu: bool, papers: bool) -> Vec<String> {
     cells.push(format!("{:.4}", picture.ssim));
     cells.push(picture.worst.to_string());
     cells.push(format!("{:.3}", picture.wrong_subpixels_percent));
-    cells.push(row.tile_bytes.map_or_else(
+    cells.push(row.view_bytes.map_or_else(
         || "?".to_owned(),
         |bytes| format!("{:.1}", bytes as f64 / f64::from(1 << 20)),
     ));

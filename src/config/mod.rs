@@ -264,6 +264,15 @@ pub enum Strategy {
     Geometry,
 }
 
+impl Strategy {
+    /// By its name.
+    #[must_use]
+    pub fn named(name: &str) -> Option<Strategy> {
+        let all = parse::STRATEGIES.iter();
+        all.copied().find(|s| s.0 == name).map(|s| s.1)
+    }
+}
+
 impl std::fmt::Display for Strategy {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let named = parse::STRATEGIES.iter().find(|s| s.1 == *self);
@@ -291,13 +300,6 @@ pub enum Clip {
     /// Likewise, after the geometry shader has left out what lies outside as a whole. With instances the same as
     /// [`Clip::Discard`].
     Both,
-}
-
-impl std::fmt::Display for Clip {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let named = parse::CLIPS.iter().find(|c| c.1 == *self);
-        f.write_str(named.map_or("", |c| c.0))
-    }
 }
 
 /// Where the views lie.

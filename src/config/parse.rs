@@ -68,7 +68,7 @@ pub(super) const STRATEGIES: &[(&str, Strategy)] = &[
     ("geometry", Strategy::Geometry),
 ];
 
-pub(super) const CLIPS: &[(&str, Clip)] = &[
+const CLIPS: &[(&str, Clip)] = &[
     ("distances", Clip::Distances),
     ("discard", Clip::Discard),
     ("both", Clip::Both),

@@ -1,10 +1,9 @@
 //! `--strategy auto`: drives a [`Trial`] with the frames of the program, and keeps what it finds for the next start.
 
 use super::Layer;
-use super::Support;
-use crate::config::{AtlasLayout, Clip, Config, Strategy};
+use crate::config::{Config, Strategy};
 use crate::gl::{Gl, consts as c};
-use crate::plan::{Trial, Way};
+use crate::plan::Trial;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -30,7 +29,7 @@ impl Auto {
         gl: &Gl,
         config: &Config,
         program: Option<&str>,
-        all: &[Way],
+        all: &[Strategy],
     ) -> Option<Auto> {
         if config.strategy != Strategy::Auto || config.views < 2 {
             return None;
@@ -43,14 +42,14 @@ impl Auto {
             config.views
         );
         let file = file();
-        let known = read(file.as_deref()).remove(&key);
-        let known = known.and_then(|name| all.iter().copied().find(|way| way.to_string() == name));
+        let known = read(file.as_deref())
+            .get(&key)
+            .and_then(|name| Strategy::named(name));
         let repeatable = config.capture.is_some() || config.explain.is_some();
-        let replay = Way::from(Strategy::Replay);
         let candidates = match known {
-            _ if repeatable => vec![replay],
+            _ if repeatable => vec![Strategy::Replay],
             // One strategy is proved, and no other drawn.
-            _ if config.prove.is_some() => vec![known.unwrap_or(replay)],
+            _ if config.prove.is_some() => vec![known.unwrap_or(Strategy::Replay)],
             _ => all.to_vec(),
         };
         Some(Auto {
@@ -61,45 +60,17 @@ impl Auto {
         })
     }
 
-    pub(super) fn way(&self) -> Way {
-        self.trial.way()
+    pub(super) fn strategy(&self) -> Strategy {
+        self.trial.strategy()
     }
-}
-
-/// What the user has chosen.
-pub(super) fn asked(config: &Config) -> Way {
-    Way {
-        strategy: config.strategy,
-        clip: config.clip,
-    }
-}
-
-/// What can be tried in a context.
-pub(super) fn ways(config: &Config, support: &Support) -> Vec<Way> {
-    let way = |strategy, clip| Way { strategy, clip };
-    let amplified = |strategy| way(strategy, config.clip);
-    // Layers spare clip distances; one framebuffer for all views spares a software renderer more.
-    let both = support.layers && config.clip.is_none() && config.atlas == AtlasLayout::SideBySide;
-    [
-        (way(Strategy::Replay, None), true),
-        (amplified(Strategy::Instanced), support.instanced()),
-        (
-            way(Strategy::Instanced, Some(Clip::Distances)),
-            support.instanced() && both,
-        ),
-        (amplified(Strategy::Geometry), support.geometry()),
-    ]
-    .into_iter()
-    .filter_map(|(way, there)| there.then_some(way))
-    .collect()
 }
 
 impl Layer {
     /// What the user has chosen, or `auto` has come to.
-    pub(super) fn chosen(&self) -> Way {
+    pub(super) fn chosen(&self) -> Strategy {
         self.auto
             .as_ref()
-            .map_or_else(|| asked(self.config), Auto::way)
+            .map_or(self.config.strategy, Auto::strategy)
     }
 
     /// A frame is in the true framebuffer 0: its time counts, and the next one may be drawn otherwise.
@@ -122,9 +93,9 @@ impl Layer {
             self.report
                 .note(format!("auto: {found} is the fastest here"));
         }
-        let next = auto.trial.way();
-        if next != self.means.way && !self.proving.replays() {
-            self.means.way = next;
+        let next = auto.trial.strategy();
+        if next != self.means.strategy && !self.proving.replays() {
+            self.means.strategy = next;
             self.remake(gl);
         }
     }
@@ -151,7 +122,7 @@ fn read(file: Option<&Path>) -> BTreeMap<String, String> {
 }
 
 /// For the next start. What cannot be written is tried again then.
-fn keep(file: Option<&Path>, key: &str, found: Way) {
+fn keep(file: Option<&Path>, key: &str, found: Strategy) {
     let Some(file) = file else { return };
     let mut all = read(Some(file));
     if all.len() >= KEPT {

@@ -234,9 +234,9 @@ impl Layer {
     /// these have; views beside each other and what comes out of a geometry shader do not, so from the first draw with GL_EQUAL on
     /// all draws go the same way. A pass before that one, in the program's first frame, is not made again.
     fn keep_together(&mut self, gl: &Gl) {
-        let alike = match self.means.way.strategy {
+        let alike = match self.means.strategy {
             Strategy::Replay | Strategy::Auto => true,
-            Strategy::Instanced => self.means.way.clip.is_none() && self.support.layers,
+            Strategy::Instanced => self.config.clip.is_none() && self.support.layers,
             Strategy::Geometry => false,
         };
         if alike || self.means.together || !self.state.draws_to_window() {

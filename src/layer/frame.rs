@@ -180,6 +180,7 @@ impl Layer {
     /// Counts the frame and writes the report where one is asked for.
     pub fn count_frame(&mut self) {
         self.report.frame();
+        self.report.memory(self.atlas.bytes);
         for (reason, count) in self.fallbacks.take() {
             self.report.fallbacks(&reason, count);
         }

@@ -33,7 +33,7 @@ use crate::display::{Display, Placement};
 use crate::draw::{Driver, FixedState, Programs};
 use crate::gl::{Count, Ends, Gl, Held, Recording, consts as c};
 use crate::interleave::Interleaver;
-use crate::plan::{Classifier, Means, Reason, Rig, Shear, Way};
+use crate::plan::{Classifier, Means, Reason, Rig, Shear};
 use crate::present::Saved;
 use crate::report::{Counts, Proof, Report};
 use crate::state::{BACK, Immediate, Lists, State, Window};
@@ -147,16 +147,17 @@ impl Layer {
             config.clip.unwrap_or_default(),
         );
         let program = profile::this_program();
-        let auto = auto::Auto::new(
-            gl,
-            config,
-            program.as_deref(),
-            &auto::ways(config, &support),
-        );
+        let all: Vec<Strategy> = [
+            (Strategy::Replay, true),
+            (Strategy::Instanced, support.instanced()),
+            (Strategy::Geometry, support.geometry()),
+        ]
+        .into_iter()
+        .filter_map(|(strategy, there)| there.then_some(strategy))
+        .collect();
+        let auto = auto::Auto::new(gl, config, program.as_deref(), &all);
         let means = Means {
-            way: auto
-                .as_ref()
-                .map_or_else(|| auto::asked(config), auto::Auto::way),
+            strategy: auto.as_ref().map_or(config.strategy, auto::Auto::strategy),
             instanced: support.instanced(),
             geometry: support.geometry(),
             together: false,
@@ -182,7 +183,15 @@ impl Layer {
             detail,
             shader,
         );
-        let atlas = make_atlas(gl, &mut names, config, &state, &support, grid, means.way)?;
+        let atlas = make_atlas(
+            gl,
+            &mut names,
+            config,
+            &state,
+            &support,
+            grid,
+            means.strategy,
+        )?;
         let mut layer = Layer {
             config,
             rig: Rig::new(config.views, live.camera, config.profile.focal_depth),
@@ -244,8 +253,8 @@ impl Layer {
         self.state.window.height = height;
         let grid = self.grid();
         let (names, config, state) = (&mut self.names, self.config, &self.state);
-        let way = self.means.way;
-        let atlas = make_atlas(gl, names, config, state, &self.support, grid, way)?;
+        let strategy = self.means.strategy;
+        let atlas = make_atlas(gl, names, config, state, &self.support, grid, strategy)?;
         std::mem::replace(&mut self.atlas, atlas).delete(gl);
         if let Some(old) = std::mem::take(&mut self.accumulated).buffer {
             old.delete(gl);
@@ -356,8 +365,9 @@ impl Layer {
         self.state.refresh(gl);
         let grid = self.grid();
         let (names, config, state) = (&mut self.names, self.config, &self.state);
-        let way = self.means.way;
-        let Ok(mut atlas) = make_atlas(gl, names, config, state, &self.support, grid, way) else {
+        let strategy = self.means.strategy;
+        let Ok(mut atlas) = make_atlas(gl, names, config, state, &self.support, grid, strategy)
+        else {
             return false;
         };
         as_they_are(gl, || {
@@ -491,12 +501,13 @@ fn is_attached(gl: &Gl, framebuffer: u32, textures: &[u32]) -> bool {
 
 /// Where the views lie. The strategies that draw all views at once take layers wherever the driver can choose one in a shader,
 /// also when views beside each other are asked for: one draw then serves all views without clip distances, and every view lies at
-/// the origin and has its very pixels. Which is faster is for `auto` to find out: on llvmpipe 22.3, 8 views of 512 x 384, it is views
-/// beside each other (`manyview bench --strategy instanced,instanced-distances`).
-fn layout(config: &Config, support: &Support, way: Way) -> AtlasLayout {
-    match way.strategy {
-        // Asked for by name, to compare, or tried.
-        _ if way.clip.is_some() => AtlasLayout::SideBySide,
+/// the origin. Beside each other is faster on llvmpipe 22.3 where there are many triangles (`manyview bench --strategy
+/// instanced,instanced-distances`), and beyond the gate: up to 0.11 % of neverputt's pixels by up to 6 steps, against 0.002 % by 1
+/// (`manyview run --prove 20`).
+fn layout(config: &Config, support: &Support, strategy: Strategy) -> AtlasLayout {
+    match strategy {
+        // Asked for by name, to compare.
+        _ if config.clip.is_some() => AtlasLayout::SideBySide,
         // A geometry shader can always choose a layer.
         Strategy::Geometry => AtlasLayout::Layers,
         Strategy::Instanced if support.layers => AtlasLayout::Layers,
@@ -511,14 +522,14 @@ fn make_atlas(
     state: &State,
     support: &Support,
     grid: Grid,
-    way: Way,
+    strategy: Strategy,
 ) -> Result<Atlas, LayerError> {
     let w = &state.window;
     let tiles = Tiles::new(
         config.views,
         [w.width, w.height],
         grid,
-        layout(config, support, way),
+        layout(config, support, strategy),
         support.limits,
     )
     .map_err(AtlasError::from)?;

@@ -435,8 +435,16 @@ impl Layer {
         }
         if self.proving.atlas.is_none() {
             let (names, config, state) = (&mut self.names, self.config, &self.state);
-            let way = self.means.way;
-            match make_atlas(gl, names, config, state, &self.support, Grid::FULL, way) {
+            let strategy = self.means.strategy;
+            match make_atlas(
+                gl,
+                names,
+                config,
+                state,
+                &self.support,
+                Grid::FULL,
+                strategy,
+            ) {
                 Ok(atlas) => self.proving.atlas = Some(atlas),
                 Err(error) => {
                     self.report.note(format!("nothing is proved: {error}"));
@@ -491,7 +499,7 @@ impl Layer {
             if full {
                 self.hand_over(gl);
             }
-            self.means.way = Strategy::Replay.into();
+            self.means.strategy = Strategy::Replay;
             self.put_other(gl);
         }
     }
@@ -499,7 +507,7 @@ impl Layer {
     /// After a frame by replay alone; `whole`: the frame is at its end.
     fn choose_again(&mut self, gl: &Gl, whole: bool) {
         self.proving.now = Now::Plain;
-        self.means.way = self.chosen();
+        self.means.strategy = self.chosen();
         let full = |atlas: &Atlas| atlas.tiles.grid.is_full();
         if whole && self.proving.atlas.as_ref().is_some_and(full) {
             self.hand_over(gl);

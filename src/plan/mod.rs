@@ -13,7 +13,7 @@ pub use class::{Classed, Classifier, Facts};
 pub use comfort::Comfort;
 pub use depths::{Ramp, Ways};
 pub use parallax::{Rig, Shear};
-pub use trial::{Trial, Way};
+pub use trial::Trial;
 
 /// What the program draws with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -96,7 +96,7 @@ pub struct Plan {
 #[derive(Clone, Copy, Debug)]
 pub struct Means {
     /// What the user asked for, or `auto` has come to.
-    pub way: Way,
+    pub strategy: Strategy,
     /// Instancing, clip distances and compatibility shaders are there.
     pub instanced: bool,
     /// Geometry shaders too.
@@ -151,7 +151,7 @@ fn magnified(state: &State) -> f64 {
 }
 
 fn method(kind: Kind, state: &State, means: &Means) -> Result<Method, Option<Reason>> {
-    let wish = match means.way.strategy {
+    let wish = match means.strategy {
         // `auto` is in force as one of the others.
         Strategy::Replay | Strategy::Auto => return Err(None),
         Strategy::Geometry => Method::Geometry,
@@ -216,7 +216,7 @@ mod tests {
         state.projection[0] = 2.0;
         let rig = Rig::new(5, Camera::Auto, None);
         let means = Means {
-            way: Strategy::Replay.into(),
+            strategy: Strategy::Replay,
             instanced: false,
             geometry: false,
             together: false,

@@ -26,6 +26,7 @@ pub struct Report {
     notes: Vec<String>,
     errors: u64,
     shaders: u64,
+    bytes: u64,
     disparities: Disparities,
     /// Where a proof is asked for.
     pub proof: Option<Proof>,
@@ -51,6 +52,7 @@ struct Json<'a> {
     fallbacks: &'a BTreeMap<String, u64>,
     generated_shaders: u64,
     gl_errors: u64,
+    view_bytes: u64,
     #[serde(skip_serializing_if = "Option::is_none")]
     disparity: Option<disparity::Json<'a>>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -95,6 +97,11 @@ impl Report {
     /// Programs generated and compiled so far.
     pub fn shaders(&mut self, programs: u64) {
         self.shaders = programs;
+    }
+
+    /// Memory of the views' colour, depth and stencil.
+    pub fn memory(&mut self, bytes: u64) {
+        self.bytes = bytes;
     }
 
     /// Names that the layer holds in this context; `lists` are those of its share group.
@@ -192,6 +199,7 @@ impl Report {
             fallbacks: &self.fallbacks,
             generated_shaders: self.shaders,
             gl_errors: self.errors,
+            view_bytes: self.bytes,
             disparity: self.disparities.json(),
             proof: self.proof.as_ref().map(Proof::summary),
             names: self.names,

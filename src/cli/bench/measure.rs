@@ -6,7 +6,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use manyview::bench::protocol::{Hello, Times};
 use manyview::bench::{
     AUTO, Bench, BenchError, CONFIGURATIONS, Configuration, EXACT, Limit, PictureError, Preset,
-    Row, Scene, Spread, Variant, median, ratios, tile_bytes,
+    Row, Scene, Spread, Variant, median, ratios,
 };
 use manyview::config::{OptionId, Origin};
 use manyview::launch::{Launch, LaunchError, Screen, Stepped, Stop, library};
@@ -291,7 +291,7 @@ impl Runner<'_> {
             bare_cpu_ms: ms(&bare.cpu)?.median,
             gpu_ms: ms(&member.gpu),
             picture,
-            tile_bytes: tile_bytes(self.group.views, self.group.size, &variant.view_scale),
+            view_bytes: report.view_bytes,
             paper: None,
             draws: report.draws,
             fallbacks: report.fallbacks,
@@ -414,6 +414,7 @@ pub(super) struct Report {
     draws: BTreeMap<String, u64>,
     fallbacks: BTreeMap<String, u64>,
     notes: Vec<String>,
+    view_bytes: Option<u64>,
 }
 
 impl Report {
