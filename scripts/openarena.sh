@@ -27,6 +27,7 @@ cut_to() {
     if [ "$1" -eq 0 ]; then cp "$work/whole.dm_71" "$played"; else head -c "$1"k "$work/whole.dm_71" >"$played"; fi
 }
 
+rm -f "$work/display"
 Xvfb -displayfd 1 -screen 0 1024x768x24 -nolisten tcp -noreset >"$work/display" 2>/dev/null &
 server=$!
 trap 'kill $server 2>/dev/null || true' EXIT

@@ -17,6 +17,7 @@ pak=/usr/share/games/openarena/baseoa/pak6-patch088.pk3
 say() { echo "overhead: $*" >&2; }
 
 mkdir -p "$work/home/.openarena/baseoa/demos"
+rm -f "$work/display"
 Xvfb -displayfd 1 -screen 0 1024x768x24 -nolisten tcp -noreset >"$work/display" 2>/dev/null &
 server=$!
 trap 'kill $server 2>/dev/null || true' EXIT
@@ -66,7 +67,8 @@ while [ "$round" -le "$rounds" ]; do
         bare=$(frame "$program" env)
         off=$(frame "$program" env MANYVIEW_DISABLE=1 LD_PRELOAD="$bin/libmanyview.so")
         one=$(frame "$program" "$bin/manyview" run --views 1 --)
-        echo "$program ${bare:-?} ${off:-?} ${one:-?}" >>"$work/figures"
+        [ -n "$bare" ] && [ -n "$off" ] && [ -n "$one" ] || { say "$program told no time"; exit 1; }
+        echo "$program $bare $off $one" >>"$work/figures"
     done
     round=$((round + 1))
 done

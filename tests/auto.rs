@@ -7,7 +7,7 @@ use serde_json::Value;
 use std::path::Path;
 use support::{demo, layered, manyview, rgb, screen, succeed};
 
-/// Enough for it to be found (12 before it begins, and three turns of four by each of three strategies), and for the report, which is
+/// Enough for it to be found (12 before it begins, and four turns of four by each of three strategies), and for the report, which is
 /// written ten times a second, to tell it.
 const FRAMES: &str = "600";
 

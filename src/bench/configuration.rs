@@ -112,6 +112,8 @@ pub struct Variant {
     pub configuration: &'static Configuration,
     /// As `--view-scale` has it.
     pub view_scale: String,
+    /// As `--display` has it; none for the layer's own.
+    pub display: Option<String>,
 }
 
 impl Variant {
@@ -130,6 +132,9 @@ impl Variant {
     pub fn settings(&self, views: &str) -> Settings {
         let mut settings = Settings::default();
         settings.set(OptionId::ViewScale, &self.view_scale, Origin::CommandLine);
+        if let Some(display) = &self.display {
+            settings.set(OptionId::Display, display, Origin::CommandLine);
+        }
         for (id, value) in self.configuration.options {
             settings.set(*id, *value, Origin::CommandLine);
         }

@@ -39,6 +39,13 @@ pub fn text(bench: &Bench) -> String {
                 row.scene, row.views, row.configuration
             );
         }
+        for note in &row.notes {
+            let _ = writeln!(
+                text,
+                "* {}, {} views, {}: {note}",
+                row.scene, row.views, row.configuration
+            );
+        }
     }
     text
 }
@@ -69,7 +76,11 @@ fn cells(row: &Row, gpu: bool, papers: bool) -> Vec<String> {
     let quartiles =
         |spread: &Spread| format!("{}-{}", significant(spread.low), significant(spread.high));
     let number = |value: Option<f64>| value.map_or_else(String::new, |value| format!("{value:.2}"));
-    let star = if row.fallbacks.is_empty() { "" } else { "*" };
+    let star = if row.fallbacks.is_empty() && row.notes.is_empty() {
+        ""
+    } else {
+        "*"
+    };
     let mut cells = vec![
         row.scene.to_owned(),
         format!("{}x{}", row.width, row.height),

@@ -159,6 +159,7 @@ impl Layer {
         self.report.shaders(self.programs.compiled);
         match how {
             Ok(how) => {
+                self.amplifies = true;
                 self.report
                     .draw(method_name(plan.method), plan.class.word());
                 Some(how)

@@ -106,6 +106,8 @@ pub struct Layer {
     /// Counts for `--report`.
     pub report: Report,
     drawn: bool,
+    /// A draw since the last frame was made by another strategy than replay.
+    amplifies: bool,
 }
 
 /// Where a window lies.
@@ -236,6 +238,7 @@ impl Layer {
             fallbacks: Counts::default(),
             report,
             drawn: false,
+            amplifies: false,
         };
         layer.drain_own_errors(gl);
         layer.bind_draw(gl, true, true);

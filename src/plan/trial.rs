@@ -10,9 +10,9 @@ const WARM: u32 = 12;
 /// Frames by one strategy before the next has its turn; the first of them, which makes an atlas and compiles shaders, is not counted.
 const BLOCK: u32 = 4;
 /// Turns of each.
-const ROUNDS: usize = 3;
+const ROUNDS: usize = 4;
 /// What another strategy's median has to be of replay's, which is exact and takes no shaders.
-const BETTER: f32 = 0.95;
+const BETTER: f32 = 0.92;
 /// A scene that takes more or less than this many times as long as the one that was tried is another one ...
 const OTHER: f32 = 2.0;
 /// ... if it does so for as many frames.
@@ -171,7 +171,7 @@ mod tests {
             };
             let (found, frames) = find(&mut trial, time);
             assert_eq!(found, best);
-            assert!(frames <= 60, "{frames}");
+            assert!(frames <= 64, "{frames}");
         }
     }
 

@@ -195,6 +195,7 @@ impl Runner<'_> {
         let exact = Variant {
             configuration: &EXACT,
             view_scale: "1".to_owned(),
+            display: self.group.variants.first().and_then(|v| v.display.clone()),
         };
         let place = Place::new(folder.path(), "exact");
         self.layered(&exact, &place, stop)?.step(WARM_UP, stop)?;

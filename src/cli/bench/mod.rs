@@ -61,6 +61,9 @@ pub(crate) struct Arguments {
         allow_hyphen_values = true
     )]
     view_scale: Vec<String>,
+    /// Panel whose picture is made, as for `run` [default: that of the layer]
+    #[arg(long, value_name = "NAME|FILE")]
+    display: Option<String>,
     /// Size of the window in pixels [default: 512x384, or the preset's]
     #[arg(long, value_name = "WxH", value_delimiter = ',')]
     size: Vec<String>,
@@ -88,7 +91,7 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "FILE.png|FILE.svg")]
     chart: Option<PathBuf>,
     /// Draw the hard cases under every strategy and compare them with their bounds; status 1 if one is missed
-    #[arg(long, conflicts_with_all = ["scene", "preset", "views", "view_scale", "size", "frames", "chart", "list"])]
+    #[arg(long, conflicts_with_all = ["scene", "preset", "views", "view_scale", "display", "size", "frames", "chart", "list"])]
     hard: bool,
     /// Hard case to draw, several by commas or by giving it again [default: all of them]
     #[arg(long, value_name = "NAME", value_delimiter = ',', requires = "hard")]
@@ -207,6 +210,7 @@ fn groups(
             variants.push(Variant {
                 configuration,
                 view_scale,
+                display: arguments.display.clone(),
             });
         }
     }

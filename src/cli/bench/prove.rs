@@ -87,6 +87,7 @@ fn turns(arguments: &Arguments) -> Result<Vec<Turn>, LaunchError> {
         Ok::<_, BenchError>(Variant {
             configuration,
             view_scale: view_scale.to_owned(),
+            display: arguments.display.clone(),
         })
     };
     let (names, scales) = (&arguments.strategy, &arguments.view_scale);
@@ -108,6 +109,10 @@ fn turns(arguments: &Arguments) -> Result<Vec<Turn>, LaunchError> {
                 (OptionId::ViewScale, &*variant.view_scale),
                 (OptionId::Prove, EVERY),
                 (OptionId::Views, &*views),
+                (
+                    OptionId::Display,
+                    variant.display.as_deref().unwrap_or_default(),
+                ),
             ];
             let options = variant.configuration.options.iter().copied();
             for (id, value) in options.chain(ours).filter(|(_, value)| !value.is_empty()) {
