@@ -270,6 +270,31 @@ fn triangles_left_out_in_a_loop() {
 }
 
 #[test]
+fn triangles_cut_in_invocations() {
+    let key = FixedKey {
+        target: Target {
+            clip: Clip::Cut,
+            ..target(
+                Amplifier::GeometryInvocations,
+                Tiles::ClipLeftRight,
+                Primitive::Triangles,
+                4,
+            )
+        },
+        ..FixedKey::default()
+    };
+    insta::assert_snapshot!(text(&key));
+    let instanced = FixedKey {
+        target: Target {
+            amplifier: Amplifier::Instanced,
+            ..key.target
+        },
+        ..key
+    };
+    assert_eq!(instanced.canonical().target.clip, Clip::Distances);
+}
+
+#[test]
 fn what_does_not_matter_is_forgotten() {
     let mut lighting = lit();
     lighting.lights[0] = Some(Light {

@@ -42,10 +42,11 @@ const LAYOUTS: [(&str, AtlasLayout); 2] = [
 ];
 
 /// What keeps views beside each other apart under the strategies that draw all of them at once, where it is asked for.
-const CLIPS: [(&str, AtlasLayout); 3] = [
+const CLIPS: [(&str, AtlasLayout); 4] = [
     ("distances", AtlasLayout::SideBySide),
     ("discard", AtlasLayout::SideBySide),
     ("both", AtlasLayout::SideBySide),
+    ("cut", AtlasLayout::SideBySide),
 ];
 /// Vertices that a shader moves to their tile are rounded otherwise than by a viewport there. Measured on llvmpipe 22.3:
 /// at most 42 of 66,000 pixels differ, 1 by more than 8 steps.

@@ -37,6 +37,8 @@ const GEOMETRY: (OptionId, &str) = (OptionId::Strategy, "geometry");
 
 const DISTANCES: (OptionId, &str) = (OptionId::Clip, "distances");
 const DISCARD: (OptionId, &str) = (OptionId::Clip, "discard");
+const BOTH: (OptionId, &str) = (OptionId::Clip, "both");
+const CUT: (OptionId, &str) = (OptionId::Clip, "cut");
 
 const fn row(
     name: &'static str,
@@ -102,6 +104,16 @@ pub const CONFIGURATIONS: &[Configuration] = &[
         "geometry-discard",
         &[GEOMETRY, DISCARD],
         "geometry, the views beside each other, fragments outside discarded",
+    ),
+    row(
+        "geometry-both",
+        &[GEOMETRY, BOTH],
+        "the same, primitives that are outside as a whole left out by the geometry shader",
+    ),
+    row(
+        "geometry-cut",
+        &[GEOMETRY, CUT],
+        "geometry, the views beside each other, triangles cut by the geometry shader",
     ),
 ];
 

@@ -168,21 +168,26 @@ pub const PRESETS: &[Preset] = &[
     },
     Preset {
         name: "desorbier-fig9",
-        about: "clipping in the geometry shader against both shaders; here no clipping (layers) against clip distances. Only words in the text",
+        about: "clipping in the geometry shader against both shaders. Only words in the text",
         size: (1024, 768),
         scenes: &["mesh-10k-immediate", "mesh-40k-immediate"],
         views: &["2", "4"],
-        configurations: &["geometry-layers", "geometry"],
+        configurations: &["geometry-cut", "geometry-both"],
         figures: &[
-            said("mesh-10k-immediate", "2", "geometry", "both shaders better"),
+            said(
+                "mesh-10k-immediate",
+                "2",
+                "geometry-both",
+                "both shaders better",
+            ),
             said(
                 "mesh-10k-immediate",
                 "4",
-                "geometry",
+                "geometry-both",
                 "both shaders better, by more",
             ),
-            said("mesh-40k-immediate", "2", "geometry", "similar"),
-            said("mesh-40k-immediate", "4", "geometry", "similar"),
+            said("mesh-40k-immediate", "2", "geometry-both", "similar"),
+            said("mesh-40k-immediate", "4", "geometry-both", "similar"),
         ],
     },
 ];

@@ -42,7 +42,7 @@ pub(crate) struct LayerArguments {
     #[arg(long, value_name = "side-by-side|layers")]
     atlas: Option<String>,
     /// Put the views of instanced and geometry side by side, and keep them apart so [default: views lie in layers]
-    #[arg(long, value_name = "distances|discard|both")]
+    #[arg(long, value_name = "distances|discard|both|cut")]
     clip: Option<String>,
     /// Size of a view over the size of the window, above 0 and at most 1 [default: 1]
     #[arg(long, value_name = "F", allow_hyphen_values = true)]

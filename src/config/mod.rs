@@ -300,6 +300,8 @@ pub enum Clip {
     /// Likewise, after the geometry shader has left out what lies outside as a whole. With instances the same as
     /// [`Clip::Discard`].
     Both,
+    /// The geometry shader cuts triangles at the edges of the tile. With instances the same as [`Clip::Distances`].
+    Cut,
 }
 
 /// Where the views lie.

@@ -139,7 +139,7 @@ pub const OPTIONS: &[OptionSpec] = &[
         "how draws are repeated per view; auto unless given"),
     option!(Atlas, Some("atlas"), Some("atlas"), "MANYVIEW_ATLAS", "side-by-side|layers", No,
         "where the views lie in memory; side-by-side unless given"),
-    option!(Clip, Some("clip"), Some("clip"), "MANYVIEW_CLIP", "distances|discard|both", No,
+    option!(Clip, Some("clip"), Some("clip"), "MANYVIEW_CLIP", "distances|discard|both|cut", No,
         "put the views of instanced and geometry side by side, and keep them apart so; views lie in layers unless given"),
     option!(ViewScale, Some("view-scale"), Some("view-scale"), "MANYVIEW_VIEW_SCALE", "F", No,
         "size of a view over that of the window, from 0.05 to 1, or auto: as much as the output shows; 1 unless given"),

@@ -44,7 +44,7 @@ impl Config {
                 settings,
                 OptionId::Clip,
                 CLIPS,
-                "distances, discard and both",
+                "distances, discard, both and cut",
             )?,
             view_scale: view_scale(settings)?,
             hud_depth: hud_depth(settings)?,
@@ -72,6 +72,7 @@ const CLIPS: &[(&str, Clip)] = &[
     ("distances", Clip::Distances),
     ("discard", Clip::Discard),
     ("both", Clip::Both),
+    ("cut", Clip::Cut),
 ];
 
 const ATLASES: &[(&str, AtlasLayout)] = &[

@@ -160,6 +160,17 @@ impl Programs {
                 "smooth quads under `--clip discard`, which the driver cuts along either diagonal,",
             ));
         }
+        // Of a flat triangle's corners the driver would choose another one after a cut.
+        let whole = match key.target.primitive {
+            Primitive::Triangles => !key.flat,
+            Primitive::Polygon => true,
+            _ => false,
+        };
+        if geometry && key.target.cuts() && !whole {
+            return Err(Reason::Kind(
+                "points, lines, quads and flat triangles under `--clip cut`",
+            ));
+        }
         around.allow(&key).map_err(Reason::Fixed)?;
         // Measured on llvmpipe 22.3: widened after a geometry shader, they come out in shreds.
         let drawn = around.rasterised;

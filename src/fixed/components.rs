@@ -147,7 +147,7 @@ fn passed_components(key: &FixedKey) -> u32 {
 pub fn batch(key: &FixedKey, limits: &Limits) -> u32 {
     let key = key.canonical();
     let capacity = super::VIEWS;
-    let vertices = key.target.primitive.emitted();
+    let vertices = key.target.emitted();
     let components = output_components(&key);
     let per_run = (limits.geometry_output_vertices / vertices)
         .min(limits.geometry_total_output_components / (vertices * components).max(1));

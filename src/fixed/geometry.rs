@@ -1,8 +1,8 @@
 //! The geometry shader: the primitive of one view, for each view.
 //!
 //! Based on: Q. Luo et al., "GPU-based multi-view rendering" and F. de Sorbier et al., "GPU rendering for
-//! autostereoscopic displays" (3DPVT 2008): the primitive is emitted once per view, shifted and cut at its tile. Both ways of the latter to cut are
-//! here: fragments are discarded, or primitives are left out as well.
+//! autostereoscopic displays" (3DPVT 2008): the primitive is emitted once per view, shifted and cut at its tile. All ways of the latter to cut are
+//! here: fragments are discarded, primitives are left out as well, or triangles are cut.
 //!
 //! The order of emission keeps the order of the input, so the driver's provoking vertex is the program's own. A quad or
 //! polygon arrives as something else (see [`Primitive`]), and its flat colour is given to every vertex instead.
@@ -89,7 +89,7 @@ pub(super) fn write(key: &FixedKey, limits: &Limits) -> Result<String, Unsupport
     text.line(format!(
         "layout({}, max_vertices = {}) out;",
         output_layout(primitive),
-        primitive.emitted() * loops
+        key.target.emitted() * loops
     ));
     vertex::write_block(&mut text, key, "in", "mv_in[]");
     view::write_uniforms(&mut text, key);
@@ -97,7 +97,13 @@ pub(super) fn write(key: &FixedKey, limits: &Limits) -> Result<String, Unsupport
     text.line("");
     view::write_place(&mut text, key);
     text.line("");
-    write_emit(&mut text, key);
+    if key.target.cuts() {
+        write_emit_between(&mut text, key);
+        text.line("");
+        write_cut(&mut text);
+    } else {
+        write_emit(&mut text, key);
+    }
     text.line("");
     if key.target.clip == Clip::Both {
         write_outside(&mut text);
@@ -124,6 +130,73 @@ fn write_emit(text: &mut Text, key: &FixedKey) {
     }
     text.line("gl_PrimitiveID = gl_PrimitiveIDIn;");
     text.line("EmitVertex();");
+    text.close("}");
+}
+
+/// `mv_emit(at, view)`: a vertex of a triangle's inside or edges; `at` is what it has of each corner. What is linear in clip space is
+/// linear in it, so everything that is interpolated is as at that place of the whole triangle.
+fn write_emit_between(text: &mut Text, key: &FixedKey) {
+    let between = |of: &dyn Fn(u8) -> String| {
+        format!("at.x * {} + at.y * {} + at.z * {}", of(0), of(1), of(2))
+    };
+    text.open("void mv_emit(vec3 at, int view) {");
+    let position = between(&|i| format!("gl_in[{i}].gl_Position"));
+    let vertex = between(&|i| format!("mv_in[{i}].vertex"));
+    text.line(format!("mv_place(view, {position}, {vertex});"));
+    for varying in varyings(key) {
+        let Some(builtin) = varying.builtin(key) else {
+            continue;
+        };
+        let value = match flat_source(key) {
+            Some(source) if varying.is_color() => format!("mv_in[{source}].{}", varying.member()),
+            _ => between(&|i| format!("mv_in[{i}].{}", varying.member())),
+        };
+        text.line(format!("{builtin} = {value};"));
+    }
+    text.line("gl_PrimitiveID = gl_PrimitiveIDIn;");
+    text.line("EmitVertex();");
+    text.close("}");
+}
+
+/// `mv_cut(view)`: the triangle without what is beyond the left and the right edge of its tile, as Sutherland and Hodgman cut polygons.
+/// A corner counts by its distance from an edge in homogeneous coordinates, so the sign of w does not matter.
+fn write_cut(text: &mut Text) {
+    text.open("void mv_cut(int view) {");
+    text.line(format!("vec4 row = {UNIFORM_VIEWS}[view];"));
+    text.line("vec3 x = vec3(dot(row, mv_in[0].vertex), dot(row, mv_in[1].vertex), dot(row, mv_in[2].vertex));");
+    text.line(
+        "vec3 w = vec3(gl_in[0].gl_Position.w, gl_in[1].gl_Position.w, gl_in[2].gl_Position.w);",
+    );
+    text.line("vec3 corners[5];");
+    text.line("corners[0] = vec3(1.0, 0.0, 0.0);");
+    text.line("corners[1] = vec3(0.0, 1.0, 0.0);");
+    text.line("corners[2] = vec3(0.0, 0.0, 1.0);");
+    text.line("int count = 3;");
+    text.open("for (int side = 0; side < 2; ++side) {");
+    text.line(format!(
+        "vec3 inside = side == 0 ? x - {UNIFORM_CLIP}.x * w : {UNIFORM_CLIP}.y * w - x;"
+    ));
+    text.line("vec3 kept[5];");
+    text.line("int number = 0;");
+    text.open("for (int i = 0; i < count; ++i) {");
+    text.line("vec3 from = corners[i];");
+    text.line("vec3 to = corners[i + 1 < count ? i + 1 : 0];");
+    text.line("float here = dot(inside, from);");
+    text.line("float there = dot(inside, to);");
+    text.line("if (here >= 0.0 && number < 5) kept[number++] = from;");
+    text.line("if ((here < 0.0) != (there < 0.0) && number < 5) kept[number++] = from + (to - from) * (here / (here - there));");
+    text.close("}");
+    text.line("corners = kept;");
+    text.line("count = number;");
+    text.close("}");
+    text.line("if (count < 3) return;");
+    // From side to side, so that a strip covers the polygon.
+    text.line("int low = 0;");
+    text.line("int high = count;");
+    text.open("for (int i = 0; i < count; ++i) {");
+    text.line("mv_emit(corners[i == 0 ? 0 : i % 2 == 1 ? ++low : --high], view);");
+    text.close("}");
+    text.line("EndPrimitive();");
     text.close("}");
 }
 
@@ -161,7 +234,10 @@ fn write_main(text: &mut Text, key: &FixedKey, invocations: bool) {
         });
         text.line("}");
     }
-    for primitive in order(key) {
+    if key.target.cuts() {
+        text.line("mv_cut(view);");
+    }
+    for primitive in order(key).iter().filter(|_| !key.target.cuts()) {
         for vertex in *primitive {
             text.line(format!("mv_emit({vertex}, view);"));
         }

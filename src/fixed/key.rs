@@ -95,6 +95,20 @@ impl Target {
         }
     }
 
+    /// The geometry shader cuts triangles at the sides of the tile.
+    pub const fn cuts(&self) -> bool {
+        matches!((self.tiles, self.clip), (Tiles::ClipLeftRight, Clip::Cut))
+    }
+
+    /// Vertices that a geometry shader emits per view at most: a triangle has up to two more after a cut at either side.
+    pub const fn emitted(&self) -> u32 {
+        if self.cuts() {
+            5
+        } else {
+            self.primitive.emitted()
+        }
+    }
+
     /// The fragment stage has to discard what is outside.
     pub const fn discards(&self) -> bool {
         matches!(
@@ -356,9 +370,11 @@ impl FixedKey {
         }
         match self.target.amplifier {
             Amplifier::Instanced => {
-                if self.target.clip == Clip::Both {
-                    self.target.clip = Clip::Discard;
-                }
+                self.target.clip = match self.target.clip {
+                    Clip::Both => Clip::Discard,
+                    Clip::Cut => Clip::Distances,
+                    clip => clip,
+                };
                 self.target.primitive = Primitive::default();
                 self.target.views = 1;
             }

@@ -75,7 +75,7 @@ pub(super) fn write_place(text: &mut Text, key: &FixedKey) {
         Tiles::ClipLeftRight => {
             if key.target.discards() {
                 text.line(format!("{LIMITS} = tile.zw;"));
-            } else {
+            } else if !key.target.cuts() {
                 text.line(format!(
                     "gl_ClipDistance[0] = p.x - {UNIFORM_CLIP}.x * p.w;"
                 ));
