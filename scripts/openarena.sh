@@ -27,18 +27,7 @@ cut_to() {
     if [ "$1" -eq 0 ]; then cp "$work/whole.dm_71" "$played"; else head -c "$1"k "$work/whole.dm_71" >"$played"; fi
 }
 
-rm -f "$work/display"
-Xvfb -displayfd 1 -screen 0 1024x768x24 -nolisten tcp -noreset >"$work/display" 2>/dev/null &
-server=$!
-trap 'kill $server 2>/dev/null || true' EXIT
-trap 'exit 1' HUP INT TERM
-tries=0
-until [ -s "$work/display" ]; do
-    tries=$((tries + 1))
-    [ $tries -lt 100 ] || { say "Xvfb does not start"; exit 1; }
-    sleep 0.1
-done
-DISPLAY=:$(cat "$work/display")
+. "$(dirname "$0")/screen.sh"
 HOME=$work/home
 export DISPLAY HOME SDL_AUDIODRIVER=dummy LIBGL_ALWAYS_SOFTWARE=1
 

@@ -17,18 +17,7 @@ pak=/usr/share/games/openarena/baseoa/pak6-patch088.pk3
 say() { echo "overhead: $*" >&2; }
 
 mkdir -p "$work/home/.openarena/baseoa/demos"
-rm -f "$work/display"
-Xvfb -displayfd 1 -screen 0 1024x768x24 -nolisten tcp -noreset >"$work/display" 2>/dev/null &
-server=$!
-trap 'kill $server 2>/dev/null || true' EXIT
-trap 'exit 1' HUP INT TERM
-tries=0
-until [ -s "$work/display" ]; do
-    tries=$((tries + 1))
-    [ $tries -lt 100 ] || { say "Xvfb does not start"; exit 1; }
-    sleep 0.1
-done
-DISPLAY=:$(cat "$work/display")
+. "$(dirname "$0")/screen.sh"
 HOME=$work/home
 export DISPLAY HOME SDL_AUDIODRIVER=dummy LIBGL_ALWAYS_SOFTWARE=1 vblank_mode=0
 

@@ -88,15 +88,8 @@ impl Layer {
             return;
         };
         let ms = now.duration_since(last).as_secs_f32() * 1e3;
-        // What a strategy only has replayed, in the layout that suits it and not replay, is no gain of its own.
-        let idle =
-            !std::mem::take(&mut self.amplifies) && auto.trial.strategy() != Strategy::Replay;
-        let ms = if auto.trial.measures() && idle {
-            f32::MAX
-        } else {
-            ms
-        };
-        if let Some(found) = auto.trial.frame(ms) {
+        let made = std::mem::take(&mut self.amplifies);
+        if let Some(found) = auto.trial.frame(ms, made) {
             keep(auto.file.as_deref(), &auto.key, found);
             self.report
                 .note(format!("auto: {found} is the fastest here"));

@@ -72,17 +72,20 @@ impl Trial {
     }
 
     /// Milliseconds that a frame took from the one before; answers the strategy when it has been found.
-    pub fn frame(&mut self, ms: f32) -> Option<Strategy> {
+    /// `made`: the strategy made a draw of it itself; what it only has replayed, in the layout that suits it and not replay, is no gain
+    /// of its own.
+    pub fn frame(&mut self, ms: f32, made: bool) -> Option<Strategy> {
         match &mut self.stage {
             Stage::Warming(0) => self.stage = Stage::Trying(0),
             Stage::Warming(left) => *left -= 1,
             Stage::Trying(frame) => {
                 let frame = *frame;
-                let (index, _) = self.candidate(frame);
+                let (index, strategy) = self.candidate(frame);
+                let own = made || strategy == Strategy::Replay;
                 if frame % BLOCK > 0
                     && let Some(times) = self.times.get_mut(index)
                 {
-                    times.push(ms);
+                    times.push(if own { ms } else { f32::MAX });
                 }
                 let frames = BLOCK * (ROUNDS * self.candidates.len()) as u32;
                 if frame + 1 < frames {
@@ -146,7 +149,7 @@ mod tests {
     fn find(trial: &mut Trial, mut ms: impl FnMut(Strategy, u32) -> f32) -> (Strategy, u32) {
         for frame in 0..1000 {
             let time = ms(trial.strategy(), frame);
-            if let Some(found) = trial.frame(time) {
+            if let Some(found) = trial.frame(time, true) {
                 assert_eq!(trial.strategy(), found);
                 return (found, frame + 1);
             }
@@ -196,12 +199,32 @@ mod tests {
     }
 
     #[test]
+    fn what_is_only_replayed_is_not_taken() {
+        for made in [true, false] {
+            let mut trial = Trial::new(ALL.to_vec(), None);
+            let found = (0..1000).find_map(|_| match trial.strategy() {
+                Strategy::Instanced => trial.frame(1.0, made),
+                _ => trial.frame(2.0, true),
+            });
+            let best = if made {
+                Strategy::Instanced
+            } else {
+                Strategy::Replay
+            };
+            assert_eq!(found, Some(best));
+        }
+    }
+
+    #[test]
     fn another_scene_is_tried_anew_and_a_short_one_is_not() {
         let mut trial = Trial::new(ALL.to_vec(), None);
         find(&mut trial, |_, _| 4.0);
         for frame in 0..1000 {
             // A hundred frames of a menu, then the game again.
-            assert_eq!(trial.frame(if frame % 110 < 100 { 0.5 } else { 4.0 }), None);
+            assert_eq!(
+                trial.frame(if frame % 110 < 100 { 0.5 } else { 4.0 }, true),
+                None
+            );
             assert!(!trial.measures());
         }
         let (found, _) = find(&mut trial, |strategy, _| match strategy {
@@ -217,11 +240,11 @@ mod tests {
         assert_eq!(known.strategy(), Strategy::Geometry);
         // Loading takes longer, and is no scene.
         for frame in 0..1000 {
-            assert_eq!(known.frame(if frame < 9 { 200.0 } else { 5.0 }), None);
+            assert_eq!(known.frame(if frame < 9 { 200.0 } else { 5.0 }, true), None);
             assert!(!known.measures());
         }
         let mut only = Trial::new(vec![Strategy::Replay], Some(Strategy::Geometry));
         assert_eq!(only.strategy(), Strategy::Replay);
-        assert!((0..500).all(|_| only.frame(3.0).is_none() && !only.measures()));
+        assert!((0..500).all(|_| only.frame(3.0, true).is_none() && !only.measures()));
     }
 }
