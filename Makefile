@@ -20,7 +20,7 @@ LONG_PACKAGES := gltron xscreensaver-gl
 # What only test-full uses.
 FULL_PACKAGES := valgrind
 # Demo programs that `manyview bench` draws; they are installed with it.
-SCENES := mesh arrays fill room hard
+SCENES := mesh arrays fill room menu field hard
 BENCH := $(TARGET)/bench
 # Only for those who make the pictures of the documents again.
 PICTURE_PACKAGES := netpbm

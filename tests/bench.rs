@@ -89,6 +89,7 @@ fn row(scene: &'static str, configuration: &str, views: u32, times: f64, psnr: O
         views,
         configuration: configuration.to_owned(),
         view_scale: "1".to_owned(),
+        without: None,
         frames_per_round: 1,
         ms: spread(10.0 * times),
         bare_ms: spread(10.0),
@@ -108,6 +109,39 @@ fn row(scene: &'static str, configuration: &str, views: u32, times: f64, psnr: O
         draws: BTreeMap::new(),
         fallbacks: BTreeMap::new(),
         notes: Vec::new(),
+    }
+}
+
+#[test]
+fn savings_are_told_below_the_table() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let out = folder.path().join("b.json");
+    let mut command = manyview();
+    command.args(["bench", "--scene", "menu,field", "--strategy", "replay"]);
+    command.args(["--without", "alike,frustum", "--size", "256x192"]);
+    command.args(["--frames", "3"]).arg("--json").arg(&out);
+    library();
+    demo("menu");
+    let output = succeed(screen().give(&mut command));
+    let text = String::from_utf8(output.stdout).expect("UTF-8");
+    let json = json(&out);
+    let rows = json["rows"].as_array().expect("rows");
+    let ms = |scene: &str, name: &str| {
+        let found = |row: &&Value| row["scene"] == scene && row["configuration"] == name;
+        let row = rows.iter().find(found).expect("a row");
+        row["ms"]["median"].as_f64().expect("a number")
+    };
+    // Eight views of a menu, or one: several times, on any machine.
+    let saved = ms("menu", "replay without alike") / ms("menu", "replay");
+    assert!(saved > 2.0, "{saved}");
+    let lines = text.split_once("savings:\n").expect("a part of the text").1;
+    for start in [
+        "  menu, 8 views, replay without alike: ",
+        "  menu, 8 views, replay without frustum: ",
+        "  field, 8 views, replay without alike: ",
+        "  field, 8 views, replay without frustum: ",
+    ] {
+        assert!(lines.contains(start), "{start:?} in {lines}");
     }
 }
 

@@ -104,6 +104,9 @@ fn scene(name: &str) -> Scene {
         "arrays" => scene("arrays", &[], 1),
         "immediate" => scene("immediate", &[], 1),
         "sky" => scene("sky", &[], 1),
+        "field" => scene("field", &[], 1),
+        // With the scene.
+        "menu" => scene("menu", &[], 14),
         // Errors at the end of the first frame are found in the second.
         "gears_unread" => scene("gears", &["--unread"], 2),
         "gears_samples_unread" => Scene {
@@ -544,9 +547,9 @@ macro_rules! oracle {
 }
 
 oracle! {
-    glx: gears lists echo blur teapot room fogtexgen points clip mirror mesh mesh_vbo mesh_immediate mesh_list fill prims arrays immediate sky;
-    egl: gears lists echo teapot room fogtexgen points clip mirror mesh mesh_vbo mesh_immediate mesh_list fill prims arrays immediate sky;
-    osmesa: gears lists echo blur teapot room fogtexgen points clip mirror mesh mesh_vbo mesh_immediate mesh_list fill prims arrays immediate sky;
+    glx: gears lists echo blur teapot room fogtexgen points clip mirror mesh mesh_vbo mesh_immediate mesh_list fill prims arrays immediate sky field menu;
+    egl: gears lists echo teapot room fogtexgen points clip mirror mesh mesh_vbo mesh_immediate mesh_list fill prims arrays immediate sky field menu;
+    osmesa: gears lists echo blur teapot room fogtexgen points clip mirror mesh mesh_vbo mesh_immediate mesh_list fill prims arrays immediate sky field menu;
 }
 
 /// Surfaces of other kinds, by replay.

@@ -122,7 +122,10 @@ pub(crate) fn raster(place: Place, call: &mut dyn FnMut(&'static Real)) {
 pub(crate) fn draw(kind: Kind, call: &mut dyn FnMut(&'static Real)) {
     use manyview_core::plan::Kind as Plan;
     let kind = match kind {
-        Kind::CLEAR => Plan::Clear { depths: true },
+        Kind::CLEAR => Plan::Clear {
+            depths: true,
+            whole: 0,
+        },
         Kind::ARRAYS => Plan::Other,
     };
     if enter(|gl, l| l.draw(gl, kind, &mut || call(gl.real()))).is_none() {

@@ -290,6 +290,21 @@ impl Atlas {
         &self.textures
     }
 
+    /// All views that are drawn get what the program's own one has; the back buffer must be the one that is read from. Changes the
+    /// framebuffer bindings; the scissor test must be off.
+    pub fn share_own(&self, gl: &Gl) {
+        let (w, h) = (self.tiles.width as i32, self.tiles.height as i32);
+        let own = self.tiles.own();
+        let (from, from_x) = self.target(own);
+        gl.bind_framebuffer(c::READ_FRAMEBUFFER, from);
+        for view in self.tiles.order().filter(|&view| view != own) {
+            let (to, x) = self.target(view);
+            gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, to);
+            let all = c::COLOR_BUFFER_BIT | c::DEPTH_BUFFER_BIT | c::STENCIL_BUFFER_BIT;
+            gl.blit_framebuffer(from_x, 0, from_x + w, h, x, 0, x + w, h, all, c::NEAREST);
+        }
+    }
+
     /// Copies all that `other`, of the same size and format, holds; its back buffer must be the one that is read from. Changes the
     /// framebuffer bindings, and the buffers where there is a front one; the scissor test must be off.
     pub fn copy(&self, gl: &Gl, other: &Atlas) {

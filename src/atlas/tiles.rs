@@ -145,6 +145,11 @@ impl Tiles {
         (self.grid, self.columns, self.rows) == (other.grid, other.columns, other.rows)
     }
 
+    /// Whether a layer has a view that is drawn.
+    pub fn draws_row(&self, row: u32) -> bool {
+        self.order().any(|view| self.place(view).0 == row)
+    }
+
     /// Whether a view is drawn.
     pub fn draws(&self, view: u32) -> bool {
         view == self.own() || self.shown.has(view)

@@ -126,17 +126,22 @@ pub struct Variant {
     pub view_scale: String,
     /// As `--display` has it; none for the layer's own.
     pub display: Option<String>,
+    /// The name of a [`crate::config::Saving`] that is not made.
+    pub without: Option<&'static str>,
 }
 
 impl Variant {
     /// As it is called in tables and charts.
     #[must_use]
     pub fn name(&self) -> String {
-        if self.view_scale == "1" {
-            self.configuration.name.to_owned()
-        } else {
-            format!("{} at {}", self.configuration.name, self.view_scale)
+        let mut name = self.configuration.name.to_owned();
+        if self.view_scale != "1" {
+            name = format!("{name} at {}", self.view_scale);
         }
+        if let Some(saving) = self.without {
+            name = format!("{name} without {saving}");
+        }
+        name
     }
 
     /// The layer's options for so many views, as if they stood on the command line.
@@ -149,6 +154,9 @@ impl Variant {
         }
         for (id, value) in self.configuration.options {
             settings.set(*id, *value, Origin::CommandLine);
+        }
+        if let Some(saving) = self.without {
+            settings.set(OptionId::Without, saving, Origin::CommandLine);
         }
         settings.set(OptionId::Views, views, Origin::CommandLine);
         settings

@@ -48,6 +48,8 @@ pub struct Row {
     pub configuration: String,
     /// As `--view-scale` has it.
     pub view_scale: String,
+    /// The saving that was not made.
+    pub without: Option<&'static str>,
     /// Frames of a turn; its time is their median.
     pub frames_per_round: u32,
     /// A frame, ms.
@@ -74,6 +76,19 @@ pub struct Row {
     pub fallbacks: BTreeMap<String, u64>,
     /// Of the layer's report.
     pub notes: Vec<String>,
+}
+
+impl Row {
+    /// Whether another row is the same with nothing left out that this one does.
+    #[must_use]
+    pub fn is_without(&self, with: &Row) -> bool {
+        let alike = |row: &Row| (row.scene, row.width, row.height, row.views);
+        let name = self.without.and_then(|saving| {
+            self.configuration
+                .strip_suffix(&format!(" without {saving}"))
+        });
+        alike(self) == alike(with) && name == Some(&with.configuration)
+    }
 }
 
 /// How far a picture is from the exact one.

@@ -174,6 +174,20 @@ pub const SCENES: &[Scene] = &[
         "the same without blending or texture",
     ),
     Scene {
+        name: "field",
+        program: "field",
+        arguments: &[],
+        work: Work::Mixed,
+        about: "things all around by glBegin/glEnd, few of them in the picture",
+    },
+    Scene {
+        name: "menu",
+        program: "menu",
+        arguments: &["--flat"],
+        work: Work::Mixed,
+        about: "a menu without depth, the same in all views",
+    },
+    Scene {
         name: "room",
         program: "room",
         arguments: &[],

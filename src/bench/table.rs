@@ -31,6 +31,7 @@ pub fn text(bench: &Bench) -> String {
             );
         }
     }
+    text.push_str(&savings(&bench.rows));
     for row in &bench.rows {
         for (reason, count) in &row.fallbacks {
             let _ = writeln!(
@@ -46,6 +47,35 @@ pub fn text(bench: &Bench) -> String {
                 row.scene, row.views, row.configuration
             );
         }
+    }
+    text
+}
+
+/// What each saving that was left out brings in time and costs in the picture.
+fn savings(rows: &[Row]) -> String {
+    let mut text = String::new();
+    for row in rows {
+        let Some(with) = rows.iter().find(|with| row.is_without(with)) else {
+            continue;
+        };
+        if text.is_empty() {
+            text.push_str("\nsavings:\n");
+        }
+        let psnr = |row: &Row| match row.picture.psnr {
+            Some(psnr) => format!("{psnr:.1} dB"),
+            None => "exact".to_owned(),
+        };
+        // Writing to a String cannot fail.
+        let _ = writeln!(
+            text,
+            "  {}, {} views, {}: {} times as long; the picture {}, with it {}",
+            row.scene,
+            row.views,
+            row.configuration,
+            significant(row.ms.median / with.ms.median),
+            psnr(row),
+            psnr(with)
+        );
     }
     text
 }

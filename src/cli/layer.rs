@@ -50,6 +50,9 @@ pub(crate) struct LayerArguments {
     /// Where flat draws stand: 0 on the panel, 1 infinitely far, below 0 before the panel [default: 0]
     #[arg(long, value_name = "D", allow_hyphen_values = true)]
     hud_depth: Option<String>,
+    /// Do the work that is left out where a scene does not need it, to see what that saves
+    #[arg(long, value_name = "unseen|alike|lists|uniforms|frustum,…")]
+    without: Option<String>,
     /// Rules that say what draws are [default: the profile that names the program]
     #[arg(long, value_name = "NAME|FILE|none")]
     profile: Option<String>,
@@ -93,6 +96,7 @@ impl LayerArguments {
             (OptionId::Clip, &self.clip),
             (OptionId::ViewScale, &self.view_scale),
             (OptionId::HudDepth, &self.hud_depth),
+            (OptionId::Without, &self.without),
             (OptionId::Profile, &self.profile),
             (OptionId::Explain, &self.explain),
             (OptionId::ExplainFrame, &self.explain_frame),

@@ -59,6 +59,8 @@ pub struct Config {
     pub view_scale: ViewScale,
     /// Where flat draws stand that no rule places: 0 on the panel, 1 infinitely far; a fraction of the separation at infinity.
     pub hud_depth: Option<f64>,
+    /// What is done although the scene does not need it.
+    pub without: Without,
     /// What the program's draws are, where the state does not say it.
     pub profile: Profile,
     /// One frame to explain, if any.
@@ -277,6 +279,51 @@ impl std::fmt::Display for Strategy {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let named = parse::STRATEGIES.iter().find(|s| s.1 == *self);
         f.write_str(named.map_or("", |s| s.0))
+    }
+}
+
+/// Work that is left out where a scene does not need it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Saving {
+    /// Views that no subpixel shows are not drawn.
+    Unseen,
+    /// Frames that are the same in all views are drawn once.
+    Alike,
+    /// The driver copies many vertices between glBegin and glEnd once, not once per view.
+    Lists,
+    /// Uniforms that have their value are not sent again.
+    Uniforms,
+    /// Triangles are not drawn in views whose frustum none of them touches, where positions are known.
+    Frustum,
+}
+
+impl Saving {
+    /// All of them, with their names.
+    pub const ALL: [(&str, Saving); 5] = [
+        ("unseen", Saving::Unseen),
+        ("alike", Saving::Alike),
+        ("lists", Saving::Lists),
+        ("uniforms", Saving::Uniforms),
+        ("frustum", Saving::Frustum),
+    ];
+}
+
+/// The savings that are not made, to measure them.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Without(u8);
+
+impl Without {
+    /// Whether a saving is not made.
+    #[must_use]
+    pub fn has(self, saving: Saving) -> bool {
+        self.0 >> (saving as u8) & 1 != 0
+    }
+}
+
+impl FromIterator<Saving> for Without {
+    fn from_iter<I: IntoIterator<Item = Saving>>(savings: I) -> Self {
+        let bits = savings.into_iter().map(|saving| 1 << (saving as u8));
+        Without(bits.fold(0, |all, bit| all | bit))
     }
 }
 

@@ -42,6 +42,8 @@ pub enum OptionId {
     ViewScale,
     /// Depth of flat draws.
     HudDepth,
+    /// What is not left out.
+    Without,
     /// Rules for the program.
     Profile,
     /// Folder of the profiles that come with the library.
@@ -145,6 +147,8 @@ pub const OPTIONS: &[OptionSpec] = &[
         "size of a view over that of the window, from 0.05 to 1, or auto: as much as the output shows; 1 unless given"),
     option!(HudDepth, Some("hud-depth"), Some("hud-depth"), "MANYVIEW_HUD_DEPTH", "D", No,
         "where flat draws stand: 0 on the panel, 1 infinitely far, below 0 before the panel; 0 unless given"),
+    option!(Without, Some("without"), Some("without"), "MANYVIEW_WITHOUT", "NAME,…", No,
+        "do the work that is left out where a scene does not need it, to see what that saves: unseen, alike, lists, uniforms and frustum, by commas"),
     option!(Profile, Some("profile"), Some("profile"), "MANYVIEW_PROFILE", "NAME|FILE|none", ProfileOrFile,
         "rules that say what draws are; the profile that names the program unless given"),
     option!(Explain, Some("explain"), Some("explain"), "MANYVIEW_EXPLAIN", "FOLDER|FILE", File,
@@ -278,6 +282,6 @@ mod tests {
         for row in OPTIONS {
             assert_eq!(row.id.spec().variable, row.variable);
         }
-        assert_eq!(OPTIONS.len(), 27, "a new option needs a row");
+        assert_eq!(OPTIONS.len(), 28, "a new option needs a row");
     }
 }

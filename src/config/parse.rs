@@ -6,7 +6,8 @@ use super::options::{Field, OptionId, Origin};
 use super::settings::Settings;
 use super::{
     Anaglyph, AtlasLayout, Camera, Capture, CaptureWhat, Clip, Config, Explain, Filter, Glasses,
-    Interlace, Kept, MAX_VIEWS, Mixture, Output, Profile, Strategy, ViewScale, panel, profile,
+    Interlace, Kept, MAX_VIEWS, Mixture, Output, Profile, Saving, Strategy, ViewScale, Without,
+    panel, profile,
 };
 use crate::display::{Display, Kind, MAX_FINE_VIEWS, MaskError};
 use std::fmt;
@@ -48,6 +49,7 @@ impl Config {
             )?,
             view_scale: view_scale(settings)?,
             hud_depth: hud_depth(settings)?,
+            without: without(settings)?,
             profile: named_profile(settings)?,
             explain: explain(settings, views)?,
             prove: prove(settings, views)?,
@@ -79,6 +81,22 @@ const ATLASES: &[(&str, AtlasLayout)] = &[
     ("side-by-side", AtlasLayout::SideBySide),
     ("layers", AtlasLayout::Layers),
 ];
+
+fn without(settings: &Settings) -> Result<Without, ConfigError> {
+    let Some((field, value)) = settings.field(OptionId::Without) else {
+        return Ok(Without::default());
+    };
+    let named = |name: &str| {
+        let known = Saving::ALL.iter().find(|(known, _)| *known == name.trim());
+        known.map(|(_, saving)| *saving)
+    };
+    let savings: Option<Without> = value.split(',').map(named).collect();
+    savings.ok_or_else(|| ConfigError::Choice {
+        field,
+        value: value.to_owned(),
+        choices: "unseen, alike, lists, uniforms and frustum, several of them with commas between",
+    })
+}
 
 fn display(settings: &Settings) -> Result<Display, ConfigError> {
     let (field, value) = display_field(settings);

@@ -55,6 +55,8 @@ pub struct Programs {
     pub limits: Limits,
     driver: Driver,
     clip: Clip,
+    /// All uniforms are sent with each draw.
+    resends: bool,
     cache: HashMap<Stages, Option<Program>>,
     /// Programs compiled so far.
     pub compiled: u64,
@@ -71,12 +73,13 @@ pub struct Amplified {
 }
 
 impl Programs {
-    /// For a context. `clip` is for views that lie side by side.
-    pub fn new(limits: Limits, driver: Driver, clip: Clip) -> Programs {
+    /// For a context. `clip` is for views that lie side by side; `resends`: uniforms that have their value are sent again.
+    pub fn new(limits: Limits, driver: Driver, clip: Clip, resends: bool) -> Programs {
         Programs {
             limits,
             driver,
             clip,
+            resends,
             cache: HashMap::new(),
             compiled: 0,
         }
@@ -318,6 +321,9 @@ impl Programs {
                 // A geometry shader always makes a whole batch: what is too much lands in a place that shows nothing.
                 rows.resize(how.batch as usize, [0.0; 4]);
                 places.resize(how.batch as usize, [4.0, 0.0, f32::from(u16::MAX), 0.0]);
+                if self.resends {
+                    program.uploaded = Uniforms::default();
+                }
                 program.upload(
                     gl,
                     Uniforms {

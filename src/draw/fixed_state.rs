@@ -43,6 +43,8 @@ pub fn limits(gl: &Gl, glsl: u32) -> Limits {
 #[derive(Clone, Copy, Debug)]
 pub struct Driver {
     pub(super) mesa: bool,
+    /// Has assembly programs.
+    pub programs: bool,
     fog_distance: bool,
     clip_planes: u32,
 }
@@ -52,6 +54,7 @@ impl Driver {
     pub fn ask(gl: &Gl) -> Driver {
         Driver {
             mesa: gl.get_string(c::VERSION).contains("Mesa"),
+            programs: gl.has_extension("GL_ARB_vertex_program"),
             fog_distance: gl.has_extension("GL_NV_fog_distance"),
             // One bit of the key for each.
             clip_planes: (gl.get_integer(c::MAX_CLIP_DISTANCES).max(0) as u32).min(u8::BITS),

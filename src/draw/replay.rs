@@ -52,7 +52,8 @@ pub fn replay(
     call: &mut dyn FnMut(u32),
 ) -> bool {
     if again == Again::Clear && !state.scissor_test {
-        for row in (0..atlas.tiles.rows).rev() {
+        let tiles = atlas.tiles;
+        for row in (0..tiles.rows).rev().filter(|&row| tiles.draws_row(row)) {
             atlas.bind_row(gl, row);
             call(atlas.tiles.own());
         }

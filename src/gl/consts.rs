@@ -207,6 +207,7 @@ pub const DEPTH_CLEAR_VALUE: u32 = 0x0B73;
 pub const CLIP_DEPTH_MODE: u32 = 0x935D;
 pub const ZERO_TO_ONE: u32 = 0x935F;
 pub const DEPTH_WRITEMASK: u32 = 0x0B72;
+pub const STENCIL_WRITEMASK: u32 = 0x0B98;
 pub const DEPTH_FUNC: u32 = 0x0B74;
 pub const EQUAL: u32 = 0x0202;
 pub const VERTEX_ARRAY_BINDING: u32 = 0x85B5;

@@ -1,7 +1,15 @@
 //! Immediate mode between glBegin and glEnd, kept as it came, so that it can be sent again for every view.
 
 use super::real::{Ptr, Real};
-use super::table::replay_one;
+use super::table::{replay_one, slot};
+
+/// The slots of glVertex* are the first ones.
+const LAST_VERTEX: usize = slot::glVertex4hvNV;
+/// Of those with two and three numbers, eight each: by 64-bit and 32-bit floats, 32-bit and 16-bit integers, each also by pointer.
+const LAST_PLAIN: usize = slot::glVertex3sv;
+const _: () = assert!(
+    slot::glVertex2d == 0 && slot::glVertex3d == 8 && LAST_PLAIN == 15 && LAST_VERTEX == 29
+);
 
 /// The calls between one glBegin and its glEnd: per call the slot of the command, then its arguments in words of 32 bits;
 /// arrays lie inline. 64-bit elements start on even words, because the driver may read them by pointer.
@@ -9,6 +17,8 @@ use super::table::replay_one;
 pub struct Recording {
     words: Vec<u32>,
     calls: usize,
+    /// Where the calls that give a vertex stand.
+    vertices: Vec<u32>,
 }
 
 macro_rules! small {
@@ -23,6 +33,7 @@ impl Recording {
     /// Forgets the calls, keeps the memory.
     pub fn clear(&mut self) {
         self.words.clear();
+        self.vertices.clear();
         self.calls = 0;
     }
 
@@ -34,6 +45,9 @@ impl Recording {
     /// Starts the record of one call.
     #[inline]
     pub fn call(&mut self, slot: usize) {
+        if slot <= LAST_VERTEX {
+            self.vertices.push(self.words.len() as u32);
+        }
         self.words.push(slot as u32);
         self.calls += 1;
     }
@@ -87,6 +101,39 @@ impl Recording {
                 len * size_of::<T>(),
             )
         }
+    }
+
+    /// Gives all positions of the vertices that glVertex* gave. False where some are not of two or three numbers.
+    pub fn positions(&self, each: &mut dyn FnMut([f32; 3])) -> bool {
+        for &start in &self.vertices {
+            let mut r = Reader {
+                words: &self.words,
+                at: start as usize,
+            };
+            let slot = r.u32() as usize;
+            if slot > LAST_PLAIN {
+                return false;
+            }
+            let (count, form) = (2 + slot / 8, slot % 8);
+            if form % 2 == 1 {
+                // The length, then the elements.
+                r.u32();
+                r.at += r.at % 2;
+            }
+            let mut position = [0.0; 3];
+            for value in position.iter_mut().take(count) {
+                *value = match form {
+                    0 | 1 => r.f64() as f32,
+                    2 | 3 => r.f32(),
+                    4 | 5 => r.i32() as f32,
+                    6 => f32::from(r.i16()),
+                    // Two in a word.
+                    _ => return false,
+                };
+            }
+            each(position);
+        }
+        true
     }
 
     /// Makes all recorded calls again.

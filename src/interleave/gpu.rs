@@ -47,6 +47,8 @@ pub struct Interleaver {
     mask: Option<(Of, Mask)>,
     /// The views in it.
     shown: Shown,
+    /// It has no black subpixels.
+    lit: bool,
     mask_texture: u32,
     uploaded: Option<Uploaded>,
     cpu: Option<String>,
@@ -101,6 +103,7 @@ impl Interleaver {
             programs: Vec::new(),
             mask: None,
             shown: Shown::ALL,
+            lit: false,
             mask_texture: 0,
             uploaded: None,
             cpu: None,
@@ -132,6 +135,15 @@ impl Interleaver {
     /// The views that some subpixel of the last picture through a mask showed.
     pub fn shown(&self) -> Shown {
         self.shown
+    }
+
+    /// Whether each subpixel of an output shows the colour of some view as it is, as far as the last picture told.
+    pub fn lit(&self, output: Output) -> bool {
+        let known = self
+            .mask
+            .as_ref()
+            .is_some_and(|((of, ..), _)| *of == output);
+        known && self.lit
     }
 
     /// The name of the mask's texture, 0 for none.
@@ -172,6 +184,7 @@ impl Interleaver {
         {
             let mask = mask.map_err(|e| e.to_string())?;
             self.shown = mask.views_shown().into_iter().map(u32::from).collect();
+            self.lit = !mask.data().as_flattened().contains(&GUARD);
             self.mask = Some((of, mask));
         }
         let size = [placement.width, placement.height];

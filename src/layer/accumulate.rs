@@ -31,7 +31,14 @@ impl Layer {
             return self.compiled_names(&[mask]);
         }
         let depths = mask & c::DEPTH_BUFFER_BIT != 0;
-        self.draw(gl, Kind::Clear { depths }, call);
+        self.draw(
+            gl,
+            Kind::Clear {
+                depths,
+                whole: mask,
+            },
+            call,
+        );
         if accumulation && self.accumulates(gl) {
             let values = gl.get_floats(c::ACCUM_CLEAR_VALUE);
             self.accumulate(gl, Operation::Clear(values));
@@ -76,6 +83,7 @@ impl Layer {
 
     fn accumulate(&mut self, gl: &Gl, operation: Operation) {
         self.state.refresh(gl);
+        self.part(gl);
         if let (None, Operation::Clear(values)) = (&self.accumulated.buffer, operation)
             && !self.state.scissor_test
         {

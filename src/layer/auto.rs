@@ -79,6 +79,7 @@ impl Layer {
         if self.accumulated.buffer.is_some() || self.atlas.has_front() {
             return;
         }
+        let alike = self.rests();
         let Some(auto) = &mut self.auto else { return };
         if auto.trial.measures() {
             gl.finish();
@@ -87,6 +88,10 @@ impl Layer {
         let Some(last) = auto.last.replace(now) else {
             return;
         };
+        // It is drawn alike by all of them.
+        if alike {
+            return;
+        }
         let ms = now.duration_since(last).as_secs_f32() * 1e3;
         let made = std::mem::take(&mut self.amplifies);
         if let Some(found) = auto.trial.frame(ms, made) {

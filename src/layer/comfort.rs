@@ -95,7 +95,7 @@ impl Layer {
             self.begin_frame(gl);
         }
         match (kind, classed.class) {
-            (Kind::Accum | Kind::Clear { depths: false }, _) | (_, Class::OffScreen) => {}
+            (Kind::Accum | Kind::Clear { depths: false, .. }, _) | (_, Class::OffScreen) => {}
             (Kind::Clear { .. }, _) => {
                 self.save_depths(gl);
                 // A part of the window that is cleared has a picture of its own.

@@ -179,6 +179,7 @@ impl Layer {
         if texture == 0 || self.config.views < 2 {
             return self.read(gl, x, width, call);
         }
+        self.part(gl);
         if !self.copies.textures.contains_key(&texture) {
             self.make_copies(gl, target, texture);
         }

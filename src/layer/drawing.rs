@@ -213,6 +213,7 @@ impl Layer {
         self.keep_together(gl);
         let plan = plan(kind, &self.state, &self.rig, &self.means, &classed);
         let plan = self.uncopied(gl, self.uncounted(plan));
+        self.keep_alike(gl, kind, &plan);
         self.explain_this(&facts, &classed);
         self.prove_this(gl, &facts, &plan);
         if plan.method == Method::Once {
@@ -272,6 +273,7 @@ impl Layer {
         );
         self.queries = queries;
         if !sent {
+            self.alike.lose();
             self.report.note(
                 "the program's attribute stack was full: some draws are in its own view only"
                     .into(),

@@ -23,6 +23,9 @@ impl Layer {
         }
         self.finish_explanation(gl);
         self.refit(gl);
+        if self.rests() {
+            self.rest(gl);
+        }
         super::sweep(gl, &self.lists);
         self.queries.pause(gl);
         self.queries.lift_condition(gl);
@@ -49,17 +52,21 @@ impl Layer {
         self.rebind(gl);
         self.queries.put_condition(gl);
         self.queries.resume(gl);
-        self.follow_lenses();
         if swap {
+            if self.rests() {
+                self.report.alike();
+            }
             self.time_frame(gl);
+            self.rest(gl);
         }
+        self.follow_lenses();
         self.drawn = false;
         self.frame = Default::default();
     }
 
     /// Draws the picture into the true framebuffer 0 and captures what is wanted.
     fn present(&mut self, gl: &Gl, image: u32) {
-        self.atlas.resolve(gl, false, c::COLOR_BUFFER_BIT);
+        self.atlas.resolve(gl, self.rests(), c::COLOR_BUFFER_BIT);
         let output = self.output();
         let depth = (output == Output::Rgbd).then(|| self.own_depth(gl));
         gl.bind_framebuffer(c::FRAMEBUFFER, 0);
@@ -90,7 +97,10 @@ impl Layer {
     pub(super) fn draw_picture(&mut self, gl: &Gl, image: u32, depth: Option<&Depth>) {
         let output = self.output();
         let source = self.source(image, depth);
-        let pictures = self.pictures(output, image);
+        let pictures = match self.rests() {
+            true => vec![(None, Output::View(self.atlas.tiles.own()))],
+            false => self.pictures(output, image),
+        };
         let glass = Glass {
             display: self.fitted.as_ref().unwrap_or(&self.config.display),
             placement: self.placement(),

@@ -239,6 +239,7 @@ impl Layer {
             && !self.atlas.has_front()
             && self.atlas.tiles.grid.is_full()
         {
+            self.part(gl);
             let (names, window) = (&mut self.names, &self.state.window);
             let swapped = self.report.frames() > 0;
             let make = || self.atlas.make_front(gl, names, window, swapped);

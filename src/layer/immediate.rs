@@ -2,10 +2,12 @@
 
 use super::Layer;
 use super::lists::settle;
+use crate::atlas::Shown;
+use crate::config::Saving;
 use crate::draw::{Again, Current};
 use crate::gl::consts as c;
 use crate::gl::{Ends, Gl, Recording};
-use crate::plan::{Kind, Method};
+use crate::plan::{Bounds, Kind, Method, Plan};
 use crate::state::{Begin, Command, Effect, Immediate, Touch};
 
 /// Calls between glBegin and glEnd from which on a display list pays: measured on llvmpipe 22.3 with 8 views, a frame with it takes
@@ -98,6 +100,8 @@ impl Layer {
                 self.once(gl, &mut || gl.replay(mode, &recording, ends));
             }
             None => {
+                let all = self.atlas.tiles.shown;
+                self.atlas.tiles.shown = self.seeing(gl, mode, &plan, &recording);
                 let streamed = self.stream(gl, mode, &recording, again);
                 let sets = self.immediate.sets();
                 self.replay(gl, &plan, again, &mut |_| match streamed {
@@ -110,6 +114,7 @@ impl Layer {
                 if let Some(list) = streamed {
                     self.drop_list(gl, list);
                 }
+                self.atlas.tiles.shown = all;
             }
         }
         self.recording = recording;
@@ -118,10 +123,46 @@ impl Layer {
         }
     }
 
+    /// The views of those that are drawn in whose frustum some of it may lie. Only of triangles: they are cut at its sides before they
+    /// become outlines or corners (OpenGL 4.6, 13.7), while lines and points are as wide outside.
+    fn seeing(&self, gl: &Gl, mode: u32, plan: &Plan, recording: &Recording) -> Shown {
+        let (all, tiles, state) = (self.atlas.tiles.shown, &self.atlas.tiles, &self.state);
+        let unknown = self.immediate.sets().has(Effect::UNKNOWN | Effect::ATTRIB);
+        let triangles = (c::TRIANGLES..=c::POLYGON).contains(&mode);
+        if self.config.without.has(Saving::Frustum)
+            || unknown
+            || !triangles
+            || !tiles.grid.is_full()
+            || state.program != 0
+        {
+            return all;
+        }
+        let mut bounds = Bounds::EMPTY;
+        if !recording.positions(&mut |position| bounds.add(position)) {
+            return all;
+        }
+        let modelview = gl.get_floats::<16>(c::MODELVIEW_MATRIX);
+        let sees = |view: &u32| {
+            let p = plan.shear.map_or(state.projection, |shear| {
+                shear.projection(&state.projection, self.rig.place(*view))
+            });
+            !bounds.outside(&[0, 1, 3].map(|row| product_row(&p, &modelview, row)))
+        };
+        let seeing: Shown = tiles.order().filter(sees).collect();
+        // A program of its own puts vertices elsewhere. Asked last, as it is rarely needed.
+        let unseen = tiles.order().any(|view| !seeing.has(view));
+        if unseen && self.driver.programs && gl.is_enabled(c::VERTEX_PROGRAM_ARB) {
+            return all;
+        }
+        seeing
+    }
+
     /// Many triangles for several views are copied by the driver once, into a display list; the list is to be dropped after the draw.
     fn stream(&mut self, gl: &Gl, mode: u32, recording: &Recording, again: Again) -> Option<u32> {
         let sets = self.immediate.sets();
-        let pays = recording.calls() >= MANY && self.atlas.tiles.order().count() >= SEVERAL;
+        let pays = !self.config.without.has(Saving::Lists)
+            && recording.calls() >= MANY
+            && self.atlas.tiles.order().count() >= SEVERAL;
         let as_it_is = again == Again::Same
             && self.ends == Ends::default()
             && !sets.has(Effect::UNKNOWN | Effect::ATTRIB | Effect::MATERIAL);
@@ -134,4 +175,9 @@ impl Layer {
         gl.end_list();
         Some(list)
     }
+}
+
+/// A row of P · M, both column-major.
+fn product_row(p: &[f32; 16], m: &[f32; 16], row: usize) -> [f32; 4] {
+    [0, 4, 8, 12].map(|column: usize| (0..4).map(|i| p[row + 4 * i] * m[column + i]).sum())
 }

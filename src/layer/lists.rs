@@ -457,7 +457,14 @@ impl Layer {
                 };
                 self.replay(gl, &plan, again, &mut |_| call());
             }
-            Run::Clear => self.draw(gl, Kind::Clear { depths: true }, call),
+            Run::Clear => self.draw(
+                gl,
+                Kind::Clear {
+                    depths: true,
+                    whole: 0,
+                },
+                call,
+            ),
             Run::Raster => self.draw(gl, Kind::Pixels, call),
             // Which columns is in the driver's list only.
             Run::Read => self.read(gl, 0, i32::MAX, call),

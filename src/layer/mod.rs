@@ -2,6 +2,7 @@
 #![forbid(unsafe_code)]
 
 mod accumulate;
+mod alike;
 mod auto;
 mod classing;
 mod comfort;
@@ -28,7 +29,7 @@ pub use lists::is_scaled;
 pub use queries::Answer;
 
 use crate::atlas::{Atlas, AtlasError, Grid, Names, Tiles};
-use crate::config::{AtlasLayout, Config, Live, Projection, Strategy, profile};
+use crate::config::{AtlasLayout, Config, Live, Projection, Saving, Strategy, profile};
 use crate::display::{Display, Placement};
 use crate::draw::{Driver, FixedState, Programs};
 use crate::gl::{Count, Ends, Gl, Held, Recording, consts as c};
@@ -88,6 +89,7 @@ pub struct Layer {
     support: Support,
     classifier: Classifier,
     frame: classing::Frame,
+    alike: alike::Alike,
     explained: Option<explain::Explained>,
     live: Live,
     comfort: comfort::Comfort,
@@ -147,6 +149,7 @@ impl Layer {
             crate::draw::limits(gl, support.glsl),
             driver,
             config.clip.unwrap_or_default(),
+            config.without.has(Saving::Uniforms),
         );
         let program = profile::this_program();
         let all: Vec<Strategy> = [
@@ -225,6 +228,7 @@ impl Layer {
                 config.explain.is_some(),
             ),
             frame: classing::Frame::default(),
+            alike: alike::Alike::default(),
             explained: None,
             live,
             comfort: comfort::Comfort::new(config, live.camera),
@@ -252,6 +256,7 @@ impl Layer {
             return Ok(());
         }
         self.drop_proof(gl);
+        self.alike = alike::Alike::default();
         self.state.window.width = width;
         self.state.window.height = height;
         let grid = self.grid();
@@ -366,6 +371,7 @@ impl Layer {
     /// Puts a new atlas with the same contents in the place of the old one.
     fn remake(&mut self, gl: &Gl) -> bool {
         self.state.refresh(gl);
+        self.part(gl);
         let grid = self.grid();
         let (names, config, state) = (&mut self.names, self.config, &self.state);
         let strategy = self.means.strategy;

@@ -3,7 +3,7 @@
 
 use super::Layer;
 use crate::atlas::{Grid, Shown};
-use crate::config::{CaptureWhat, Config, Filter, Output, ViewScale};
+use crate::config::{CaptureWhat, Config, Filter, Output, Saving, ViewScale};
 use crate::display::{Display, Placement};
 use crate::gl::{Gl, consts as c};
 use crate::interleave::Form;
@@ -160,10 +160,14 @@ impl Layer {
     }
 
     /// The views that the next frame is drawn in.
-    fn shown(&self) -> Shown {
+    pub(super) fn shown(&self) -> Shown {
         let captured = self.config.capture.as_ref().map(|capture| capture.what);
+        if self.rests() {
+            return [].into_iter().collect();
+        }
         // What is proved is compared view by view.
         if self.undrawn
+            || self.config.without.has(Saving::Unseen)
             || self.config.prove.is_some()
             || captured.is_some_and(|what| what != CaptureWhat::Output)
         {

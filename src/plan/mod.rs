@@ -4,6 +4,7 @@
 pub mod class;
 pub mod comfort;
 pub mod depths;
+pub mod frustum;
 pub mod parallax;
 pub mod trial;
 
@@ -12,6 +13,7 @@ use crate::state::State;
 pub use class::{Classed, Classifier, Facts};
 pub use comfort::Comfort;
 pub use depths::{Ramp, Ways};
+pub use frustum::Bounds;
 pub use parallax::{Rig, Shear};
 pub use trial::Trial;
 
@@ -30,6 +32,8 @@ pub enum Kind {
     Clear {
         /// Depths as well; taken for granted where the call does not say it.
         depths: bool,
+        /// The buffers, as bits of glClear, that it clears for certain where nothing is masked.
+        whole: u32,
     },
     /// Display lists.
     List,

@@ -19,6 +19,7 @@ use std::time::{Duration, Instant};
 #[derive(Debug, Default)]
 pub struct Report {
     frames: u64,
+    alike: u64,
     frame_ms: Vec<f32>,
     /// Method and class.
     draws: Counts<(&'static str, &'static str)>,
@@ -46,6 +47,7 @@ struct Names {
 #[derive(Serialize)]
 struct Json<'a> {
     frames: u64,
+    frames_drawn_once: u64,
     frame_ms: FrameTimes,
     draws: BTreeMap<&'static str, u64>,
     classes: BTreeMap<&'static str, u64>,
@@ -112,6 +114,11 @@ impl Report {
     /// What disparities a frame has.
     pub fn disparity(&mut self, disparity: Disparity) {
         self.disparities.add(disparity);
+    }
+
+    /// A frame is the same in all views, and was drawn in one.
+    pub fn alike(&mut self) {
+        self.alike += 1;
     }
 
     /// Frames shown so far.
@@ -190,6 +197,7 @@ impl Report {
         };
         let json = Json {
             frames: self.frames,
+            frames_drawn_once: self.alike,
             frame_ms: FrameTimes {
                 median: at(0.5),
                 p95: at(0.95),

@@ -310,7 +310,14 @@ fn clear_zero(framebuffer: u32, call: &mut dyn FnMut()) -> bool {
     framebuffer == 0
         && enter(|gl, l| {
             l.with_bound(gl, 0, None, |l| {
-                l.draw(gl, Kind::Clear { depths: true }, call)
+                l.draw(
+                    gl,
+                    Kind::Clear {
+                        depths: true,
+                        whole: 0,
+                    },
+                    call,
+                )
             })
         })
         .is_some()

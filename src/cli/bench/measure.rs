@@ -196,6 +196,7 @@ impl Runner<'_> {
             configuration: &EXACT,
             view_scale: "1".to_owned(),
             display: self.group.variants.first().and_then(|v| v.display.clone()),
+            without: None,
         };
         let place = Place::new(folder.path(), "exact");
         self.layered(&exact, &place, stop)?.step(WARM_UP, stop)?;
@@ -284,6 +285,7 @@ impl Runner<'_> {
             views: self.group.views,
             configuration: variant.name(),
             view_scale: variant.view_scale.clone(),
+            without: variant.without,
             frames_per_round,
             ms: ms(&member.wall)?,
             bare_ms: ms(&bare.wall)?,

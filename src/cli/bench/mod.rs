@@ -13,7 +13,7 @@ use manyview::bench::{
     BenchError, CONFIGURATIONS, DEFAULT_CONFIGURATIONS, DEFAULT_SCENES, PRESETS, Preset, SCENES,
     Scene, Variant, chart, find, table,
 };
-use manyview::config::Config;
+use manyview::config::{Config, Saving};
 use manyview::launch::{LaunchError, writable};
 use measure::Group;
 use std::ffi::OsString;
@@ -64,6 +64,14 @@ pub(crate) struct Arguments {
     /// Panel whose picture is made, as for `run` [default: that of the layer]
     #[arg(long, value_name = "NAME|FILE")]
     display: Option<String>,
+    /// Measure each configuration once more without a saving of the layer, see `run --without`
+    #[arg(
+        long,
+        value_name = "unseen|alike|lists|uniforms|frustum",
+        value_delimiter = ',',
+        conflicts_with = "preset"
+    )]
+    without: Vec<String>,
     /// Size of the window in pixels [default: 512x384, or the preset's]
     #[arg(long, value_name = "WxH", value_delimiter = ',')]
     size: Vec<String>,
@@ -91,7 +99,7 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "FILE.png|FILE.svg")]
     chart: Option<PathBuf>,
     /// Draw the hard cases under every strategy and compare them with their bounds; status 1 if one is missed
-    #[arg(long, conflicts_with_all = ["scene", "preset", "views", "view_scale", "display", "size", "frames", "chart", "list"])]
+    #[arg(long, conflicts_with_all = ["scene", "preset", "views", "view_scale", "display", "without", "size", "frames", "chart", "list"])]
     hard: bool,
     /// Hard case to draw, several by commas or by giving it again [default: all of them]
     #[arg(long, value_name = "NAME", value_delimiter = ',', requires = "hard")]
@@ -100,7 +108,7 @@ pub(crate) struct Arguments {
     #[arg(long)]
     list: bool,
     /// A program of your own and its arguments: each configuration is proved on so many --frames of it
-    #[arg(last = true, value_name = "APP", conflicts_with_all = ["scene", "preset", "size", "chart"])]
+    #[arg(last = true, value_name = "APP", conflicts_with_all = ["scene", "preset", "size", "chart", "without"])]
     command: Vec<OsString>,
 }
 
@@ -199,6 +207,10 @@ fn groups(
     if sizes.is_empty() {
         sizes.push(preset.map_or(SIZE, |preset| preset.size));
     }
+    let mut savings = Vec::new();
+    for name in &arguments.without {
+        savings.push(find(&Saving::ALL, |saving| saving.0, "--without", name)?.0);
+    }
     let mut variants = Vec::new();
     for name in names(
         &arguments.strategy,
@@ -207,11 +219,17 @@ fn groups(
     ) {
         let configuration = find(CONFIGURATIONS, |known| known.name, "--strategy", &name)?;
         for view_scale in names(&arguments.view_scale, |_| &["1"], &["1"]) {
-            variants.push(Variant {
+            let with = Variant {
                 configuration,
                 view_scale,
                 display: arguments.display.clone(),
-            });
+                without: None,
+            };
+            variants.push(with.clone());
+            variants.extend(savings.iter().map(|&saving| Variant {
+                without: Some(saving),
+                ..with.clone()
+            }));
         }
     }
     let views = names(&arguments.views, |preset| preset.views, &[VIEWS]);

@@ -78,7 +78,10 @@ fn the_state_tells_what_a_draw_is() {
         ),
         (
             Facts {
-                kind: Kind::Clear { depths: true },
+                kind: Kind::Clear {
+                    depths: true,
+                    whole: 0,
+                },
                 ..sky
             },
             Class::Flat,
@@ -252,7 +255,14 @@ fn state_is_asked_for_only_where_it_may_decide() {
         Touch::TEXTURE
     );
     assert_eq!(
-        textures.needs(Kind::Clear { depths: true }, Projection::Perspective, true),
+        textures.needs(
+            Kind::Clear {
+                depths: true,
+                whole: 0
+            },
+            Projection::Perspective,
+            true
+        ),
         Touch::NONE
     );
 }
