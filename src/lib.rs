@@ -16,6 +16,8 @@ pub mod control;
 
 pub mod fixed;
 
+pub mod rewrite;
+
 #[allow(unsafe_code, reason = "the one place that talks to the driver")]
 pub mod gl;
 

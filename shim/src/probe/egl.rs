@@ -8,10 +8,16 @@ use manyview_core::gl::{Ptr, Real};
 use std::sync::OnceLock;
 
 const EGL_OPENGL_API: c_uint = 0x30A2;
+const EGL_OPENGL_ES_API: c_uint = 0x30A0;
 const EGL_NONE: c_int = 0x3038;
+const EGL_MAJOR_VERSION: c_int = 0x3098;
+const EGL_MINOR_VERSION: c_int = 0x30FB;
+const EGL_PROFILE_MASK: c_int = 0x30FD;
 const EGL_PLATFORM_SURFACELESS_MESA: c_uint = 0x31DD;
 /// EGL_SURFACE_TYPE: EGL_PBUFFER_BIT; EGL_RENDERABLE_TYPE: EGL_OPENGL_BIT; EGL_DEPTH_SIZE: 1
 const CONFIG: [c_int; 7] = [0x3033, 1, 0x3040, 8, 0x3025, 1, EGL_NONE];
+/// The same with EGL_OPENGL_ES2_BIT
+const ES_CONFIG: [c_int; 7] = [0x3033, 1, 0x3040, 4, 0x3025, 1, EGL_NONE];
 /// EGL_WIDTH and EGL_HEIGHT: 1
 const PBUFFER: [c_int; 5] = [0x3057, 1, 0x3056, 1, EGL_NONE];
 
@@ -34,7 +40,7 @@ struct Source {
 static SOURCE: OnceLock<Source> = OnceLock::new();
 static REAL: Real = Real::new(find);
 
-fn find(name: &CStr) -> Ptr {
+pub(crate) fn find(name: &CStr) -> Ptr {
     let Some(source) = SOURCE.get() else {
         return core::ptr::null_mut();
     };
@@ -49,8 +55,52 @@ fn find(name: &CStr) -> Ptr {
     }
 }
 
+/// An API and profile to ask a context of.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Kind {
+    /// As programs get it that ask for nothing.
+    Legacy,
+    Compatibility,
+    Core,
+    Es,
+}
+
+impl Kind {
+    fn api(self) -> c_uint {
+        match self {
+            Kind::Es => EGL_OPENGL_ES_API,
+            _ => EGL_OPENGL_API,
+        }
+    }
+
+    /// Lists of attributes, the best first.
+    fn attributes(self) -> Vec<Vec<c_int>> {
+        let versions: &[(c_int, c_int)] = match self {
+            Kind::Legacy => return vec![vec![EGL_NONE]],
+            Kind::Es => &[(3, 2), (3, 1), (3, 0), (2, 0)],
+            _ => &[(4, 6), (4, 5), (4, 3), (4, 2), (3, 3), (3, 2)],
+        };
+        let list = |&(major, minor): &(c_int, c_int)| {
+            let mut list = vec![EGL_MAJOR_VERSION, major, EGL_MINOR_VERSION, minor];
+            match self {
+                Kind::Core => list.extend([EGL_PROFILE_MASK, 1]),
+                Kind::Compatibility => list.extend([EGL_PROFILE_MASK, 2]),
+                Kind::Legacy | Kind::Es => {}
+            }
+            list.push(EGL_NONE);
+            list
+        };
+        versions.iter().map(list).collect()
+    }
+}
+
 /// Makes a desktop OpenGL context current with a pbuffer of one pixel.
 pub(crate) fn context() -> Result<Context, String> {
+    make(Kind::Legacy)
+}
+
+/// Makes a new context current with a pbuffer of one pixel; a context that was current before is given up.
+pub(crate) fn make(kind: Kind) -> Result<Context, String> {
     let egl = load("libEGL.so.1")?;
     let get = function!(egl, c"eglGetProcAddress", GetProcAddress);
     let gl = ["libOpenGL.so.0", "libGL.so.1"];
@@ -65,21 +115,25 @@ pub(crate) fn context() -> Result<Context, String> {
     let none = core::ptr::null_mut();
     let (mut config, mut count) = (none, 0);
     // SAFETY: no pointers.
-    if unsafe { bind_api(EGL_OPENGL_API) } == 0 {
-        return Err("EGL has no desktop OpenGL here".to_owned());
+    if unsafe { bind_api(kind.api()) } == 0 {
+        return Err("EGL has no such API here".to_owned());
     }
+    let wanted = if kind == Kind::Es { ES_CONFIG } else { CONFIG };
     // SAFETY: an initialised display; a list that ends in EGL_NONE; room for one configuration and one number.
-    let chosen = unsafe { choose(display, CONFIG.as_ptr(), &raw mut config, 1, &raw mut count) };
+    let chosen = unsafe { choose(display, wanted.as_ptr(), &raw mut config, 1, &raw mut count) };
     if chosen == 0 || count < 1 {
         return Err("EGL has no configuration with a pbuffer for OpenGL".to_owned());
     }
     // SAFETY: display and configuration from above; a list that ends in EGL_NONE.
     let surface = unsafe { pbuffer(display, config, PBUFFER.as_ptr()) };
-    // SAFETY: as above; no context to share with, an empty list.
-    let context = unsafe { create(display, config, none, [EGL_NONE].as_ptr()) };
-    if surface.is_null() || context.is_null() {
+    let context = kind.attributes().iter().find_map(|list| {
+        // SAFETY: as above; no context to share with.
+        let context = unsafe { create(display, config, none, list.as_ptr()) };
+        (!context.is_null()).then_some(context)
+    });
+    let Some(context) = context.filter(|_| !surface.is_null()) else {
         return Err("EGL gives no context for OpenGL".to_owned());
-    }
+    };
     // SAFETY: all three were just made.
     if unsafe { make_current(display, surface, surface, context) } == 0 {
         return Err("eglMakeCurrent fails".to_owned());

@@ -1,0 +1,65 @@
+//! Geometry shaders: each vertex moves as it is emitted.
+//!
+//! The program's own `gl_Position` is put back, so that what it reads of it or adds to it does not add up from vertex to vertex.
+
+use super::edit::Edits;
+use super::error::Refusal;
+use super::facts::Facts;
+use super::names::Names;
+use super::outputs::Outputs;
+use super::scan::Scan;
+use super::{Amplifier, Options, Target, position};
+
+/// Rewrites a geometry shader.
+pub(super) fn wrap(
+    edits: &mut Edits,
+    scan: &Scan,
+    names: &Names,
+    facts: &Facts,
+    options: &Options,
+) -> Result<(), Refusal> {
+    if options.amplifier == Amplifier::Instanced {
+        return Err(Refusal::StageAfterVertex);
+    }
+    if options.target != Target::Whole {
+        return Err(Refusal::GeometryTarget);
+    }
+    if Outputs::of(scan).no_position {
+        return Err(Refusal::NoPosition);
+    }
+    let emit = names.other("EmitVertex");
+    let plain = edits.replace_name("EmitVertex", &emit);
+    let stream = streams(edits, scan, &emit)?;
+    if let Some(first) = [plain, stream].into_iter().flatten().min() {
+        edits.declare(format!("void {emit}();"), first);
+    }
+    if !facts.main {
+        // The object with main has the function.
+        return Ok(());
+    }
+    let (highp, kept) = (facts.version.highp(), names.other("position"));
+    position::declare(edits, names, facts.version, 1);
+    edits.append(format!("void {emit}() {{"));
+    edits.append(format!("    {highp}vec4 {kept} = gl_Position;"));
+    position::shift(edits, names, facts.version, "0");
+    edits.append("    EmitVertex();");
+    edits.append(format!("    gl_Position = {kept};"));
+    edits.append("}");
+    Ok(())
+}
+
+/// `EmitStreamVertex(0)` is `EmitVertex()`.
+fn streams(edits: &mut Edits, scan: &Scan, emit: &str) -> Result<Option<usize>, Refusal> {
+    for (at, token) in scan.tokens.iter().enumerate() {
+        if *scan.name(at) != *b"EmitStreamVertex" {
+            continue;
+        }
+        let argument = scan.tokens.get(at + 2).filter(|_| {
+            scan.is(at + 1, b'(') && scan.number(at + 2) == Some(0) && scan.is(at + 3, b')')
+        });
+        edits.replace(argument.ok_or(Refusal::Streams)?, "");
+        edits.replace(token, emit);
+    }
+    let stream = |at: &usize| *scan.name(*at) == *b"EmitStreamVertex";
+    Ok((0..scan.tokens.len()).find(stream))
+}

@@ -1,0 +1,53 @@
+//! Why a shader is not rewritten, in one sentence each.
+
+use thiserror::Error;
+
+/// The draw is then replayed with the shift of fixed function, or drawn once.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+pub enum Refusal {
+    /// A zero byte, and text behind it: drivers do not agree on what counts.
+    #[error("the shader has a zero byte inside")]
+    Zero,
+    /// `#include`: what it brings is not in the text.
+    #[error("the shader includes other text")]
+    Include,
+    /// `##`: names may be put together that the text does not show.
+    #[error("the shader puts names together with ##")]
+    Pasted,
+    /// A macro with the name of something that the added text says.
+    #[error("the shader defines {0} as a macro")]
+    Defined(String),
+    /// A member of a structure or block called `main`.
+    #[error("the shader has a member called main")]
+    MainMember,
+    /// No place for a declaration before its first use, outside of all conditions and behind `#extension`.
+    #[error("the shader has an #extension behind the start of the condition that holds its code")]
+    NoPlace,
+    /// OpenGL ES has neither layers nor clip distances in the vertex shader without extensions: only whole tiles, by replay.
+    #[error("views in one draw need desktop OpenGL, and the shader is of OpenGL ES")]
+    Es,
+    /// `Target::Tiles` below GLSL 1.30.
+    #[error("clip distances need GLSL 1.30, and the shader is of an earlier version")]
+    NoClipDistances,
+    /// `gl_Layer`, `gl_ViewportIndex`, `gl_ClipVertex`, `gl_CullDistance`: where the view itself has to write, or what its place changes.
+    #[error("the shader uses {0}")]
+    Uses(&'static str),
+    /// `gl_ClipDistance` with a size or an index that is not a plain number, or as a whole.
+    #[error("the size of the shader's gl_ClipDistance is not plain to see")]
+    Distances,
+    /// More than 8 clip distances together with those of the tile.
+    #[error("no clip distance is left for the sides of the tile")]
+    TooManyDistances,
+    /// `gl_PerVertex` is declared without `gl_Position`.
+    #[error("the shader has no gl_Position")]
+    NoPosition,
+    /// Instances are counted by the vertex shader, and tessellation evaluation and geometry shaders do not see the count.
+    #[error("views by instances end at the vertex shader")]
+    StageAfterVertex,
+    /// A geometry shader has its place in the atlas by the viewport only.
+    #[error("a geometry shader is drawn once per view, into its tile")]
+    GeometryTarget,
+    /// `EmitStreamVertex` of another stream than the plain 0.
+    #[error("the shader emits vertices to streams")]
+    Streams,
+}

@@ -1,0 +1,178 @@
+//! What a text uses, told by its tokens: what a macro or a branch of `#if` says counts as used.
+
+use super::scan::{Kind, Scan};
+use super::version::Version;
+
+/// What a text uses.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Facts {
+    /// The version of the text.
+    pub version: Version,
+    /// There is a `main`. A text without is a helper: its functions are called from another shader object.
+    pub main: bool,
+    /// `ftransform()` or the projection matrix of the compatibility profile: a projection that is moved there is seen here.
+    pub projection: bool,
+    /// `gl_FragCoord`
+    pub frag_coord: bool,
+    /// `origin_upper_left`: `gl_FragCoord.y` counts downwards.
+    pub upper_left: bool,
+    /// `gl_InstanceID`, also as `gl_InstanceIDARB`.
+    pub instance: bool,
+    /// `gl_Layer`
+    pub layer: bool,
+    /// `gl_ViewportIndex`
+    pub viewport_index: bool,
+    /// `gl_ClipVertex`
+    pub clip_vertex: bool,
+    /// `gl_ClipDistance`
+    pub clip_distance: bool,
+    /// `gl_CullDistance`
+    pub cull_distance: bool,
+    /// Outputs to transform feedback are named in the text.
+    pub feedback: bool,
+    /// There are subroutines, whose uniforms belong to the program that is bound.
+    pub subroutines: bool,
+    /// Images, buffers or counters are written: a second draw would do it again.
+    pub side_effects: bool,
+    /// Uniform 4x4 matrices.
+    pub matrices: Vec<Matrix>,
+}
+
+/// A uniform matrix, which may be a camera.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Matrix {
+    /// As written, without the index of an array.
+    pub name: String,
+    /// The name of the uniform block that it is in.
+    pub block: Option<String>,
+}
+
+/// What is written to by functions and declarations.
+fn writes(name: &[u8], version: Version) -> bool {
+    // A plain name before the versions that have buffers; those that get them by extension name it.
+    let buffers = version.desktop(430) || (version.es && version.number >= 310);
+    name.starts_with(b"imageStore")
+        || name.starts_with(b"imageAtomic")
+        || name.starts_with(b"atomic")
+        || name == b"GL_ARB_shader_storage_buffer_object"
+        || (buffers && name == b"buffer")
+}
+
+impl Facts {
+    pub(super) fn of(scan: &Scan, version: Version) -> Self {
+        let mut facts = Self {
+            version,
+            main: false,
+            projection: false,
+            frag_coord: false,
+            upper_left: false,
+            instance: false,
+            layer: false,
+            viewport_index: false,
+            clip_vertex: false,
+            clip_distance: false,
+            cull_distance: false,
+            feedback: false,
+            subroutines: false,
+            side_effects: false,
+            matrices: matrices(scan),
+        };
+        for at in 0..scan.tokens.len() {
+            let name = scan.name(at);
+            match &*name {
+                b"" => {}
+                b"main" => facts.main = true,
+                b"ftransform" => facts.projection = true,
+                b"gl_FragCoord" => facts.frag_coord = true,
+                b"origin_upper_left" => facts.upper_left = true,
+                b"gl_InstanceID" | b"gl_InstanceIDARB" => facts.instance = true,
+                b"gl_Layer" => facts.layer = true,
+                b"gl_ViewportIndex" => facts.viewport_index = true,
+                b"gl_ClipVertex" => facts.clip_vertex = true,
+                b"gl_ClipDistance" => facts.clip_distance = true,
+                b"gl_CullDistance" => facts.cull_distance = true,
+                b"subroutine" => facts.subroutines = true,
+                name => {
+                    // With Inverse, Transpose and InverseTranspose behind.
+                    facts.projection |= name.starts_with(b"gl_ModelViewProjectionMatrix")
+                        || name.starts_with(b"gl_ProjectionMatrix");
+                    facts.feedback |= name.starts_with(b"xfb_");
+                    facts.side_effects |= writes(name, version);
+                }
+            }
+        }
+        facts
+    }
+}
+
+/// Words between `uniform` and the type.
+fn qualifies(name: &[u8]) -> bool {
+    matches!(
+        name,
+        b"highp" | b"mediump" | b"lowp" | b"layout" | b"row_major" | b"column_major"
+    )
+}
+
+/// Uniform 4x4 matrices by themselves and in blocks.
+fn matrices(scan: &Scan) -> Vec<Matrix> {
+    let mut found = Vec::new();
+    let mut at = 0;
+    while at < scan.tokens.len() {
+        if *scan.name(at) != *b"uniform" {
+            at += 1;
+            continue;
+        }
+        at += 1;
+        while qualifies(&scan.name(at)) {
+            at += 1;
+            if scan.is(at, b'(') {
+                while at < scan.tokens.len() && !scan.is(at, b')') {
+                    at += 1;
+                }
+                at += 1;
+            }
+        }
+        if !scan.is(at + 1, b'{') {
+            at = declaration(scan, at, None, &mut found);
+            continue;
+        }
+        let block = String::from_utf8_lossy(&scan.name(at)).into_owned();
+        at += 2;
+        while at < scan.tokens.len() && !scan.is(at, b'}') {
+            at = declaration(scan, at, Some(&block), &mut found);
+        }
+    }
+    found
+}
+
+/// Reads up to the semicolon or the brace that ends a declaration; what follows that is returned, the brace itself if it is one.
+fn declaration(scan: &Scan, mut at: usize, block: Option<&str>, found: &mut Vec<Matrix>) -> usize {
+    let mut matrix = false;
+    let mut brackets = 0_usize;
+    // The type, or a comma: a name follows.
+    let mut named = false;
+    while let Some(token) = scan.tokens.get(at) {
+        match token.kind {
+            _ if token.directive => {}
+            Kind::Mark(b';') => return at + 1,
+            Kind::Mark(b'}') => return at,
+            Kind::Mark(b'[' | b'(') => brackets += 1,
+            Kind::Mark(b']' | b')') => brackets = brackets.saturating_sub(1),
+            Kind::Mark(b',') if brackets == 0 => named = true,
+            Kind::Name if brackets == 0 => match &*scan.text(token) {
+                b"mat4" | b"mat4x4" => (matrix, named) = (true, true),
+                name if matrix && named => {
+                    found.push(Matrix {
+                        name: String::from_utf8_lossy(name).into_owned(),
+                        block: block.map(str::to_owned),
+                    });
+                    named = false;
+                }
+                _ => {}
+            },
+            _ => {}
+        }
+        at += 1;
+    }
+    at
+}

@@ -1,0 +1,88 @@
+//! Names of ours that the program does not have.
+
+use super::scan::Scan;
+use std::collections::HashSet;
+
+/// A uniform of the rewritten shaders.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Uniform {
+    /// `vec4 mv_shift[VIEWS]`, per view: s, s · conv, what a vertex without depth moves by; all in clip space.
+    Shift,
+    /// `vec4 mv_tile[VIEWS]`, per view: centre of its tile x and y in NDC of the atlas, layer.
+    Tile,
+    /// `vec4 mv_map`: width and height of the program's viewport over those of the atlas.
+    Map,
+    /// `vec4 mv_clip`: left and right of what may be drawn, in NDC of the program's viewport.
+    Clip,
+    /// `int mv_views`: views of this draw, at most as many as the arrays hold.
+    Views,
+    /// `vec4 mv_across`: x and y in the window of a step to the right in the tile; the distance from one tile to the next in pixels.
+    Across,
+    /// `vec4 mv_up`: x and y in the window of a step upwards in the tile; where the tile begins in the window, x and y.
+    Up,
+}
+
+impl Uniform {
+    const ALL: [Uniform; 7] = [
+        Uniform::Shift,
+        Uniform::Tile,
+        Uniform::Map,
+        Uniform::Clip,
+        Uniform::Views,
+        Uniform::Across,
+        Uniform::Up,
+    ];
+
+    const fn word(self) -> &'static str {
+        match self {
+            Uniform::Shift => "shift",
+            Uniform::Tile => "tile",
+            Uniform::Map => "map",
+            Uniform::Clip => "clip",
+            Uniform::Views => "views",
+            Uniform::Across => "across",
+            Uniform::Up => "up",
+        }
+    }
+}
+
+/// Names that are not uniforms.
+const OTHERS: [&str; 5] = ["main", "EmitVertex", "view", "by", "position"];
+
+/// The names in one shader: `mv_…`, and where the program has one of those, all with the next prefix that it has none of.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Names {
+    prefix: String,
+}
+
+impl Names {
+    pub(super) fn of(scan: &Scan) -> Self {
+        let taken: HashSet<_> = (0..scan.tokens.len())
+            .map(|at| scan.name(at))
+            .filter(|name| name.starts_with(b"mv"))
+            .collect();
+        let ours = || {
+            let uniforms = Uniform::ALL.into_iter().map(Uniform::word);
+            uniforms.chain(OTHERS)
+        };
+        let mut prefix = "mv_".to_owned();
+        // Each prefix that is not free takes a name of the text, so there is a free one in as many steps as it has names.
+        for next in 1..=taken.len() {
+            let free = ours().all(|word| !taken.contains(format!("{prefix}{word}").as_bytes()));
+            if free {
+                break;
+            }
+            prefix = format!("mv{next}_");
+        }
+        Self { prefix }
+    }
+
+    /// What a uniform is called. A shader that has no use for it does not have it (location −1).
+    pub fn uniform(&self, uniform: Uniform) -> String {
+        self.other(uniform.word())
+    }
+
+    pub(super) fn other(&self, word: &str) -> String {
+        format!("{}{word}", self.prefix)
+    }
+}

@@ -1,0 +1,116 @@
+//! Where a view goes: the layer, or the tile with clip distances at its sides.
+//!
+//! ```text
+//! d0 = x − left·w      d1 = right·w − x               d ≥ 0 inside the tile
+//! X  = x·scale_x + centre_x·w      Y = y·scale_y + centre_y·w
+//! ```
+//! (x, y, w) is in clip space of the program's own viewport; (X, Y, w) in that of a viewport over the whole atlas.
+
+use super::Target;
+use super::edit::Edits;
+use super::error::Refusal;
+use super::facts::Facts;
+use super::names::{Names, Uniform};
+use super::outputs::Outputs;
+use super::scan::Scan;
+
+/// `GL_MAX_CLIP_DISTANCES` is at least this.
+const MOST: u32 = 8;
+/// Left and right.
+const SIDES: u32 = 2;
+
+/// What the program must leave to the view.
+pub(super) fn check(facts: &Facts, target: Target) -> Result<(), Refusal> {
+    if target == Target::Whole {
+        return Ok(());
+    }
+    if facts.version.es {
+        return Err(Refusal::Es);
+    }
+    let tiles = target == Target::Tiles;
+    if tiles && facts.version.number < 130 {
+        return Err(Refusal::NoClipDistances);
+    }
+    // Where tiles are kept apart by clip distances, GL has one meaning for planes in gl_ClipVertex's space and for distances.
+    let taken = [
+        ("gl_Layer", facts.layer),
+        ("gl_ViewportIndex", facts.viewport_index),
+        ("gl_ClipVertex", facts.clip_vertex),
+        ("gl_CullDistance", facts.cull_distance && tiles),
+    ];
+    match taken.into_iter().find(|&(_, used)| used) {
+        Some((name, _)) => Err(Refusal::Uses(name)),
+        None => Ok(()),
+    }
+}
+
+/// What a fragment shader must not see of the view.
+pub(super) fn check_fragment(facts: &Facts, target: Target) -> Result<(), Refusal> {
+    match target {
+        Target::Layer(_) if facts.layer => Err(Refusal::Uses("gl_Layer")),
+        // Its array has to be as long as that of the vertex shader.
+        Target::Tiles if facts.clip_distance => Err(Refusal::Uses("gl_ClipDistance")),
+        _ => Ok(()),
+    }
+}
+
+/// Room for the sides of the tile behind the program's clip distances; the index of the first of ours.
+pub(super) fn grow(edits: &mut Edits, scan: &Scan, outputs: &Outputs) -> Result<u32, Refusal> {
+    let own = outputs.distances()?;
+    let size = own.saturating_add(SIDES);
+    if size > MOST {
+        return Err(Refusal::TooManyDistances);
+    }
+    let token = |at: &usize| scan.tokens.get(*at);
+    for number in outputs.sized.iter().filter_map(token) {
+        edits.replace(number, size.to_string());
+    }
+    for bracket in outputs.open.iter().filter_map(token) {
+        edits.replace(bracket, format!("{size}]"));
+    }
+    if outputs.sized.is_empty() && outputs.open.is_empty() {
+        for brace in outputs.blocks.iter().filter_map(token) {
+            edits.replace(brace, format!("float gl_ClipDistance[{size}]; }}"));
+        }
+        if outputs.blocks.is_empty() {
+            edits.append(format!("out float gl_ClipDistance[{size}];"));
+        }
+    }
+    Ok(own)
+}
+
+/// The uniforms of the place.
+pub(super) fn declare(edits: &mut Edits, names: &Names, target: Target, views: u32) {
+    if target == Target::Whole {
+        return;
+    }
+    let tile = names.uniform(Uniform::Tile);
+    edits.append(format!("uniform vec4 {tile}[{views}];"));
+    if target == Target::Tiles {
+        let (map, clip) = (names.uniform(Uniform::Map), names.uniform(Uniform::Clip));
+        edits.append(format!("uniform vec4 {map};"));
+        edits.append(format!("uniform vec4 {clip};"));
+    }
+}
+
+/// Puts `gl_Position` in its place, in the body of a function. `view` is an index into the uniforms, `first` one into `gl_ClipDistance`.
+pub(super) fn place(edits: &mut Edits, names: &Names, target: Target, view: &str, first: u32) {
+    let tile = names.uniform(Uniform::Tile);
+    match target {
+        Target::Whole => {}
+        Target::Layer(_) => edits.append(format!("    gl_Layer = int({tile}[{view}].z);")),
+        Target::Tiles => {
+            let (map, clip) = (names.uniform(Uniform::Map), names.uniform(Uniform::Clip));
+            let second = first + 1;
+            for line in [
+                format!("gl_ClipDistance[{first}] = gl_Position.x - {clip}.x * gl_Position.w;"),
+                format!("gl_ClipDistance[{second}] = {clip}.y * gl_Position.w - gl_Position.x;"),
+                format!(
+                    "gl_Position.xy = gl_Position.xy * {map}.xy + {tile}[{view}].xy * gl_Position.w;"
+                ),
+            ] {
+                edits.append(format!("    {line}"));
+            }
+        }
+    }
+}

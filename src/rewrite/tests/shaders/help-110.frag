@@ -1,0 +1,1 @@
+float fog() { return gl_FragCoord.z / gl_FragCoord.w; }
