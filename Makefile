@@ -26,8 +26,12 @@ BENCH := $(TARGET)/bench
 PICTURE_PACKAGES := netpbm
 # A game with a timedemo: 423 MB, and only for the targets that play it.
 OPENARENA_PACKAGES := openarena unzip
+# Programs and data with shaders, unpacked and not installed: 140 MB.
+SHADER_PACKAGES := colobot-common glmark2-data goxel ioquake3 kodi-data libopenscenegraph161 libqt5gui5 libsdl2-2.0-0 meshlab \
+	mgba-common minetest-data openmw-data openscad openscenegraph pymol-data python3-vispy qtbase5-examples solvespace \
+	trackballs-data xmoto xscreensaver-gl xscreensaver-gl-extra
 
-.PHONY: help build demos demo bench overhead pictures gallery test test-long test-full programs soak openarena openarena-pictures lint packages \
+.PHONY: help build demos demo bench overhead pictures gallery test test-long test-full programs soak openarena openarena-pictures shaders lint packages \
 	install uninstall clean
 
 help: ## list the targets
@@ -85,6 +89,7 @@ test-long: packages build demos ## run the tests that take long as well
 
 test-full: packages build demos ## run all tests but those of programs, also all of piglit's and valgrind (an hour)
 	@sh scripts/packages.sh --optional $(LONG_PACKAGES) $(FULL_PACKAGES)
+	@sh scripts/shaders.sh $(TARGET)/shaders/packages $(SHADER_PACKAGES)
 	@if $(CARGO) nextest --version >/dev/null 2>&1; \
 	then $(CARGO) nextest run --release --no-fail-fast --no-tests=warn --workspace --run-ignored all -E 'not test(/^(programs|soak)_/)'; \
 	else $(CARGO) test --release --no-fail-fast --workspace --lib --bins --tests -- --include-ignored --skip programs_ --skip soak_; fi
@@ -105,6 +110,10 @@ openarena-pictures: packages build ## make the pictures of OpenArena in the READ
 	@sh scripts/openarena.sh $(BIN) $(TARGET)/openarena pictures
 	cp $(TARGET)/openarena/quilt.png docs/openarena-views.png
 	cp $(TARGET)/openarena/panel.png docs/openarena-panel.png
+
+shaders: packages build ## rewrite real shaders, of programs and of piglit, and compile them before and after (140 MB, ten minutes)
+	@sh scripts/shaders.sh $(TARGET)/shaders/packages $(SHADER_PACKAGES)
+	$(CARGO) test --release --test shaders full_ -- --ignored --nocapture
 
 overhead: packages build demos ## measure the layer where it does nothing: switched off, and with one view (ten minutes)
 	@sh scripts/overhead.sh $(BIN) $(TARGET)/overhead $(DEMOS)

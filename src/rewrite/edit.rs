@@ -63,6 +63,11 @@ impl<'s, 'a> Edits<'s, 'a> {
         self.changes.push((token.start, token.end, text));
     }
 
+    /// New text, without the end of a line, before a token.
+    pub(super) fn insert(&mut self, token: &Token, text: impl Into<String>) {
+        self.changes.push((token.start, token.start, text.into()));
+    }
+
     /// New text for every token of this name; the first one's place.
     pub(super) fn replace_name(&mut self, name: &str, text: &str) -> Option<usize> {
         let mut first = None;

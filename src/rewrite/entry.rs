@@ -40,22 +40,23 @@ pub(super) fn wrap(
         return Ok(None);
     }
     rename(edits, scan, names)?;
-    if let Target::Layer(extension) = options.target {
-        edits.require(extension.extension());
-    }
     position::declare(edits, names, facts.version, options.views);
     target::declare(edits, names, options.target, options.views);
     if instanced {
-        instance::declare(edits, names, scan, facts.version, facts.instance);
+        instance::declare(edits, names, facts.version, facts.instance);
     }
     let first = match options.target {
+        Target::Whole => None,
         Target::Tiles => Some(target::grow(edits, scan, &outputs)?),
-        Target::Whole | Target::Layer(_) => None,
+        Target::Layer(extension) => {
+            target::layer(edits, scan, &outputs, extension);
+            None
+        }
     };
     edits.append("void main() {");
     edits.append(format!("    {}();", names.other("main")));
     let view = if instanced {
-        instance::view(edits, names, scan, facts.version);
+        instance::view(edits, names, facts.version);
         names.other("view")
     } else {
         "0".to_owned()

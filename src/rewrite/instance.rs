@@ -8,15 +8,13 @@
 
 use super::edit::Edits;
 use super::names::{Names, Uniform};
-use super::scan::Scan;
 use super::version::Version;
 
 const BY_EXTENSION: &str = "gl_InstanceIDARB";
 
-/// The count of instances in a text: its name, and the extension that it needs.
-fn counter(scan: &Scan, version: Version) -> (&'static str, Option<&'static str>) {
-    let gpu_shader4 = || (0..scan.tokens.len()).any(|at| *scan.name(at) == *b"GL_EXT_gpu_shader4");
-    if version.number >= 140 || gpu_shader4() {
+/// The count of instances: its name, and the extension that it needs.
+fn counter(version: Version) -> (&'static str, Option<&'static str>) {
+    if version.number >= 140 {
         ("gl_InstanceID", None)
     } else {
         (BY_EXTENSION, Some("GL_ARB_draw_instanced"))
@@ -38,8 +36,8 @@ pub(super) fn divide(edits: &mut Edits, names: &Names) {
 }
 
 /// The uniform, where the program's text does not need it, and the extension.
-pub(super) fn declare(edits: &mut Edits, names: &Names, scan: &Scan, version: Version, used: bool) {
-    let (_, extension) = counter(scan, version);
+pub(super) fn declare(edits: &mut Edits, names: &Names, version: Version, used: bool) {
+    let (_, extension) = counter(version);
     if let Some(extension) = extension {
         edits.require(extension);
     }
@@ -49,8 +47,8 @@ pub(super) fn declare(edits: &mut Edits, names: &Names, scan: &Scan, version: Ve
 }
 
 /// `int mv_view`, in the body of a function.
-pub(super) fn view(edits: &mut Edits, names: &Names, scan: &Scan, version: Version) {
-    let (counter, _) = counter(scan, version);
+pub(super) fn view(edits: &mut Edits, names: &Names, version: Version) {
+    let (counter, _) = counter(version);
     let (view, views) = (names.other("view"), names.uniform(Uniform::Views));
     edits.append(format!(
         "    int {view} = {counter} - {counter} / {views} * {views};"

@@ -23,7 +23,8 @@ pub enum Uniform {
 }
 
 impl Uniform {
-    const ALL: [Uniform; 7] = [
+    /// Each of them once.
+    pub const ALL: [Uniform; 7] = [
         Uniform::Shift,
         Uniform::Tile,
         Uniform::Map,

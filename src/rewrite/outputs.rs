@@ -2,12 +2,13 @@
 
 use super::error::Refusal;
 use super::scan::Scan;
+use std::ops::Range;
 
 /// The built-in outputs of a text.
 #[derive(Default)]
 pub(super) struct Outputs {
-    /// The closing braces of `out gl_PerVertex { … }`, as tokens.
-    pub(super) blocks: Vec<usize>,
+    /// `out gl_PerVertex { …`, as tokens, up to the closing brace.
+    pub(super) blocks: Vec<Range<usize>>,
     /// One of the blocks has no `gl_Position`.
     pub(super) no_position: bool,
     /// Declarations of `gl_ClipDistance` with a size: the token of the number.
@@ -31,6 +32,7 @@ enum Inside {
     /// `in gl_PerVertex`, of the stage before.
     Input,
     Output {
+        start: usize,
         position: bool,
     },
 }
@@ -41,8 +43,8 @@ impl Outputs {
         let mut inside = Inside::Nothing;
         for at in 0..scan.tokens.len() {
             if scan.is(at, b'}') {
-                if let Inside::Output { position } = inside {
-                    all.blocks.push(at);
+                if let Inside::Output { start, position } = inside {
+                    all.blocks.push(start..at);
                     all.no_position |= !position;
                 }
                 inside = Inside::Nothing;
@@ -52,21 +54,24 @@ impl Outputs {
                 b"gl_PerVertex" if directive => all.unclear = true,
                 b"gl_PerVertex" if scan.is(at + 1, b'{') => {
                     inside = match &*scan.name(at.wrapping_sub(1)) {
-                        b"out" => Inside::Output { position: false },
+                        b"out" => Inside::Output {
+                            start: at.saturating_sub(1),
+                            position: false,
+                        },
                         _ => Inside::Input,
                     }
                 }
                 b"gl_Position" => {
-                    if let Inside::Output { position } = &mut inside {
+                    if let Inside::Output { position, .. } = &mut inside {
                         *position = true;
                     }
                 }
                 b"gl_ClipDistance" if directive => all.unclear = true,
                 // What comes in, `gl_in[0].gl_ClipDistance`, is another's.
-                b"gl_ClipDistance" if !scan.is(at.wrapping_sub(1), b'.') => {
-                    if inside != Inside::Input {
-                        all.distance(scan, at);
-                    }
+                b"gl_ClipDistance"
+                    if inside != Inside::Input && !scan.is(at.wrapping_sub(1), b'.') =>
+                {
+                    all.distance(scan, at);
                 }
                 _ => {}
             }

@@ -6,13 +6,14 @@
 //! ```
 //! (x, y, w) is in clip space of the program's own viewport; (X, Y, w) in that of a viewport over the whole atlas.
 
-use super::Target;
 use super::edit::Edits;
 use super::error::Refusal;
 use super::facts::Facts;
 use super::names::{Names, Uniform};
 use super::outputs::Outputs;
 use super::scan::Scan;
+use super::{Target, VertexLayer};
+use std::ops::{Range, RangeInclusive};
 
 /// `GL_MAX_CLIP_DISTANCES` is at least this.
 const MOST: u32 = 8;
@@ -54,6 +55,55 @@ pub(super) fn check_fragment(facts: &Facts, target: Target) -> Result<(), Refusa
     }
 }
 
+/// `gl_Layer` for the vertex shader. Where `gl_PerVertex` is declared again, Mesa takes `gl_Layer` for one of the members left out, and
+/// the reference compiler for none of its members, so that neither is right to add to. Without the declaration both have it; sizes of
+/// arrays are then declared by themselves.
+pub(super) fn layer(edits: &mut Edits, scan: &Scan, outputs: &Outputs, extension: VertexLayer) {
+    edits.require(extension.extension());
+    for block in &outputs.blocks {
+        // One that says more of its members, such as `invariant`, is needed.
+        let plain = |at: usize| {
+            let name = scan.name(at);
+            let word = matches!(&*name, b"" | b"out" | b"vec4" | b"float");
+            let token = scan.tokens.get(at);
+            (word || name.starts_with(b"gl_")) && token.is_some_and(|token| !token.directive)
+        };
+        if block.clone().all(plain) {
+            dissolve(edits, scan, block);
+        }
+    }
+}
+
+/// Takes a block apart.
+fn dissolve(edits: &mut Edits, scan: &Scan, block: &Range<usize>) {
+    let mut remove = |tokens: RangeInclusive<usize>| {
+        for token in tokens.filter_map(|at| scan.tokens.get(at)) {
+            edits.replace(token, "");
+        }
+    };
+    // out gl_PerVertex {
+    let first = block.start + 3;
+    let end = block.end + usize::from(scan.is(block.end + 1, b';'));
+    remove(block.start..=first - 1);
+    remove(block.end..=end);
+    let mut arrays = Vec::new();
+    let mut member = first;
+    for at in first..block.end {
+        if scan.is(at, b';') {
+            // A type, a name, a bracket and a size.
+            if scan.is(member + 2, b'[') && !scan.is(member + 3, b']') {
+                arrays.push(member);
+            } else {
+                remove(member..=at);
+            }
+            member = at + 1;
+        }
+    }
+    for member in arrays.iter().filter_map(|&at| scan.tokens.get(at)) {
+        edits.insert(member, "out ");
+    }
+}
+
 /// Room for the sides of the tile behind the program's clip distances; the index of the first of ours.
 pub(super) fn grow(edits: &mut Edits, scan: &Scan, outputs: &Outputs) -> Result<u32, Refusal> {
     let own = outputs.distances()?;
@@ -69,7 +119,8 @@ pub(super) fn grow(edits: &mut Edits, scan: &Scan, outputs: &Outputs) -> Result<
         edits.replace(bracket, format!("{size}]"));
     }
     if outputs.sized.is_empty() && outputs.open.is_empty() {
-        for brace in outputs.blocks.iter().filter_map(token) {
+        let braces = outputs.blocks.iter().map(|block| &block.end);
+        for brace in braces.filter_map(token) {
             edits.replace(brace, format!("float gl_ClipDistance[{size}]; }}"));
         }
         if outputs.blocks.is_empty() {

@@ -4,12 +4,16 @@
 //!
 //! `manyview-probe interleave [WIDTHxHEIGHT [VIEWS]]`: what the interleave pass costs in an EGL context, one line of JSON for each
 //! size, number of views and panel.
+//!
+//! `manyview-probe rewrite FILE…`: real shaders rewritten, and what the driver says of them before and after; one line of JSON for each shader
+//! and each program.
 
 mod egl;
 mod glx;
 mod interleave;
 mod library;
 mod osmesa;
+mod rewrite;
 
 use manyview_core::gl::{Gl, Ptr, Real, consts as c};
 use manyview_core::interleave::Interleaver;
@@ -30,8 +34,11 @@ fn main() -> ExitCode {
         "egl" => egl::context(),
         "osmesa" => osmesa::context(),
         "interleave" => return interleave::run(),
+        "rewrite" => return rewrite::run(),
         _ => {
-            eprintln!("usage: manyview-probe glx|egl|osmesa|interleave [WIDTHxHEIGHT [VIEWS]]");
+            eprintln!(
+                "usage: manyview-probe glx|egl|osmesa|interleave [WIDTHxHEIGHT [VIEWS]]|rewrite FILE…"
+            );
             return ExitCode::from(2);
         }
     };

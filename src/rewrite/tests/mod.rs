@@ -55,13 +55,14 @@ fn shown(source: &[u8], stage: Stage, options: &Options) -> String {
 
 #[test]
 fn real_shaders() {
-    let every: [(&str, &[(&str, Options)]); 18] = [
+    let every: [(&str, &[(&str, Options)]); 19] = [
         ("light-110.vert", &[("replay", REPLAY), ("layers", LAYERS)]),
+        ("sized-150.vert", &[("layers", LAYERS), ("tiles", TILES)]),
         ("toon-120.vert", &[("replay", REPLAY), ("layers", LAYERS)]),
         ("water-130.vert", &[("replay", REPLAY), ("tiles", TILES)]),
         ("wave-150.vert", &[("layers", LAYERS)]),
         ("crowd-330.vert", &[("layers", LAYERS), ("tiles", TILES)]),
-        ("parts-420.vert", &[("replay", REPLAY), ("tiles", TILES)]),
+        ("parts-420.vert", &[("layers", LAYERS), ("tiles", TILES)]),
         ("cut-420.vert", &[("tiles", TILES)]),
         ("terrain-410.tese", &[("replay", REPLAY)]),
         ("fur-150.geom", &[("replay", REPLAY)]),

@@ -6,7 +6,7 @@ layout(std140) uniform Camera {
     mat4 projection, previous[2];
     vec4 eye;
 } camera;
-uniform layout(std140) Bones { mat4 bones[64]; };
+layout(std140) uniform Bones { mat4 bones[64]; };
 #define WHO (gl_InstanceID % 7)
 flat out int who;
 
