@@ -16,6 +16,8 @@ pub struct Facts {
     pub frag_coord: bool,
     /// `origin_upper_left`: `gl_FragCoord.y` counts downwards.
     pub upper_left: bool,
+    /// `pixel_center_integer`: `gl_FragCoord` is whole in the middle of a pixel.
+    pub whole_centre: bool,
     /// `gl_InstanceID`, also as `gl_InstanceIDARB`.
     pub instance: bool,
     /// `gl_Layer`
@@ -66,6 +68,7 @@ impl Facts {
             projection: false,
             frag_coord: false,
             upper_left: false,
+            whole_centre: false,
             instance: false,
             layer: false,
             viewport_index: false,
@@ -85,6 +88,7 @@ impl Facts {
                 b"ftransform" => facts.projection = true,
                 b"gl_FragCoord" => facts.frag_coord = true,
                 b"origin_upper_left" => facts.upper_left = true,
+                b"pixel_center_integer" => facts.whole_centre = true,
                 b"gl_InstanceID" | b"gl_InstanceIDARB" => facts.instance = true,
                 b"gl_Layer" => facts.layer = true,
                 b"gl_ViewportIndex" => facts.viewport_index = true,

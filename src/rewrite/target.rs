@@ -32,11 +32,11 @@ pub(super) fn check(facts: &Facts, target: Target) -> Result<(), Refusal> {
     if tiles && facts.version.number < 130 {
         return Err(Refusal::NoClipDistances);
     }
-    // Where tiles are kept apart by clip distances, GL has one meaning for planes in gl_ClipVertex's space and for distances.
+    // A shader that writes distances has no planes: those of gl_ClipVertex, which is in a space of its own, would be gone.
     let taken = [
         ("gl_Layer", facts.layer),
         ("gl_ViewportIndex", facts.viewport_index),
-        ("gl_ClipVertex", facts.clip_vertex),
+        ("gl_ClipVertex", facts.clip_vertex && tiles),
         ("gl_CullDistance", facts.cull_distance && tiles),
     ];
     match taken.into_iter().find(|&(_, used)| used) {

@@ -174,6 +174,7 @@ fn what_a_text_uses() {
     assert!(of("light-110.vert").projection && of("wave-150.vert").projection);
     assert!(!of("toon-120.vert").projection && of("toon-120.vert").instance);
     assert!(of("edges-150.frag").upper_left && of("edges-150.frag").frag_coord);
+    assert!(of("edges-150.frag").whole_centre && !of("help-110.frag").whole_centre);
     assert!(!of("help-110.frag").main);
     assert_eq!(
         of("web-100.vert").version,

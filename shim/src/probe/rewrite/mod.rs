@@ -170,7 +170,13 @@ fn attempt<'a>(
     let rewritten = rewrite(text, stage, options);
     let taken = begun.elapsed();
     if let Some(line) = line.as_object_mut() {
-        line.insert("microseconds".to_owned(), json!(taken.as_secs_f64() * 1e6));
+        // Of all ways the one that takes longest.
+        let longest = line
+            .get("microseconds")
+            .and_then(Value::as_f64)
+            .unwrap_or(0.0);
+        let taken = longest.max(taken.as_secs_f64() * 1e6);
+        line.insert("microseconds".to_owned(), json!(taken));
         if let Ok(rewritten) = &rewritten {
             let version = rewritten.facts.version;
             line.insert("version".to_owned(), json!(version.number));
