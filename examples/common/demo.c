@@ -76,16 +76,14 @@ void demo_scissor_off(void)
  * Without the last term everything is infinitely far. */
 static double last_separation; /* of the last perspective projection, per unit of clip-space w */
 
-static void load_view(int infinitely_far)
+/* Moves a column-major projection (row r, column c is p[4 * c + r]); 0 where it stays as it is. */
+static int move_view(GLfloat p[16], int infinitely_far)
 {
-    GLfloat p[16]; /* column-major: row r, column c is p[4 * c + r] */
-    GLint mode;
     double e = (view_index - (view_count - 1) / 2.0) * eye_spacing;
     if (e == 0.0)
-        return;
-    glGetFloatv(GL_PROJECTION_MATRIX, p);
+        return 0;
     if (p[3] == 0.0f && p[7] == 0.0f && p[11] == 0.0f)
-        return; /* orthographic: flat */
+        return 0; /* orthographic: flat */
     /* A is what row 0 has at a right angle to the viewing direction (row 3), per unit of row 3: P[0][0] of a plain
      * frustum, and the same number when the camera was multiplied onto the projection. */
     double w2 = (double)p[3] * p[3] + (double)p[7] * p[7] + (double)p[11] * p[11], a = p[0];
@@ -98,6 +96,18 @@ static void load_view(int infinitely_far)
     last_separation = sep;
     for (int c = 0; c < 4; c++)
         p[4 * c] = (GLfloat)(p[4 * c] + sep * p[4 * c + 3] - (c == 3 ? sep * conv : 0.0));
+    return 1;
+}
+
+void demo_view(GLfloat p[16]) { move_view(p, 0); }
+
+static void load_view(int infinitely_far)
+{
+    GLfloat p[16];
+    GLint mode;
+    glGetFloatv(GL_PROJECTION_MATRIX, p);
+    if (!move_view(p, infinitely_far))
+        return;
     glGetIntegerv(GL_MATRIX_MODE, &mode);
     glMatrixMode(GL_PROJECTION);
     glLoadMatrixf(p);

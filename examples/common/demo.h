@@ -40,6 +40,8 @@ void demo_scissor_off(void);
 /* To be called after every change of a perspective GL_PROJECTION matrix: with --view it puts the
  * matrix of that view in its place. It touches no orthographic matrix. */
 void demo_projection_done(void);
+/* The same for a projection that goes to shaders, column-major: with --view it becomes that of the view. */
+void demo_view(GLfloat projection[16]);
 /* Loads a perspective projection and calls demo_projection_done(). fovy in degrees. */
 void demo_perspective(double fovy, double aspect, double z_near, double z_far);
 /* The same for what is infinitely far in every view. */

@@ -43,6 +43,13 @@ pub(crate) fn any() {
     compile(Command::Of(Run::Open), Touch::NONE);
 }
 
+/// A uniform of the program's is about to be set.
+#[inline]
+pub(crate) fn uniform() {
+    any();
+    manyview_core::state::uniform_changes();
+}
+
 /// The texture bound at `target` is about to be written to.
 #[inline]
 pub(crate) fn texture(target: u32) {

@@ -7,8 +7,10 @@ mod fixed_state;
 mod fragment_state;
 mod replay;
 mod tuned;
+mod twin;
 
 pub use amplified::{Amplified, Programs};
 pub use current::Current;
 pub use fixed_state::{Driver, FixedState, limits};
 pub use replay::{Again, cut, enter_own, others, place, replay, unplace};
+pub use twin::{Drawn, NoTwin, Twin, drawn};

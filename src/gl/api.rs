@@ -82,6 +82,7 @@ plain! {
     bind_sampler = glBindSampler(unit: u32, sampler: u32);
     is_texture = glIsTexture(name: u32) -> u8;
     is_framebuffer = glIsFramebuffer(name: u32) -> u8;
+    is_program = glIsProgram(name: u32) -> u8;
     compile_shader = glCompileShader(shader: u32);
     attach_shader = glAttachShader(program: u32, shader: u32);
     link_program = glLinkProgram(program: u32);
@@ -393,10 +394,11 @@ impl Gl {
     }
 
     /// Source of a shader, compiled; the log on failure.
-    pub fn compile(&self, kind: u32, source: &str) -> Result<u32, String> {
+    pub fn compile(&self, kind: u32, source: impl AsRef<[u8]>) -> Result<u32, String> {
         // SAFETY: a context is current.
         let shader = unsafe { self.real.glCreateShader(kind) };
         Held::Shader.count(1);
+        let source = source.as_ref();
         let p = source.as_ptr();
         let len = source.len() as i32;
         // SAFETY: one string of the given length.
@@ -429,12 +431,22 @@ impl Gl {
 
     /// A program of compiled shaders, linked; the log on failure. The shaders are released either way.
     pub fn link(&self, shaders: &[u32]) -> Result<u32, String> {
+        self.link_with(shaders, |_| ())
+    }
+
+    /// The same; `before` is called with the program before it is linked.
+    pub(super) fn link_with(
+        &self,
+        shaders: &[u32],
+        before: impl FnOnce(u32),
+    ) -> Result<u32, String> {
         // SAFETY: a context is current.
         let program = unsafe { self.real.glCreateProgram() };
         Held::Shader.count(1);
         for &s in shaders {
             self.attach_shader(program, s);
         }
+        before(program);
         self.link_program(program);
         for &s in shaders {
             self.delete_shader(s);

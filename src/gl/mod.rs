@@ -8,6 +8,7 @@ mod buffers;
 pub mod consts;
 mod held;
 pub mod immediate;
+mod programs;
 #[allow(missing_docs, non_upper_case_globals, clippy::missing_safety_doc, reason = "generated; the names are the API's own")]
 #[rustfmt::skip]
 mod table;
@@ -17,5 +18,6 @@ pub use api::Gl;
 pub use buffers::Fence;
 pub use held::{Count, Held};
 pub use immediate::{Ends, Recording};
+pub use programs::Active;
 pub use real::{Ptr, Real};
 pub use table::{COUNT, NAMES, slot};

@@ -4,7 +4,7 @@ use super::real::{Ptr, Real};
 use core::ffi::{CStr, c_ulong};
 
 /// Number of commands in the table.
-pub const COUNT: usize = 1256;
+pub const COUNT: usize = 1357;
 
 /// Index of each command in the table.
 pub mod slot {
@@ -813,457 +813,558 @@ pub mod slot {
     pub const glProgramLocalParameter4dvARB: usize = 802;
     pub const glProgramLocalParameter4fARB: usize = 803;
     pub const glProgramLocalParameter4fvARB: usize = 804;
-    pub const glUniform1d: usize = 805;
-    pub const glUniform1dv: usize = 806;
-    pub const glUniform1f: usize = 807;
-    pub const glUniform1fARB: usize = 808;
-    pub const glUniform1fv: usize = 809;
-    pub const glUniform1fvARB: usize = 810;
-    pub const glUniform1i: usize = 811;
-    pub const glUniform1iARB: usize = 812;
-    pub const glUniform1iv: usize = 813;
-    pub const glUniform1ivARB: usize = 814;
-    pub const glUniform1ui: usize = 815;
-    pub const glUniform1uiEXT: usize = 816;
-    pub const glUniform1uiv: usize = 817;
-    pub const glUniform1uivEXT: usize = 818;
-    pub const glUniform2d: usize = 819;
-    pub const glUniform2dv: usize = 820;
-    pub const glUniform2f: usize = 821;
-    pub const glUniform2fARB: usize = 822;
-    pub const glUniform2fv: usize = 823;
-    pub const glUniform2fvARB: usize = 824;
-    pub const glUniform2i: usize = 825;
-    pub const glUniform2iARB: usize = 826;
-    pub const glUniform2iv: usize = 827;
-    pub const glUniform2ivARB: usize = 828;
-    pub const glUniform2ui: usize = 829;
-    pub const glUniform2uiEXT: usize = 830;
-    pub const glUniform2uiv: usize = 831;
-    pub const glUniform2uivEXT: usize = 832;
-    pub const glUniform3d: usize = 833;
-    pub const glUniform3dv: usize = 834;
-    pub const glUniform3f: usize = 835;
-    pub const glUniform3fARB: usize = 836;
-    pub const glUniform3fv: usize = 837;
-    pub const glUniform3fvARB: usize = 838;
-    pub const glUniform3i: usize = 839;
-    pub const glUniform3iARB: usize = 840;
-    pub const glUniform3iv: usize = 841;
-    pub const glUniform3ivARB: usize = 842;
-    pub const glUniform3ui: usize = 843;
-    pub const glUniform3uiEXT: usize = 844;
-    pub const glUniform3uiv: usize = 845;
-    pub const glUniform3uivEXT: usize = 846;
-    pub const glUniform4d: usize = 847;
-    pub const glUniform4dv: usize = 848;
-    pub const glUniform4f: usize = 849;
-    pub const glUniform4fARB: usize = 850;
-    pub const glUniform4fv: usize = 851;
-    pub const glUniform4fvARB: usize = 852;
-    pub const glUniform4i: usize = 853;
-    pub const glUniform4iARB: usize = 854;
-    pub const glUniform4iv: usize = 855;
-    pub const glUniform4ivARB: usize = 856;
-    pub const glUniform4ui: usize = 857;
-    pub const glUniform4uiEXT: usize = 858;
-    pub const glUniform4uiv: usize = 859;
-    pub const glUniform4uivEXT: usize = 860;
-    pub const glUniformMatrix2dv: usize = 861;
-    pub const glUniformMatrix2fv: usize = 862;
-    pub const glUniformMatrix2fvARB: usize = 863;
-    pub const glUniformMatrix2x3dv: usize = 864;
-    pub const glUniformMatrix2x3fv: usize = 865;
-    pub const glUniformMatrix2x3fvNV: usize = 866;
-    pub const glUniformMatrix2x4dv: usize = 867;
-    pub const glUniformMatrix2x4fv: usize = 868;
-    pub const glUniformMatrix2x4fvNV: usize = 869;
-    pub const glUniformMatrix3dv: usize = 870;
-    pub const glUniformMatrix3fv: usize = 871;
-    pub const glUniformMatrix3fvARB: usize = 872;
-    pub const glUniformMatrix3x2dv: usize = 873;
-    pub const glUniformMatrix3x2fv: usize = 874;
-    pub const glUniformMatrix3x2fvNV: usize = 875;
-    pub const glUniformMatrix3x4dv: usize = 876;
-    pub const glUniformMatrix3x4fv: usize = 877;
-    pub const glUniformMatrix3x4fvNV: usize = 878;
-    pub const glUniformMatrix4dv: usize = 879;
-    pub const glUniformMatrix4fv: usize = 880;
-    pub const glUniformMatrix4fvARB: usize = 881;
-    pub const glUniformMatrix4x2dv: usize = 882;
-    pub const glUniformMatrix4x2fv: usize = 883;
-    pub const glUniformMatrix4x2fvNV: usize = 884;
-    pub const glUniformMatrix4x3dv: usize = 885;
-    pub const glUniformMatrix4x3fv: usize = 886;
-    pub const glUniformMatrix4x3fvNV: usize = 887;
-    pub const glGenerateMipmap: usize = 888;
-    pub const glGenerateMipmapEXT: usize = 889;
-    pub const glClear: usize = 890;
-    pub const glClearBufferfi: usize = 891;
-    pub const glClearBufferfv: usize = 892;
-    pub const glClearBufferiv: usize = 893;
-    pub const glClearBufferuiv: usize = 894;
-    pub const glDrawArrays: usize = 895;
-    pub const glDrawArraysEXT: usize = 896;
-    pub const glDrawElements: usize = 897;
-    pub const glDrawRangeElements: usize = 898;
-    pub const glDrawRangeElementsEXT: usize = 899;
-    pub const glMultiDrawArrays: usize = 900;
-    pub const glMultiDrawArraysEXT: usize = 901;
-    pub const glMultiDrawElements: usize = 902;
-    pub const glMultiDrawElementsEXT: usize = 903;
-    pub const glDrawElementsBaseVertex: usize = 904;
-    pub const glDrawElementsBaseVertexEXT: usize = 905;
-    pub const glDrawElementsBaseVertexOES: usize = 906;
-    pub const glDrawRangeElementsBaseVertex: usize = 907;
-    pub const glDrawRangeElementsBaseVertexEXT: usize = 908;
-    pub const glDrawRangeElementsBaseVertexOES: usize = 909;
-    pub const glMultiDrawElementsBaseVertex: usize = 910;
-    pub const glMultiDrawElementsBaseVertexEXT: usize = 911;
-    pub const glDrawArraysInstanced: usize = 912;
-    pub const glDrawArraysInstancedANGLE: usize = 913;
-    pub const glDrawArraysInstancedARB: usize = 914;
-    pub const glDrawArraysInstancedEXT: usize = 915;
-    pub const glDrawArraysInstancedNV: usize = 916;
-    pub const glDrawElementsInstanced: usize = 917;
-    pub const glDrawElementsInstancedANGLE: usize = 918;
-    pub const glDrawElementsInstancedARB: usize = 919;
-    pub const glDrawElementsInstancedEXT: usize = 920;
-    pub const glDrawElementsInstancedNV: usize = 921;
-    pub const glDrawElementsInstancedBaseVertex: usize = 922;
-    pub const glDrawElementsInstancedBaseVertexEXT: usize = 923;
-    pub const glDrawElementsInstancedBaseVertexOES: usize = 924;
-    pub const glDrawArraysInstancedBaseInstance: usize = 925;
-    pub const glDrawArraysInstancedBaseInstanceEXT: usize = 926;
-    pub const glDrawElementsInstancedBaseInstance: usize = 927;
-    pub const glDrawElementsInstancedBaseInstanceEXT: usize = 928;
-    pub const glDrawElementsInstancedBaseVertexBaseInstance: usize = 929;
-    pub const glDrawElementsInstancedBaseVertexBaseInstanceEXT: usize = 930;
-    pub const glDrawArraysIndirect: usize = 931;
-    pub const glDrawElementsIndirect: usize = 932;
-    pub const glMultiDrawArraysIndirect: usize = 933;
-    pub const glMultiDrawArraysIndirectAMD: usize = 934;
-    pub const glMultiDrawArraysIndirectEXT: usize = 935;
-    pub const glMultiDrawElementsIndirect: usize = 936;
-    pub const glMultiDrawElementsIndirectAMD: usize = 937;
-    pub const glMultiDrawElementsIndirectEXT: usize = 938;
-    pub const glDrawTransformFeedback: usize = 939;
-    pub const glDrawTransformFeedbackEXT: usize = 940;
-    pub const glDrawTransformFeedbackNV: usize = 941;
-    pub const glDrawTransformFeedbackInstanced: usize = 942;
-    pub const glDrawTransformFeedbackInstancedEXT: usize = 943;
-    pub const glDrawTransformFeedbackStream: usize = 944;
-    pub const glDrawTransformFeedbackStreamInstanced: usize = 945;
-    pub const glRectd: usize = 946;
-    pub const glRectdv: usize = 947;
-    pub const glRectf: usize = 948;
-    pub const glRectfv: usize = 949;
-    pub const glRecti: usize = 950;
-    pub const glRectiv: usize = 951;
-    pub const glRects: usize = 952;
-    pub const glRectsv: usize = 953;
-    pub const glEvalMesh1: usize = 954;
-    pub const glEvalMesh2: usize = 955;
-    pub const glAccum: usize = 956;
-    pub const glBitmap: usize = 957;
-    pub const glDrawPixels: usize = 958;
-    pub const glCopyPixels: usize = 959;
-    pub const glNewList: usize = 960;
-    pub const glEndList: usize = 961;
-    pub const glCallList: usize = 962;
-    pub const glCallLists: usize = 963;
-    pub const glDeleteLists: usize = 964;
-    pub const glGenLists: usize = 965;
-    pub const glIsList: usize = 966;
-    pub const glBindTexture: usize = 967;
-    pub const glBindTextureEXT: usize = 968;
-    pub const glDeleteTextures: usize = 969;
-    pub const glIsTexture: usize = 970;
-    pub const glIsFramebuffer: usize = 971;
-    pub const glIsFramebufferEXT: usize = 972;
-    pub const glBindFramebuffer: usize = 973;
-    pub const glBindFramebufferEXT: usize = 974;
-    pub const glDeleteFramebuffers: usize = 975;
-    pub const glDeleteFramebuffersEXT: usize = 976;
-    pub const glDrawBuffer: usize = 977;
-    pub const glDrawBuffers: usize = 978;
-    pub const glDrawBuffersARB: usize = 979;
-    pub const glDrawBuffersATI: usize = 980;
-    pub const glDrawBuffersEXT: usize = 981;
-    pub const glReadBuffer: usize = 982;
-    pub const glNamedFramebufferDrawBuffer: usize = 983;
-    pub const glNamedFramebufferDrawBuffers: usize = 984;
-    pub const glNamedFramebufferReadBuffer: usize = 985;
-    pub const glFramebufferDrawBufferEXT: usize = 986;
-    pub const glFramebufferDrawBuffersEXT: usize = 987;
-    pub const glFramebufferReadBufferEXT: usize = 988;
-    pub const glBlitFramebuffer: usize = 989;
-    pub const glBlitFramebufferEXT: usize = 990;
-    pub const glBlitFramebufferNV: usize = 991;
-    pub const glBlitNamedFramebuffer: usize = 992;
-    pub const glClearNamedFramebufferfv: usize = 993;
-    pub const glClearNamedFramebufferiv: usize = 994;
-    pub const glClearNamedFramebufferuiv: usize = 995;
-    pub const glClearNamedFramebufferfi: usize = 996;
-    pub const glGetIntegerv: usize = 997;
-    pub const glGetBooleanv: usize = 998;
-    pub const glGetFloatv: usize = 999;
-    pub const glGetDoublev: usize = 1000;
-    pub const glGetInteger64v: usize = 1001;
-    pub const glGetInteger64vAPPLE: usize = 1002;
-    pub const glGetInteger64vEXT: usize = 1003;
-    pub const glFramebufferTexture: usize = 1004;
-    pub const glFramebufferTextureARB: usize = 1005;
-    pub const glFramebufferTextureEXT: usize = 1006;
-    pub const glFramebufferTextureOES: usize = 1007;
-    pub const glFramebufferTexture1D: usize = 1008;
-    pub const glFramebufferTexture1DEXT: usize = 1009;
-    pub const glFramebufferTexture2D: usize = 1010;
-    pub const glFramebufferTexture2DEXT: usize = 1011;
-    pub const glFramebufferTexture3D: usize = 1012;
-    pub const glFramebufferTexture3DEXT: usize = 1013;
-    pub const glFramebufferTextureLayer: usize = 1014;
-    pub const glFramebufferTextureLayerARB: usize = 1015;
-    pub const glFramebufferTextureLayerEXT: usize = 1016;
-    pub const glFramebufferRenderbuffer: usize = 1017;
-    pub const glFramebufferRenderbufferEXT: usize = 1018;
-    pub const glGetFramebufferAttachmentParameteriv: usize = 1019;
-    pub const glGetFramebufferAttachmentParameterivEXT: usize = 1020;
-    pub const glCheckFramebufferStatus: usize = 1021;
-    pub const glCheckFramebufferStatusEXT: usize = 1022;
-    pub const glFramebufferParameteri: usize = 1023;
-    pub const glGetFramebufferParameteriv: usize = 1024;
-    pub const glInvalidateFramebuffer: usize = 1025;
-    pub const glInvalidateSubFramebuffer: usize = 1026;
-    pub const glDiscardFramebufferEXT: usize = 1027;
-    pub const glCopyTexImage1D: usize = 1028;
-    pub const glCopyTexImage1DEXT: usize = 1029;
-    pub const glCopyTexImage2D: usize = 1030;
-    pub const glCopyTexImage2DEXT: usize = 1031;
-    pub const glCopyTexSubImage1D: usize = 1032;
-    pub const glCopyTexSubImage1DEXT: usize = 1033;
-    pub const glCopyTexSubImage2D: usize = 1034;
-    pub const glCopyTexSubImage2DEXT: usize = 1035;
-    pub const glReadPixels: usize = 1036;
-    pub const glReadnPixels: usize = 1037;
-    pub const glReadnPixelsARB: usize = 1038;
-    pub const glReadnPixelsEXT: usize = 1039;
-    pub const glReadnPixelsKHR: usize = 1040;
-    pub const glCopyTexSubImage3D: usize = 1041;
-    pub const glCopyTexSubImage3DEXT: usize = 1042;
-    pub const glCopyTextureSubImage1D: usize = 1043;
-    pub const glCopyTextureSubImage2D: usize = 1044;
-    pub const glCopyTextureSubImage3D: usize = 1045;
-    pub const glCopyMultiTexImage1DEXT: usize = 1046;
-    pub const glCopyMultiTexImage2DEXT: usize = 1047;
-    pub const glCopyTextureImage1DEXT: usize = 1048;
-    pub const glCopyTextureImage2DEXT: usize = 1049;
-    pub const glCopyColorTable: usize = 1050;
-    pub const glCopyColorTableSGI: usize = 1051;
-    pub const glCopyConvolutionFilter1D: usize = 1052;
-    pub const glCopyConvolutionFilter1DEXT: usize = 1053;
-    pub const glCopyConvolutionFilter2D: usize = 1054;
-    pub const glCopyConvolutionFilter2DEXT: usize = 1055;
-    pub const glFinish: usize = 1056;
-    pub const glFlush: usize = 1057;
-    pub const glGetError: usize = 1058;
-    pub const glBeginConditionalRender: usize = 1059;
-    pub const glBeginConditionalRenderNV: usize = 1060;
-    pub const glEndConditionalRender: usize = 1061;
-    pub const glEndConditionalRenderNV: usize = 1062;
-    pub const glEndConditionalRenderNVX: usize = 1063;
-    pub const glBeginQuery: usize = 1064;
-    pub const glBeginQueryARB: usize = 1065;
-    pub const glEndQuery: usize = 1066;
-    pub const glEndQueryARB: usize = 1067;
-    pub const glDeleteQueries: usize = 1068;
-    pub const glDeleteQueriesARB: usize = 1069;
-    pub const glGetQueryiv: usize = 1070;
-    pub const glGetQueryivARB: usize = 1071;
-    pub const glGetQueryObjectiv: usize = 1072;
-    pub const glGetQueryObjectivARB: usize = 1073;
-    pub const glGetQueryObjectivEXT: usize = 1074;
-    pub const glGetQueryObjectuiv: usize = 1075;
-    pub const glGetQueryObjectuivARB: usize = 1076;
-    pub const glGetQueryObjecti64v: usize = 1077;
-    pub const glGetQueryObjecti64vEXT: usize = 1078;
-    pub const glGetQueryObjectui64v: usize = 1079;
-    pub const glGetQueryObjectui64vEXT: usize = 1080;
-    pub const glIsEnabled: usize = 1081;
-    pub const glIsEnabledi: usize = 1082;
-    pub const glIsEnabledIndexedEXT: usize = 1083;
-    pub const glIsEnablediEXT: usize = 1084;
-    pub const glIsEnablediNV: usize = 1085;
-    pub const glIsEnablediOES: usize = 1086;
-    pub const glGetTexGendv: usize = 1087;
-    pub const glGetTexGenfv: usize = 1088;
-    pub const glGetTexGeniv: usize = 1089;
-    pub const glGetTexEnvfv: usize = 1090;
-    pub const glGetTexEnviv: usize = 1091;
-    pub const glGetLightfv: usize = 1092;
-    pub const glGetLightiv: usize = 1093;
-    pub const glGetMaterialfv: usize = 1094;
-    pub const glGetMaterialiv: usize = 1095;
-    pub const glGetTexParameterfv: usize = 1096;
-    pub const glGetTexParameteriv: usize = 1097;
-    pub const glGetTexLevelParameterfv: usize = 1098;
-    pub const glGetTexLevelParameteriv: usize = 1099;
-    pub const glGetClipPlane: usize = 1100;
-    pub const glGetMapdv: usize = 1101;
-    pub const glGetMapfv: usize = 1102;
-    pub const glGetMapiv: usize = 1103;
-    pub const glGetPixelMapfv: usize = 1104;
-    pub const glGetPixelMapuiv: usize = 1105;
-    pub const glGetPixelMapusv: usize = 1106;
-    pub const glGetPolygonStipple: usize = 1107;
-    pub const glGetTexImage: usize = 1108;
-    pub const glGetnTexImage: usize = 1109;
-    pub const glGetPointerv: usize = 1110;
-    pub const glGetPointervEXT: usize = 1111;
-    pub const glGetPointervKHR: usize = 1112;
-    pub const glGetIntegeri_v: usize = 1113;
-    pub const glGetIntegerIndexedvEXT: usize = 1114;
-    pub const glGetUniformfv: usize = 1115;
-    pub const glGetUniformfvARB: usize = 1116;
-    pub const glGetUniformiv: usize = 1117;
-    pub const glGetUniformivARB: usize = 1118;
-    pub const glGetVertexAttribdv: usize = 1119;
-    pub const glGetVertexAttribdvARB: usize = 1120;
-    pub const glGetVertexAttribdvNV: usize = 1121;
-    pub const glGetVertexAttribfv: usize = 1122;
-    pub const glGetVertexAttribfvARB: usize = 1123;
-    pub const glGetVertexAttribfvNV: usize = 1124;
-    pub const glGetVertexAttribiv: usize = 1125;
-    pub const glGetVertexAttribivARB: usize = 1126;
-    pub const glGetVertexAttribivNV: usize = 1127;
-    pub const glGetVertexAttribPointerv: usize = 1128;
-    pub const glGetVertexAttribPointervARB: usize = 1129;
-    pub const glGetVertexAttribPointervNV: usize = 1130;
-    pub const glFeedbackBuffer: usize = 1131;
-    pub const glSelectBuffer: usize = 1132;
-    pub const glGenTextures: usize = 1133;
-    pub const glGenFramebuffers: usize = 1134;
-    pub const glGenFramebuffersEXT: usize = 1135;
-    pub const glGenRenderbuffers: usize = 1136;
-    pub const glGenRenderbuffersEXT: usize = 1137;
-    pub const glBindRenderbuffer: usize = 1138;
-    pub const glRenderbufferStorage: usize = 1139;
-    pub const glRenderbufferStorageEXT: usize = 1140;
-    pub const glRenderbufferStorageMultisample: usize = 1141;
-    pub const glRenderbufferStorageMultisampleEXT: usize = 1142;
-    pub const glRenderbufferStorageMultisampleNV: usize = 1143;
-    pub const glDeleteRenderbuffers: usize = 1144;
-    pub const glDeleteRenderbuffersEXT: usize = 1145;
-    pub const glBindBuffer: usize = 1146;
-    pub const glBindBufferARB: usize = 1147;
-    pub const glBufferData: usize = 1148;
-    pub const glBufferDataARB: usize = 1149;
-    pub const glBufferSubData: usize = 1150;
-    pub const glBufferSubDataARB: usize = 1151;
-    pub const glDeleteBuffers: usize = 1152;
-    pub const glDeleteBuffersARB: usize = 1153;
-    pub const glPixelStoref: usize = 1154;
-    pub const glPixelStorei: usize = 1155;
-    pub const glPushClientAttrib: usize = 1156;
-    pub const glPopClientAttrib: usize = 1157;
-    pub const glEnableClientState: usize = 1158;
-    pub const glDisableClientState: usize = 1159;
-    pub const glClientActiveTexture: usize = 1160;
-    pub const glClientActiveTextureARB: usize = 1161;
-    pub const glInterleavedArrays: usize = 1162;
-    pub const glColorPointer: usize = 1163;
-    pub const glSecondaryColorPointer: usize = 1164;
-    pub const glSecondaryColorPointerEXT: usize = 1165;
-    pub const glTexCoordPointer: usize = 1166;
-    pub const glVertexPointer: usize = 1167;
-    pub const glEdgeFlagPointer: usize = 1168;
-    pub const glFogCoordPointer: usize = 1169;
-    pub const glFogCoordPointerEXT: usize = 1170;
-    pub const glIndexPointer: usize = 1171;
-    pub const glNormalPointer: usize = 1172;
-    pub const glVertexAttribPointer: usize = 1173;
-    pub const glVertexAttribPointerARB: usize = 1174;
-    pub const glEnableVertexAttribArray: usize = 1175;
-    pub const glEnableVertexAttribArrayARB: usize = 1176;
-    pub const glDisableVertexAttribArray: usize = 1177;
-    pub const glDisableVertexAttribArrayARB: usize = 1178;
-    pub const glXChooseVisual: usize = 1179;
-    pub const glXChooseFBConfig: usize = 1180;
-    pub const glXChooseFBConfigSGIX: usize = 1181;
-    pub const glXSwapBuffers: usize = 1182;
-    pub const glXSwapBuffersMscOML: usize = 1183;
-    pub const glXMakeCurrent: usize = 1184;
-    pub const glXMakeContextCurrent: usize = 1185;
-    pub const glXMakeCurrentReadSGI: usize = 1186;
-    pub const glXCreateContext: usize = 1187;
-    pub const glXCreateNewContext: usize = 1188;
-    pub const glXCreateContextAttribsARB: usize = 1189;
-    pub const glXCreateContextWithConfigSGIX: usize = 1190;
-    pub const glXDestroyContext: usize = 1191;
-    pub const glXCreateWindow: usize = 1192;
-    pub const glXDestroyWindow: usize = 1193;
-    pub const glXGetProcAddress: usize = 1194;
-    pub const glXGetProcAddressARB: usize = 1195;
-    pub const glXQueryDrawable: usize = 1196;
-    pub const eglSwapBuffers: usize = 1197;
-    pub const eglSwapBuffersWithDamageKHR: usize = 1198;
-    pub const eglSwapBuffersWithDamageEXT: usize = 1199;
-    pub const eglMakeCurrent: usize = 1200;
-    pub const eglCreateContext: usize = 1201;
-    pub const eglDestroyContext: usize = 1202;
-    pub const eglReleaseThread: usize = 1203;
-    pub const eglGetDisplay: usize = 1204;
-    pub const eglGetPlatformDisplay: usize = 1205;
-    pub const eglGetPlatformDisplayEXT: usize = 1206;
-    pub const eglCreateWindowSurface: usize = 1207;
-    pub const eglCreatePlatformWindowSurface: usize = 1208;
-    pub const eglCreatePlatformWindowSurfaceEXT: usize = 1209;
-    pub const eglDestroySurface: usize = 1210;
-    pub const eglGetProcAddress: usize = 1211;
-    pub const eglQuerySurface: usize = 1212;
-    pub const eglQueryContext: usize = 1213;
-    pub const eglGetCurrentContext: usize = 1214;
-    pub const glXGetCurrentContext: usize = 1215;
-    pub const OSMesaMakeCurrent: usize = 1216;
-    pub const OSMesaCreateContext: usize = 1217;
-    pub const OSMesaCreateContextExt: usize = 1218;
-    pub const OSMesaCreateContextAttribs: usize = 1219;
-    pub const OSMesaDestroyContext: usize = 1220;
-    pub const OSMesaGetProcAddress: usize = 1221;
-    pub const glCopyImageSubData: usize = 1222;
-    pub const glGetString: usize = 1223;
-    pub const glGetStringi: usize = 1224;
-    pub const glGenQueries: usize = 1225;
-    pub const glTexImage2DMultisample: usize = 1226;
-    pub const glTexImage3DMultisample: usize = 1227;
-    pub const glCreateShader: usize = 1228;
-    pub const glShaderSource: usize = 1229;
-    pub const glCompileShader: usize = 1230;
-    pub const glGetShaderiv: usize = 1231;
-    pub const glGetShaderInfoLog: usize = 1232;
-    pub const glCreateProgram: usize = 1233;
-    pub const glAttachShader: usize = 1234;
-    pub const glLinkProgram: usize = 1235;
-    pub const glGetProgramiv: usize = 1236;
-    pub const glGetProgramInfoLog: usize = 1237;
-    pub const glDeleteShader: usize = 1238;
-    pub const glDeleteProgram: usize = 1239;
-    pub const glGetUniformLocation: usize = 1240;
-    pub const glFenceSync: usize = 1241;
-    pub const glClientWaitSync: usize = 1242;
-    pub const glDeleteSync: usize = 1243;
-    pub const glGetBufferSubData: usize = 1244;
-    pub const glGetUniformBlockIndex: usize = 1245;
-    pub const glUniformBlockBinding: usize = 1246;
-    pub const glBindBufferBase: usize = 1247;
-    pub const glBindBufferRange: usize = 1248;
-    pub const glGenBuffers: usize = 1249;
-    pub const glBindAttribLocation: usize = 1250;
-    pub const glProgramParameteri: usize = 1251;
-    pub const glGenVertexArrays: usize = 1252;
-    pub const glBindVertexArray: usize = 1253;
-    pub const glGenSamplers: usize = 1254;
-    pub const glBindSampler: usize = 1255;
+    pub const glGenerateMipmap: usize = 805;
+    pub const glGenerateMipmapEXT: usize = 806;
+    pub const glUniform1d: usize = 807;
+    pub const glUniform1dv: usize = 808;
+    pub const glUniform1f: usize = 809;
+    pub const glUniform1fARB: usize = 810;
+    pub const glUniform1fv: usize = 811;
+    pub const glUniform1fvARB: usize = 812;
+    pub const glUniform1i: usize = 813;
+    pub const glUniform1iARB: usize = 814;
+    pub const glUniform1iv: usize = 815;
+    pub const glUniform1ivARB: usize = 816;
+    pub const glUniform1ui: usize = 817;
+    pub const glUniform1uiEXT: usize = 818;
+    pub const glUniform1uiv: usize = 819;
+    pub const glUniform1uivEXT: usize = 820;
+    pub const glUniform2d: usize = 821;
+    pub const glUniform2dv: usize = 822;
+    pub const glUniform2f: usize = 823;
+    pub const glUniform2fARB: usize = 824;
+    pub const glUniform2fv: usize = 825;
+    pub const glUniform2fvARB: usize = 826;
+    pub const glUniform2i: usize = 827;
+    pub const glUniform2iARB: usize = 828;
+    pub const glUniform2iv: usize = 829;
+    pub const glUniform2ivARB: usize = 830;
+    pub const glUniform2ui: usize = 831;
+    pub const glUniform2uiEXT: usize = 832;
+    pub const glUniform2uiv: usize = 833;
+    pub const glUniform2uivEXT: usize = 834;
+    pub const glUniform3d: usize = 835;
+    pub const glUniform3dv: usize = 836;
+    pub const glUniform3f: usize = 837;
+    pub const glUniform3fARB: usize = 838;
+    pub const glUniform3fv: usize = 839;
+    pub const glUniform3fvARB: usize = 840;
+    pub const glUniform3i: usize = 841;
+    pub const glUniform3iARB: usize = 842;
+    pub const glUniform3iv: usize = 843;
+    pub const glUniform3ivARB: usize = 844;
+    pub const glUniform3ui: usize = 845;
+    pub const glUniform3uiEXT: usize = 846;
+    pub const glUniform3uiv: usize = 847;
+    pub const glUniform3uivEXT: usize = 848;
+    pub const glUniform4d: usize = 849;
+    pub const glUniform4dv: usize = 850;
+    pub const glUniform4f: usize = 851;
+    pub const glUniform4fARB: usize = 852;
+    pub const glUniform4fv: usize = 853;
+    pub const glUniform4fvARB: usize = 854;
+    pub const glUniform4i: usize = 855;
+    pub const glUniform4iARB: usize = 856;
+    pub const glUniform4iv: usize = 857;
+    pub const glUniform4ivARB: usize = 858;
+    pub const glUniform4ui: usize = 859;
+    pub const glUniform4uiEXT: usize = 860;
+    pub const glUniform4uiv: usize = 861;
+    pub const glUniform4uivEXT: usize = 862;
+    pub const glUniformMatrix2dv: usize = 863;
+    pub const glUniformMatrix2fv: usize = 864;
+    pub const glUniformMatrix2fvARB: usize = 865;
+    pub const glUniformMatrix2x3dv: usize = 866;
+    pub const glUniformMatrix2x3fv: usize = 867;
+    pub const glUniformMatrix2x3fvNV: usize = 868;
+    pub const glUniformMatrix2x4dv: usize = 869;
+    pub const glUniformMatrix2x4fv: usize = 870;
+    pub const glUniformMatrix2x4fvNV: usize = 871;
+    pub const glUniformMatrix3dv: usize = 872;
+    pub const glUniformMatrix3fv: usize = 873;
+    pub const glUniformMatrix3fvARB: usize = 874;
+    pub const glUniformMatrix3x2dv: usize = 875;
+    pub const glUniformMatrix3x2fv: usize = 876;
+    pub const glUniformMatrix3x2fvNV: usize = 877;
+    pub const glUniformMatrix3x4dv: usize = 878;
+    pub const glUniformMatrix3x4fv: usize = 879;
+    pub const glUniformMatrix3x4fvNV: usize = 880;
+    pub const glUniformMatrix4dv: usize = 881;
+    pub const glUniformMatrix4fv: usize = 882;
+    pub const glUniformMatrix4fvARB: usize = 883;
+    pub const glUniformMatrix4x2dv: usize = 884;
+    pub const glUniformMatrix4x2fv: usize = 885;
+    pub const glUniformMatrix4x2fvNV: usize = 886;
+    pub const glUniformMatrix4x3dv: usize = 887;
+    pub const glUniformMatrix4x3fv: usize = 888;
+    pub const glUniformMatrix4x3fvNV: usize = 889;
+    pub const glProgramUniform1d: usize = 890;
+    pub const glProgramUniform1dv: usize = 891;
+    pub const glProgramUniform1f: usize = 892;
+    pub const glProgramUniform1fEXT: usize = 893;
+    pub const glProgramUniform1fv: usize = 894;
+    pub const glProgramUniform1fvEXT: usize = 895;
+    pub const glProgramUniform1i: usize = 896;
+    pub const glProgramUniform1iEXT: usize = 897;
+    pub const glProgramUniform1iv: usize = 898;
+    pub const glProgramUniform1ivEXT: usize = 899;
+    pub const glProgramUniform1ui: usize = 900;
+    pub const glProgramUniform1uiEXT: usize = 901;
+    pub const glProgramUniform1uiv: usize = 902;
+    pub const glProgramUniform1uivEXT: usize = 903;
+    pub const glProgramUniform2d: usize = 904;
+    pub const glProgramUniform2dv: usize = 905;
+    pub const glProgramUniform2f: usize = 906;
+    pub const glProgramUniform2fEXT: usize = 907;
+    pub const glProgramUniform2fv: usize = 908;
+    pub const glProgramUniform2fvEXT: usize = 909;
+    pub const glProgramUniform2i: usize = 910;
+    pub const glProgramUniform2iEXT: usize = 911;
+    pub const glProgramUniform2iv: usize = 912;
+    pub const glProgramUniform2ivEXT: usize = 913;
+    pub const glProgramUniform2ui: usize = 914;
+    pub const glProgramUniform2uiEXT: usize = 915;
+    pub const glProgramUniform2uiv: usize = 916;
+    pub const glProgramUniform2uivEXT: usize = 917;
+    pub const glProgramUniform3d: usize = 918;
+    pub const glProgramUniform3dv: usize = 919;
+    pub const glProgramUniform3f: usize = 920;
+    pub const glProgramUniform3fEXT: usize = 921;
+    pub const glProgramUniform3fv: usize = 922;
+    pub const glProgramUniform3fvEXT: usize = 923;
+    pub const glProgramUniform3i: usize = 924;
+    pub const glProgramUniform3iEXT: usize = 925;
+    pub const glProgramUniform3iv: usize = 926;
+    pub const glProgramUniform3ivEXT: usize = 927;
+    pub const glProgramUniform3ui: usize = 928;
+    pub const glProgramUniform3uiEXT: usize = 929;
+    pub const glProgramUniform3uiv: usize = 930;
+    pub const glProgramUniform3uivEXT: usize = 931;
+    pub const glProgramUniform4d: usize = 932;
+    pub const glProgramUniform4dv: usize = 933;
+    pub const glProgramUniform4f: usize = 934;
+    pub const glProgramUniform4fEXT: usize = 935;
+    pub const glProgramUniform4fv: usize = 936;
+    pub const glProgramUniform4fvEXT: usize = 937;
+    pub const glProgramUniform4i: usize = 938;
+    pub const glProgramUniform4iEXT: usize = 939;
+    pub const glProgramUniform4iv: usize = 940;
+    pub const glProgramUniform4ivEXT: usize = 941;
+    pub const glProgramUniform4ui: usize = 942;
+    pub const glProgramUniform4uiEXT: usize = 943;
+    pub const glProgramUniform4uiv: usize = 944;
+    pub const glProgramUniform4uivEXT: usize = 945;
+    pub const glProgramUniformMatrix2dv: usize = 946;
+    pub const glProgramUniformMatrix2fv: usize = 947;
+    pub const glProgramUniformMatrix2fvEXT: usize = 948;
+    pub const glProgramUniformMatrix2x3dv: usize = 949;
+    pub const glProgramUniformMatrix2x3fv: usize = 950;
+    pub const glProgramUniformMatrix2x3fvEXT: usize = 951;
+    pub const glProgramUniformMatrix2x4dv: usize = 952;
+    pub const glProgramUniformMatrix2x4fv: usize = 953;
+    pub const glProgramUniformMatrix2x4fvEXT: usize = 954;
+    pub const glProgramUniformMatrix3dv: usize = 955;
+    pub const glProgramUniformMatrix3fv: usize = 956;
+    pub const glProgramUniformMatrix3fvEXT: usize = 957;
+    pub const glProgramUniformMatrix3x2dv: usize = 958;
+    pub const glProgramUniformMatrix3x2fv: usize = 959;
+    pub const glProgramUniformMatrix3x2fvEXT: usize = 960;
+    pub const glProgramUniformMatrix3x4dv: usize = 961;
+    pub const glProgramUniformMatrix3x4fv: usize = 962;
+    pub const glProgramUniformMatrix3x4fvEXT: usize = 963;
+    pub const glProgramUniformMatrix4dv: usize = 964;
+    pub const glProgramUniformMatrix4fv: usize = 965;
+    pub const glProgramUniformMatrix4fvEXT: usize = 966;
+    pub const glProgramUniformMatrix4x2dv: usize = 967;
+    pub const glProgramUniformMatrix4x2fv: usize = 968;
+    pub const glProgramUniformMatrix4x2fvEXT: usize = 969;
+    pub const glProgramUniformMatrix4x3dv: usize = 970;
+    pub const glProgramUniformMatrix4x3fv: usize = 971;
+    pub const glProgramUniformMatrix4x3fvEXT: usize = 972;
+    pub const glUniformBlockBinding: usize = 973;
+    pub const glLinkProgram: usize = 974;
+    pub const glLinkProgramARB: usize = 975;
+    pub const glProgramBinary: usize = 976;
+    pub const glProgramBinaryOES: usize = 977;
+    pub const glDeleteProgram: usize = 978;
+    pub const glClear: usize = 979;
+    pub const glClearBufferfi: usize = 980;
+    pub const glClearBufferfv: usize = 981;
+    pub const glClearBufferiv: usize = 982;
+    pub const glClearBufferuiv: usize = 983;
+    pub const glDrawArrays: usize = 984;
+    pub const glDrawArraysEXT: usize = 985;
+    pub const glDrawElements: usize = 986;
+    pub const glDrawRangeElements: usize = 987;
+    pub const glDrawRangeElementsEXT: usize = 988;
+    pub const glMultiDrawArrays: usize = 989;
+    pub const glMultiDrawArraysEXT: usize = 990;
+    pub const glMultiDrawElements: usize = 991;
+    pub const glMultiDrawElementsEXT: usize = 992;
+    pub const glDrawElementsBaseVertex: usize = 993;
+    pub const glDrawElementsBaseVertexEXT: usize = 994;
+    pub const glDrawElementsBaseVertexOES: usize = 995;
+    pub const glDrawRangeElementsBaseVertex: usize = 996;
+    pub const glDrawRangeElementsBaseVertexEXT: usize = 997;
+    pub const glDrawRangeElementsBaseVertexOES: usize = 998;
+    pub const glMultiDrawElementsBaseVertex: usize = 999;
+    pub const glMultiDrawElementsBaseVertexEXT: usize = 1000;
+    pub const glDrawArraysInstanced: usize = 1001;
+    pub const glDrawArraysInstancedANGLE: usize = 1002;
+    pub const glDrawArraysInstancedARB: usize = 1003;
+    pub const glDrawArraysInstancedEXT: usize = 1004;
+    pub const glDrawArraysInstancedNV: usize = 1005;
+    pub const glDrawElementsInstanced: usize = 1006;
+    pub const glDrawElementsInstancedANGLE: usize = 1007;
+    pub const glDrawElementsInstancedARB: usize = 1008;
+    pub const glDrawElementsInstancedEXT: usize = 1009;
+    pub const glDrawElementsInstancedNV: usize = 1010;
+    pub const glDrawElementsInstancedBaseVertex: usize = 1011;
+    pub const glDrawElementsInstancedBaseVertexEXT: usize = 1012;
+    pub const glDrawElementsInstancedBaseVertexOES: usize = 1013;
+    pub const glDrawArraysInstancedBaseInstance: usize = 1014;
+    pub const glDrawArraysInstancedBaseInstanceEXT: usize = 1015;
+    pub const glDrawElementsInstancedBaseInstance: usize = 1016;
+    pub const glDrawElementsInstancedBaseInstanceEXT: usize = 1017;
+    pub const glDrawElementsInstancedBaseVertexBaseInstance: usize = 1018;
+    pub const glDrawElementsInstancedBaseVertexBaseInstanceEXT: usize = 1019;
+    pub const glDrawArraysIndirect: usize = 1020;
+    pub const glDrawElementsIndirect: usize = 1021;
+    pub const glMultiDrawArraysIndirect: usize = 1022;
+    pub const glMultiDrawArraysIndirectAMD: usize = 1023;
+    pub const glMultiDrawArraysIndirectEXT: usize = 1024;
+    pub const glMultiDrawElementsIndirect: usize = 1025;
+    pub const glMultiDrawElementsIndirectAMD: usize = 1026;
+    pub const glMultiDrawElementsIndirectEXT: usize = 1027;
+    pub const glDrawTransformFeedback: usize = 1028;
+    pub const glDrawTransformFeedbackEXT: usize = 1029;
+    pub const glDrawTransformFeedbackNV: usize = 1030;
+    pub const glDrawTransformFeedbackInstanced: usize = 1031;
+    pub const glDrawTransformFeedbackInstancedEXT: usize = 1032;
+    pub const glDrawTransformFeedbackStream: usize = 1033;
+    pub const glDrawTransformFeedbackStreamInstanced: usize = 1034;
+    pub const glRectd: usize = 1035;
+    pub const glRectdv: usize = 1036;
+    pub const glRectf: usize = 1037;
+    pub const glRectfv: usize = 1038;
+    pub const glRecti: usize = 1039;
+    pub const glRectiv: usize = 1040;
+    pub const glRects: usize = 1041;
+    pub const glRectsv: usize = 1042;
+    pub const glEvalMesh1: usize = 1043;
+    pub const glEvalMesh2: usize = 1044;
+    pub const glAccum: usize = 1045;
+    pub const glBitmap: usize = 1046;
+    pub const glDrawPixels: usize = 1047;
+    pub const glCopyPixels: usize = 1048;
+    pub const glNewList: usize = 1049;
+    pub const glEndList: usize = 1050;
+    pub const glCallList: usize = 1051;
+    pub const glCallLists: usize = 1052;
+    pub const glDeleteLists: usize = 1053;
+    pub const glGenLists: usize = 1054;
+    pub const glIsList: usize = 1055;
+    pub const glBindTexture: usize = 1056;
+    pub const glBindTextureEXT: usize = 1057;
+    pub const glDeleteTextures: usize = 1058;
+    pub const glIsTexture: usize = 1059;
+    pub const glIsFramebuffer: usize = 1060;
+    pub const glIsFramebufferEXT: usize = 1061;
+    pub const glBindFramebuffer: usize = 1062;
+    pub const glBindFramebufferEXT: usize = 1063;
+    pub const glDeleteFramebuffers: usize = 1064;
+    pub const glDeleteFramebuffersEXT: usize = 1065;
+    pub const glDrawBuffer: usize = 1066;
+    pub const glDrawBuffers: usize = 1067;
+    pub const glDrawBuffersARB: usize = 1068;
+    pub const glDrawBuffersATI: usize = 1069;
+    pub const glDrawBuffersEXT: usize = 1070;
+    pub const glReadBuffer: usize = 1071;
+    pub const glNamedFramebufferDrawBuffer: usize = 1072;
+    pub const glNamedFramebufferDrawBuffers: usize = 1073;
+    pub const glNamedFramebufferReadBuffer: usize = 1074;
+    pub const glFramebufferDrawBufferEXT: usize = 1075;
+    pub const glFramebufferDrawBuffersEXT: usize = 1076;
+    pub const glFramebufferReadBufferEXT: usize = 1077;
+    pub const glBlitFramebuffer: usize = 1078;
+    pub const glBlitFramebufferEXT: usize = 1079;
+    pub const glBlitFramebufferNV: usize = 1080;
+    pub const glBlitNamedFramebuffer: usize = 1081;
+    pub const glClearNamedFramebufferfv: usize = 1082;
+    pub const glClearNamedFramebufferiv: usize = 1083;
+    pub const glClearNamedFramebufferuiv: usize = 1084;
+    pub const glClearNamedFramebufferfi: usize = 1085;
+    pub const glGetIntegerv: usize = 1086;
+    pub const glGetBooleanv: usize = 1087;
+    pub const glGetFloatv: usize = 1088;
+    pub const glGetDoublev: usize = 1089;
+    pub const glGetInteger64v: usize = 1090;
+    pub const glGetInteger64vAPPLE: usize = 1091;
+    pub const glGetInteger64vEXT: usize = 1092;
+    pub const glFramebufferTexture: usize = 1093;
+    pub const glFramebufferTextureARB: usize = 1094;
+    pub const glFramebufferTextureEXT: usize = 1095;
+    pub const glFramebufferTextureOES: usize = 1096;
+    pub const glFramebufferTexture1D: usize = 1097;
+    pub const glFramebufferTexture1DEXT: usize = 1098;
+    pub const glFramebufferTexture2D: usize = 1099;
+    pub const glFramebufferTexture2DEXT: usize = 1100;
+    pub const glFramebufferTexture3D: usize = 1101;
+    pub const glFramebufferTexture3DEXT: usize = 1102;
+    pub const glFramebufferTextureLayer: usize = 1103;
+    pub const glFramebufferTextureLayerARB: usize = 1104;
+    pub const glFramebufferTextureLayerEXT: usize = 1105;
+    pub const glFramebufferRenderbuffer: usize = 1106;
+    pub const glFramebufferRenderbufferEXT: usize = 1107;
+    pub const glGetFramebufferAttachmentParameteriv: usize = 1108;
+    pub const glGetFramebufferAttachmentParameterivEXT: usize = 1109;
+    pub const glCheckFramebufferStatus: usize = 1110;
+    pub const glCheckFramebufferStatusEXT: usize = 1111;
+    pub const glFramebufferParameteri: usize = 1112;
+    pub const glGetFramebufferParameteriv: usize = 1113;
+    pub const glInvalidateFramebuffer: usize = 1114;
+    pub const glInvalidateSubFramebuffer: usize = 1115;
+    pub const glDiscardFramebufferEXT: usize = 1116;
+    pub const glCopyTexImage1D: usize = 1117;
+    pub const glCopyTexImage1DEXT: usize = 1118;
+    pub const glCopyTexImage2D: usize = 1119;
+    pub const glCopyTexImage2DEXT: usize = 1120;
+    pub const glCopyTexSubImage1D: usize = 1121;
+    pub const glCopyTexSubImage1DEXT: usize = 1122;
+    pub const glCopyTexSubImage2D: usize = 1123;
+    pub const glCopyTexSubImage2DEXT: usize = 1124;
+    pub const glReadPixels: usize = 1125;
+    pub const glReadnPixels: usize = 1126;
+    pub const glReadnPixelsARB: usize = 1127;
+    pub const glReadnPixelsEXT: usize = 1128;
+    pub const glReadnPixelsKHR: usize = 1129;
+    pub const glCopyTexSubImage3D: usize = 1130;
+    pub const glCopyTexSubImage3DEXT: usize = 1131;
+    pub const glCopyTextureSubImage1D: usize = 1132;
+    pub const glCopyTextureSubImage2D: usize = 1133;
+    pub const glCopyTextureSubImage3D: usize = 1134;
+    pub const glCopyMultiTexImage1DEXT: usize = 1135;
+    pub const glCopyMultiTexImage2DEXT: usize = 1136;
+    pub const glCopyTextureImage1DEXT: usize = 1137;
+    pub const glCopyTextureImage2DEXT: usize = 1138;
+    pub const glCopyColorTable: usize = 1139;
+    pub const glCopyColorTableSGI: usize = 1140;
+    pub const glCopyConvolutionFilter1D: usize = 1141;
+    pub const glCopyConvolutionFilter1DEXT: usize = 1142;
+    pub const glCopyConvolutionFilter2D: usize = 1143;
+    pub const glCopyConvolutionFilter2DEXT: usize = 1144;
+    pub const glFinish: usize = 1145;
+    pub const glFlush: usize = 1146;
+    pub const glGetError: usize = 1147;
+    pub const glBeginConditionalRender: usize = 1148;
+    pub const glBeginConditionalRenderNV: usize = 1149;
+    pub const glEndConditionalRender: usize = 1150;
+    pub const glEndConditionalRenderNV: usize = 1151;
+    pub const glEndConditionalRenderNVX: usize = 1152;
+    pub const glBeginQuery: usize = 1153;
+    pub const glBeginQueryARB: usize = 1154;
+    pub const glEndQuery: usize = 1155;
+    pub const glEndQueryARB: usize = 1156;
+    pub const glDeleteQueries: usize = 1157;
+    pub const glDeleteQueriesARB: usize = 1158;
+    pub const glGetQueryiv: usize = 1159;
+    pub const glGetQueryivARB: usize = 1160;
+    pub const glGetQueryObjectiv: usize = 1161;
+    pub const glGetQueryObjectivARB: usize = 1162;
+    pub const glGetQueryObjectivEXT: usize = 1163;
+    pub const glGetQueryObjectuiv: usize = 1164;
+    pub const glGetQueryObjectuivARB: usize = 1165;
+    pub const glGetQueryObjecti64v: usize = 1166;
+    pub const glGetQueryObjecti64vEXT: usize = 1167;
+    pub const glGetQueryObjectui64v: usize = 1168;
+    pub const glGetQueryObjectui64vEXT: usize = 1169;
+    pub const glIsEnabled: usize = 1170;
+    pub const glIsEnabledi: usize = 1171;
+    pub const glIsEnabledIndexedEXT: usize = 1172;
+    pub const glIsEnablediEXT: usize = 1173;
+    pub const glIsEnablediNV: usize = 1174;
+    pub const glIsEnablediOES: usize = 1175;
+    pub const glGetTexGendv: usize = 1176;
+    pub const glGetTexGenfv: usize = 1177;
+    pub const glGetTexGeniv: usize = 1178;
+    pub const glGetTexEnvfv: usize = 1179;
+    pub const glGetTexEnviv: usize = 1180;
+    pub const glGetLightfv: usize = 1181;
+    pub const glGetLightiv: usize = 1182;
+    pub const glGetMaterialfv: usize = 1183;
+    pub const glGetMaterialiv: usize = 1184;
+    pub const glGetTexParameterfv: usize = 1185;
+    pub const glGetTexParameteriv: usize = 1186;
+    pub const glGetTexLevelParameterfv: usize = 1187;
+    pub const glGetTexLevelParameteriv: usize = 1188;
+    pub const glGetClipPlane: usize = 1189;
+    pub const glGetMapdv: usize = 1190;
+    pub const glGetMapfv: usize = 1191;
+    pub const glGetMapiv: usize = 1192;
+    pub const glGetPixelMapfv: usize = 1193;
+    pub const glGetPixelMapuiv: usize = 1194;
+    pub const glGetPixelMapusv: usize = 1195;
+    pub const glGetPolygonStipple: usize = 1196;
+    pub const glGetTexImage: usize = 1197;
+    pub const glGetnTexImage: usize = 1198;
+    pub const glGetPointerv: usize = 1199;
+    pub const glGetPointervEXT: usize = 1200;
+    pub const glGetPointervKHR: usize = 1201;
+    pub const glGetIntegeri_v: usize = 1202;
+    pub const glGetIntegerIndexedvEXT: usize = 1203;
+    pub const glGetUniformfv: usize = 1204;
+    pub const glGetUniformfvARB: usize = 1205;
+    pub const glGetUniformiv: usize = 1206;
+    pub const glGetUniformivARB: usize = 1207;
+    pub const glGetVertexAttribdv: usize = 1208;
+    pub const glGetVertexAttribdvARB: usize = 1209;
+    pub const glGetVertexAttribdvNV: usize = 1210;
+    pub const glGetVertexAttribfv: usize = 1211;
+    pub const glGetVertexAttribfvARB: usize = 1212;
+    pub const glGetVertexAttribfvNV: usize = 1213;
+    pub const glGetVertexAttribiv: usize = 1214;
+    pub const glGetVertexAttribivARB: usize = 1215;
+    pub const glGetVertexAttribivNV: usize = 1216;
+    pub const glGetVertexAttribPointerv: usize = 1217;
+    pub const glGetVertexAttribPointervARB: usize = 1218;
+    pub const glGetVertexAttribPointervNV: usize = 1219;
+    pub const glFeedbackBuffer: usize = 1220;
+    pub const glSelectBuffer: usize = 1221;
+    pub const glGenTextures: usize = 1222;
+    pub const glGenFramebuffers: usize = 1223;
+    pub const glGenFramebuffersEXT: usize = 1224;
+    pub const glGenRenderbuffers: usize = 1225;
+    pub const glGenRenderbuffersEXT: usize = 1226;
+    pub const glBindRenderbuffer: usize = 1227;
+    pub const glRenderbufferStorage: usize = 1228;
+    pub const glRenderbufferStorageEXT: usize = 1229;
+    pub const glRenderbufferStorageMultisample: usize = 1230;
+    pub const glRenderbufferStorageMultisampleEXT: usize = 1231;
+    pub const glRenderbufferStorageMultisampleNV: usize = 1232;
+    pub const glDeleteRenderbuffers: usize = 1233;
+    pub const glDeleteRenderbuffersEXT: usize = 1234;
+    pub const glBindBuffer: usize = 1235;
+    pub const glBindBufferARB: usize = 1236;
+    pub const glBufferData: usize = 1237;
+    pub const glBufferDataARB: usize = 1238;
+    pub const glBufferSubData: usize = 1239;
+    pub const glBufferSubDataARB: usize = 1240;
+    pub const glDeleteBuffers: usize = 1241;
+    pub const glDeleteBuffersARB: usize = 1242;
+    pub const glPixelStoref: usize = 1243;
+    pub const glPixelStorei: usize = 1244;
+    pub const glPushClientAttrib: usize = 1245;
+    pub const glPopClientAttrib: usize = 1246;
+    pub const glEnableClientState: usize = 1247;
+    pub const glDisableClientState: usize = 1248;
+    pub const glClientActiveTexture: usize = 1249;
+    pub const glClientActiveTextureARB: usize = 1250;
+    pub const glInterleavedArrays: usize = 1251;
+    pub const glColorPointer: usize = 1252;
+    pub const glSecondaryColorPointer: usize = 1253;
+    pub const glSecondaryColorPointerEXT: usize = 1254;
+    pub const glTexCoordPointer: usize = 1255;
+    pub const glVertexPointer: usize = 1256;
+    pub const glEdgeFlagPointer: usize = 1257;
+    pub const glFogCoordPointer: usize = 1258;
+    pub const glFogCoordPointerEXT: usize = 1259;
+    pub const glIndexPointer: usize = 1260;
+    pub const glNormalPointer: usize = 1261;
+    pub const glVertexAttribPointer: usize = 1262;
+    pub const glVertexAttribPointerARB: usize = 1263;
+    pub const glEnableVertexAttribArray: usize = 1264;
+    pub const glEnableVertexAttribArrayARB: usize = 1265;
+    pub const glDisableVertexAttribArray: usize = 1266;
+    pub const glDisableVertexAttribArrayARB: usize = 1267;
+    pub const glXChooseVisual: usize = 1268;
+    pub const glXChooseFBConfig: usize = 1269;
+    pub const glXChooseFBConfigSGIX: usize = 1270;
+    pub const glXSwapBuffers: usize = 1271;
+    pub const glXSwapBuffersMscOML: usize = 1272;
+    pub const glXMakeCurrent: usize = 1273;
+    pub const glXMakeContextCurrent: usize = 1274;
+    pub const glXMakeCurrentReadSGI: usize = 1275;
+    pub const glXCreateContext: usize = 1276;
+    pub const glXCreateNewContext: usize = 1277;
+    pub const glXCreateContextAttribsARB: usize = 1278;
+    pub const glXCreateContextWithConfigSGIX: usize = 1279;
+    pub const glXDestroyContext: usize = 1280;
+    pub const glXCreateWindow: usize = 1281;
+    pub const glXDestroyWindow: usize = 1282;
+    pub const glXGetProcAddress: usize = 1283;
+    pub const glXGetProcAddressARB: usize = 1284;
+    pub const glXQueryDrawable: usize = 1285;
+    pub const eglSwapBuffers: usize = 1286;
+    pub const eglSwapBuffersWithDamageKHR: usize = 1287;
+    pub const eglSwapBuffersWithDamageEXT: usize = 1288;
+    pub const eglMakeCurrent: usize = 1289;
+    pub const eglCreateContext: usize = 1290;
+    pub const eglDestroyContext: usize = 1291;
+    pub const eglReleaseThread: usize = 1292;
+    pub const eglGetDisplay: usize = 1293;
+    pub const eglGetPlatformDisplay: usize = 1294;
+    pub const eglGetPlatformDisplayEXT: usize = 1295;
+    pub const eglCreateWindowSurface: usize = 1296;
+    pub const eglCreatePlatformWindowSurface: usize = 1297;
+    pub const eglCreatePlatformWindowSurfaceEXT: usize = 1298;
+    pub const eglDestroySurface: usize = 1299;
+    pub const eglGetProcAddress: usize = 1300;
+    pub const eglQuerySurface: usize = 1301;
+    pub const eglQueryContext: usize = 1302;
+    pub const eglGetCurrentContext: usize = 1303;
+    pub const glXGetCurrentContext: usize = 1304;
+    pub const OSMesaMakeCurrent: usize = 1305;
+    pub const OSMesaCreateContext: usize = 1306;
+    pub const OSMesaCreateContextExt: usize = 1307;
+    pub const OSMesaCreateContextAttribs: usize = 1308;
+    pub const OSMesaDestroyContext: usize = 1309;
+    pub const OSMesaGetProcAddress: usize = 1310;
+    pub const glCopyImageSubData: usize = 1311;
+    pub const glGetString: usize = 1312;
+    pub const glGetStringi: usize = 1313;
+    pub const glGenQueries: usize = 1314;
+    pub const glTexImage2DMultisample: usize = 1315;
+    pub const glTexImage3DMultisample: usize = 1316;
+    pub const glCreateShader: usize = 1317;
+    pub const glShaderSource: usize = 1318;
+    pub const glCompileShader: usize = 1319;
+    pub const glGetShaderiv: usize = 1320;
+    pub const glGetShaderInfoLog: usize = 1321;
+    pub const glCreateProgram: usize = 1322;
+    pub const glAttachShader: usize = 1323;
+    pub const glGetProgramiv: usize = 1324;
+    pub const glGetProgramInfoLog: usize = 1325;
+    pub const glDeleteShader: usize = 1326;
+    pub const glGetUniformLocation: usize = 1327;
+    pub const glIsProgram: usize = 1328;
+    pub const glGetShaderSource: usize = 1329;
+    pub const glGetAttachedShaders: usize = 1330;
+    pub const glGetActiveUniform: usize = 1331;
+    pub const glGetActiveAttrib: usize = 1332;
+    pub const glGetAttribLocation: usize = 1333;
+    pub const glGetFragDataLocation: usize = 1334;
+    pub const glBindFragDataLocation: usize = 1335;
+    pub const glGetUniformdv: usize = 1336;
+    pub const glGetUniformuiv: usize = 1337;
+    pub const glGetActiveUniformBlockiv: usize = 1338;
+    pub const glGetActiveUniformsiv: usize = 1339;
+    pub const glGetActiveUniformBlockName: usize = 1340;
+    pub const glGetProgramInterfaceiv: usize = 1341;
+    pub const glGetProgramResourceName: usize = 1342;
+    pub const glFenceSync: usize = 1343;
+    pub const glClientWaitSync: usize = 1344;
+    pub const glDeleteSync: usize = 1345;
+    pub const glGetBufferSubData: usize = 1346;
+    pub const glGetUniformBlockIndex: usize = 1347;
+    pub const glBindBufferBase: usize = 1348;
+    pub const glBindBufferRange: usize = 1349;
+    pub const glGenBuffers: usize = 1350;
+    pub const glBindAttribLocation: usize = 1351;
+    pub const glProgramParameteri: usize = 1352;
+    pub const glGenVertexArrays: usize = 1353;
+    pub const glBindVertexArray: usize = 1354;
+    pub const glGenSamplers: usize = 1355;
+    pub const glBindSampler: usize = 1356;
 }
 
 /// Name of each command.
@@ -2073,6 +2174,8 @@ pub static NAMES: [&CStr; COUNT] = [
     c"glProgramLocalParameter4dvARB",
     c"glProgramLocalParameter4fARB",
     c"glProgramLocalParameter4fvARB",
+    c"glGenerateMipmap",
+    c"glGenerateMipmapEXT",
     c"glUniform1d",
     c"glUniform1dv",
     c"glUniform1f",
@@ -2156,8 +2259,95 @@ pub static NAMES: [&CStr; COUNT] = [
     c"glUniformMatrix4x3dv",
     c"glUniformMatrix4x3fv",
     c"glUniformMatrix4x3fvNV",
-    c"glGenerateMipmap",
-    c"glGenerateMipmapEXT",
+    c"glProgramUniform1d",
+    c"glProgramUniform1dv",
+    c"glProgramUniform1f",
+    c"glProgramUniform1fEXT",
+    c"glProgramUniform1fv",
+    c"glProgramUniform1fvEXT",
+    c"glProgramUniform1i",
+    c"glProgramUniform1iEXT",
+    c"glProgramUniform1iv",
+    c"glProgramUniform1ivEXT",
+    c"glProgramUniform1ui",
+    c"glProgramUniform1uiEXT",
+    c"glProgramUniform1uiv",
+    c"glProgramUniform1uivEXT",
+    c"glProgramUniform2d",
+    c"glProgramUniform2dv",
+    c"glProgramUniform2f",
+    c"glProgramUniform2fEXT",
+    c"glProgramUniform2fv",
+    c"glProgramUniform2fvEXT",
+    c"glProgramUniform2i",
+    c"glProgramUniform2iEXT",
+    c"glProgramUniform2iv",
+    c"glProgramUniform2ivEXT",
+    c"glProgramUniform2ui",
+    c"glProgramUniform2uiEXT",
+    c"glProgramUniform2uiv",
+    c"glProgramUniform2uivEXT",
+    c"glProgramUniform3d",
+    c"glProgramUniform3dv",
+    c"glProgramUniform3f",
+    c"glProgramUniform3fEXT",
+    c"glProgramUniform3fv",
+    c"glProgramUniform3fvEXT",
+    c"glProgramUniform3i",
+    c"glProgramUniform3iEXT",
+    c"glProgramUniform3iv",
+    c"glProgramUniform3ivEXT",
+    c"glProgramUniform3ui",
+    c"glProgramUniform3uiEXT",
+    c"glProgramUniform3uiv",
+    c"glProgramUniform3uivEXT",
+    c"glProgramUniform4d",
+    c"glProgramUniform4dv",
+    c"glProgramUniform4f",
+    c"glProgramUniform4fEXT",
+    c"glProgramUniform4fv",
+    c"glProgramUniform4fvEXT",
+    c"glProgramUniform4i",
+    c"glProgramUniform4iEXT",
+    c"glProgramUniform4iv",
+    c"glProgramUniform4ivEXT",
+    c"glProgramUniform4ui",
+    c"glProgramUniform4uiEXT",
+    c"glProgramUniform4uiv",
+    c"glProgramUniform4uivEXT",
+    c"glProgramUniformMatrix2dv",
+    c"glProgramUniformMatrix2fv",
+    c"glProgramUniformMatrix2fvEXT",
+    c"glProgramUniformMatrix2x3dv",
+    c"glProgramUniformMatrix2x3fv",
+    c"glProgramUniformMatrix2x3fvEXT",
+    c"glProgramUniformMatrix2x4dv",
+    c"glProgramUniformMatrix2x4fv",
+    c"glProgramUniformMatrix2x4fvEXT",
+    c"glProgramUniformMatrix3dv",
+    c"glProgramUniformMatrix3fv",
+    c"glProgramUniformMatrix3fvEXT",
+    c"glProgramUniformMatrix3x2dv",
+    c"glProgramUniformMatrix3x2fv",
+    c"glProgramUniformMatrix3x2fvEXT",
+    c"glProgramUniformMatrix3x4dv",
+    c"glProgramUniformMatrix3x4fv",
+    c"glProgramUniformMatrix3x4fvEXT",
+    c"glProgramUniformMatrix4dv",
+    c"glProgramUniformMatrix4fv",
+    c"glProgramUniformMatrix4fvEXT",
+    c"glProgramUniformMatrix4x2dv",
+    c"glProgramUniformMatrix4x2fv",
+    c"glProgramUniformMatrix4x2fvEXT",
+    c"glProgramUniformMatrix4x3dv",
+    c"glProgramUniformMatrix4x3fv",
+    c"glProgramUniformMatrix4x3fvEXT",
+    c"glUniformBlockBinding",
+    c"glLinkProgram",
+    c"glLinkProgramARB",
+    c"glProgramBinary",
+    c"glProgramBinaryOES",
+    c"glDeleteProgram",
     c"glClear",
     c"glClearBufferfi",
     c"glClearBufferfv",
@@ -2503,18 +2693,30 @@ pub static NAMES: [&CStr; COUNT] = [
     c"glGetShaderInfoLog",
     c"glCreateProgram",
     c"glAttachShader",
-    c"glLinkProgram",
     c"glGetProgramiv",
     c"glGetProgramInfoLog",
     c"glDeleteShader",
-    c"glDeleteProgram",
     c"glGetUniformLocation",
+    c"glIsProgram",
+    c"glGetShaderSource",
+    c"glGetAttachedShaders",
+    c"glGetActiveUniform",
+    c"glGetActiveAttrib",
+    c"glGetAttribLocation",
+    c"glGetFragDataLocation",
+    c"glBindFragDataLocation",
+    c"glGetUniformdv",
+    c"glGetUniformuiv",
+    c"glGetActiveUniformBlockiv",
+    c"glGetActiveUniformsiv",
+    c"glGetActiveUniformBlockName",
+    c"glGetProgramInterfaceiv",
+    c"glGetProgramResourceName",
     c"glFenceSync",
     c"glClientWaitSync",
     c"glDeleteSync",
     c"glGetBufferSubData",
     c"glGetUniformBlockIndex",
-    c"glUniformBlockBinding",
     c"glBindBufferBase",
     c"glBindBufferRange",
     c"glGenBuffers",
@@ -3332,6 +3534,8 @@ real_functions! {
     glProgramLocalParameter4dvARB(target: u32, index: u32, params: Ptr);
     glProgramLocalParameter4fARB(target: u32, index: u32, x: f32, y: f32, z: f32, w: f32);
     glProgramLocalParameter4fvARB(target: u32, index: u32, params: Ptr);
+    glGenerateMipmap(target: u32);
+    glGenerateMipmapEXT(target: u32);
     glUniform1d(location: i32, x: f64);
     glUniform1dv(location: i32, count: i32, value: Ptr);
     glUniform1f(location: i32, v0: f32);
@@ -3415,8 +3619,95 @@ real_functions! {
     glUniformMatrix4x3dv(location: i32, count: i32, transpose: u8, value: Ptr);
     glUniformMatrix4x3fv(location: i32, count: i32, transpose: u8, value: Ptr);
     glUniformMatrix4x3fvNV(location: i32, count: i32, transpose: u8, value: Ptr);
-    glGenerateMipmap(target: u32);
-    glGenerateMipmapEXT(target: u32);
+    glProgramUniform1d(program: u32, location: i32, v0: f64);
+    glProgramUniform1dv(program: u32, location: i32, count: i32, value: Ptr);
+    glProgramUniform1f(program: u32, location: i32, v0: f32);
+    glProgramUniform1fEXT(program: u32, location: i32, v0: f32);
+    glProgramUniform1fv(program: u32, location: i32, count: i32, value: Ptr);
+    glProgramUniform1fvEXT(program: u32, location: i32, count: i32, value: Ptr);
+    glProgramUniform1i(program: u32, location: i32, v0: i32);
+    glProgramUniform1iEXT(program: u32, location: i32, v0: i32);
+    glProgramUniform1iv(program: u32, location: i32, count: i32, value: Ptr);
+    glProgramUniform1ivEXT(program: u32, location: i32, count: i32, value: Ptr);
+    glProgramUniform1ui(program: u32, location: i32, v0: u32);
+    glProgramUniform1uiEXT(program: u32, location: i32, v0: u32);
+    glProgramUniform1uiv(program: u32, location: i32, count: i32, value: Ptr);
+    glProgramUniform1uivEXT(program: u32, location: i32, count: i32, value: Ptr);
+    glProgramUniform2d(program: u32, location: i32, v0: f64, v1: f64);
+    glProgramUniform2dv(program: u32, location: i32, count: i32, value: Ptr);
+    glProgramUniform2f(program: u32, location: i32, v0: f32, v1: f32);
+    glProgramUniform2fEXT(program: u32, location: i32, v0: f32, v1: f32);
+    glProgramUniform2fv(program: u32, location: i32, count: i32, value: Ptr);
+    glProgramUniform2fvEXT(program: u32, location: i32, count: i32, value: Ptr);
+    glProgramUniform2i(program: u32, location: i32, v0: i32, v1: i32);
+    glProgramUniform2iEXT(program: u32, location: i32, v0: i32, v1: i32);
+    glProgramUniform2iv(program: u32, location: i32, count: i32, value: Ptr);
+    glProgramUniform2ivEXT(program: u32, location: i32, count: i32, value: Ptr);
+    glProgramUniform2ui(program: u32, location: i32, v0: u32, v1: u32);
+    glProgramUniform2uiEXT(program: u32, location: i32, v0: u32, v1: u32);
+    glProgramUniform2uiv(program: u32, location: i32, count: i32, value: Ptr);
+    glProgramUniform2uivEXT(program: u32, location: i32, count: i32, value: Ptr);
+    glProgramUniform3d(program: u32, location: i32, v0: f64, v1: f64, v2: f64);
+    glProgramUniform3dv(program: u32, location: i32, count: i32, value: Ptr);
+    glProgramUniform3f(program: u32, location: i32, v0: f32, v1: f32, v2: f32);
+    glProgramUniform3fEXT(program: u32, location: i32, v0: f32, v1: f32, v2: f32);
+    glProgramUniform3fv(program: u32, location: i32, count: i32, value: Ptr);
+    glProgramUniform3fvEXT(program: u32, location: i32, count: i32, value: Ptr);
+    glProgramUniform3i(program: u32, location: i32, v0: i32, v1: i32, v2: i32);
+    glProgramUniform3iEXT(program: u32, location: i32, v0: i32, v1: i32, v2: i32);
+    glProgramUniform3iv(program: u32, location: i32, count: i32, value: Ptr);
+    glProgramUniform3ivEXT(program: u32, location: i32, count: i32, value: Ptr);
+    glProgramUniform3ui(program: u32, location: i32, v0: u32, v1: u32, v2: u32);
+    glProgramUniform3uiEXT(program: u32, location: i32, v0: u32, v1: u32, v2: u32);
+    glProgramUniform3uiv(program: u32, location: i32, count: i32, value: Ptr);
+    glProgramUniform3uivEXT(program: u32, location: i32, count: i32, value: Ptr);
+    glProgramUniform4d(program: u32, location: i32, v0: f64, v1: f64, v2: f64, v3: f64);
+    glProgramUniform4dv(program: u32, location: i32, count: i32, value: Ptr);
+    glProgramUniform4f(program: u32, location: i32, v0: f32, v1: f32, v2: f32, v3: f32);
+    glProgramUniform4fEXT(program: u32, location: i32, v0: f32, v1: f32, v2: f32, v3: f32);
+    glProgramUniform4fv(program: u32, location: i32, count: i32, value: Ptr);
+    glProgramUniform4fvEXT(program: u32, location: i32, count: i32, value: Ptr);
+    glProgramUniform4i(program: u32, location: i32, v0: i32, v1: i32, v2: i32, v3: i32);
+    glProgramUniform4iEXT(program: u32, location: i32, v0: i32, v1: i32, v2: i32, v3: i32);
+    glProgramUniform4iv(program: u32, location: i32, count: i32, value: Ptr);
+    glProgramUniform4ivEXT(program: u32, location: i32, count: i32, value: Ptr);
+    glProgramUniform4ui(program: u32, location: i32, v0: u32, v1: u32, v2: u32, v3: u32);
+    glProgramUniform4uiEXT(program: u32, location: i32, v0: u32, v1: u32, v2: u32, v3: u32);
+    glProgramUniform4uiv(program: u32, location: i32, count: i32, value: Ptr);
+    glProgramUniform4uivEXT(program: u32, location: i32, count: i32, value: Ptr);
+    glProgramUniformMatrix2dv(program: u32, location: i32, count: i32, transpose: u8, value: Ptr);
+    glProgramUniformMatrix2fv(program: u32, location: i32, count: i32, transpose: u8, value: Ptr);
+    glProgramUniformMatrix2fvEXT(program: u32, location: i32, count: i32, transpose: u8, value: Ptr);
+    glProgramUniformMatrix2x3dv(program: u32, location: i32, count: i32, transpose: u8, value: Ptr);
+    glProgramUniformMatrix2x3fv(program: u32, location: i32, count: i32, transpose: u8, value: Ptr);
+    glProgramUniformMatrix2x3fvEXT(program: u32, location: i32, count: i32, transpose: u8, value: Ptr);
+    glProgramUniformMatrix2x4dv(program: u32, location: i32, count: i32, transpose: u8, value: Ptr);
+    glProgramUniformMatrix2x4fv(program: u32, location: i32, count: i32, transpose: u8, value: Ptr);
+    glProgramUniformMatrix2x4fvEXT(program: u32, location: i32, count: i32, transpose: u8, value: Ptr);
+    glProgramUniformMatrix3dv(program: u32, location: i32, count: i32, transpose: u8, value: Ptr);
+    glProgramUniformMatrix3fv(program: u32, location: i32, count: i32, transpose: u8, value: Ptr);
+    glProgramUniformMatrix3fvEXT(program: u32, location: i32, count: i32, transpose: u8, value: Ptr);
+    glProgramUniformMatrix3x2dv(program: u32, location: i32, count: i32, transpose: u8, value: Ptr);
+    glProgramUniformMatrix3x2fv(program: u32, location: i32, count: i32, transpose: u8, value: Ptr);
+    glProgramUniformMatrix3x2fvEXT(program: u32, location: i32, count: i32, transpose: u8, value: Ptr);
+    glProgramUniformMatrix3x4dv(program: u32, location: i32, count: i32, transpose: u8, value: Ptr);
+    glProgramUniformMatrix3x4fv(program: u32, location: i32, count: i32, transpose: u8, value: Ptr);
+    glProgramUniformMatrix3x4fvEXT(program: u32, location: i32, count: i32, transpose: u8, value: Ptr);
+    glProgramUniformMatrix4dv(program: u32, location: i32, count: i32, transpose: u8, value: Ptr);
+    glProgramUniformMatrix4fv(program: u32, location: i32, count: i32, transpose: u8, value: Ptr);
+    glProgramUniformMatrix4fvEXT(program: u32, location: i32, count: i32, transpose: u8, value: Ptr);
+    glProgramUniformMatrix4x2dv(program: u32, location: i32, count: i32, transpose: u8, value: Ptr);
+    glProgramUniformMatrix4x2fv(program: u32, location: i32, count: i32, transpose: u8, value: Ptr);
+    glProgramUniformMatrix4x2fvEXT(program: u32, location: i32, count: i32, transpose: u8, value: Ptr);
+    glProgramUniformMatrix4x3dv(program: u32, location: i32, count: i32, transpose: u8, value: Ptr);
+    glProgramUniformMatrix4x3fv(program: u32, location: i32, count: i32, transpose: u8, value: Ptr);
+    glProgramUniformMatrix4x3fvEXT(program: u32, location: i32, count: i32, transpose: u8, value: Ptr);
+    glUniformBlockBinding(program: u32, uniformBlockIndex: u32, uniformBlockBinding: u32);
+    glLinkProgram(program: u32);
+    glLinkProgramARB(programObj: u32);
+    glProgramBinary(program: u32, binaryFormat: u32, binary: Ptr, length: i32);
+    glProgramBinaryOES(program: u32, binaryFormat: u32, binary: Ptr, length: i32);
+    glDeleteProgram(program: u32);
     glClear(mask: u32);
     glClearBufferfi(buffer: u32, drawbuffer: i32, depth: f32, stencil: i32);
     glClearBufferfv(buffer: u32, drawbuffer: i32, value: Ptr);
@@ -3762,18 +4053,30 @@ real_functions! {
     glGetShaderInfoLog(shader: u32, bufSize: i32, length: Ptr, infoLog: Ptr);
     glCreateProgram() -> u32 = 0;
     glAttachShader(program: u32, shader: u32);
-    glLinkProgram(program: u32);
     glGetProgramiv(program: u32, pname: u32, params: Ptr);
     glGetProgramInfoLog(program: u32, bufSize: i32, length: Ptr, infoLog: Ptr);
     glDeleteShader(shader: u32);
-    glDeleteProgram(program: u32);
     glGetUniformLocation(program: u32, name: Ptr) -> i32 = 0;
+    glIsProgram(program: u32) -> u8 = 0;
+    glGetShaderSource(shader: u32, bufSize: i32, length: Ptr, source: Ptr);
+    glGetAttachedShaders(program: u32, maxCount: i32, count: Ptr, shaders: Ptr);
+    glGetActiveUniform(program: u32, index: u32, bufSize: i32, length: Ptr, size: Ptr, type_: Ptr, name: Ptr);
+    glGetActiveAttrib(program: u32, index: u32, bufSize: i32, length: Ptr, size: Ptr, type_: Ptr, name: Ptr);
+    glGetAttribLocation(program: u32, name: Ptr) -> i32 = 0;
+    glGetFragDataLocation(program: u32, name: Ptr) -> i32 = 0;
+    glBindFragDataLocation(program: u32, color: u32, name: Ptr);
+    glGetUniformdv(program: u32, location: i32, params: Ptr);
+    glGetUniformuiv(program: u32, location: i32, params: Ptr);
+    glGetActiveUniformBlockiv(program: u32, uniformBlockIndex: u32, pname: u32, params: Ptr);
+    glGetActiveUniformsiv(program: u32, uniformCount: i32, uniformIndices: Ptr, pname: u32, params: Ptr);
+    glGetActiveUniformBlockName(program: u32, uniformBlockIndex: u32, bufSize: i32, length: Ptr, uniformBlockName: Ptr);
+    glGetProgramInterfaceiv(program: u32, programInterface: u32, pname: u32, params: Ptr);
+    glGetProgramResourceName(program: u32, programInterface: u32, index: u32, bufSize: i32, length: Ptr, name: Ptr);
     glFenceSync(condition: u32, flags: u32) -> Ptr = core::ptr::null_mut();
     glClientWaitSync(sync: Ptr, flags: u32, timeout: u64) -> u32 = 0;
     glDeleteSync(sync: Ptr);
     glGetBufferSubData(target: u32, offset: isize, size: isize, data: Ptr);
     glGetUniformBlockIndex(program: u32, uniformBlockName: Ptr) -> u32 = 0;
-    glUniformBlockBinding(program: u32, uniformBlockIndex: u32, uniformBlockBinding: u32);
     glBindBufferBase(target: u32, index: u32, buffer: u32);
     glBindBufferRange(target: u32, index: u32, buffer: u32, offset: isize, size: isize);
     glGenBuffers(n: i32, buffers: Ptr);

@@ -5,7 +5,7 @@ use crate::config::{Class, Output, Projection, Strategy, Word};
 use crate::draw::{Again, Amplified, FixedState, Programs, replay};
 use crate::gl::Gl;
 use crate::gl::api::Indices;
-use crate::plan::{Kind, Method, Plan, Ramp, plan};
+use crate::plan::{Kind, Method, Plan, Ramp, Shear, plan};
 use crate::state::{Command, Run, Touch};
 
 /// A draw from arrays that may be instanced. Counts, types and modes are GL's.
@@ -212,6 +212,7 @@ impl Layer {
         self.watch_depths(gl, kind, &classed);
         self.keep_together(gl);
         let plan = plan(kind, &self.state, &self.rig, &self.means, &classed);
+        let plan = self.plan_shaders(gl, kind, &classed, plan);
         let plan = self.uncopied(gl, self.uncounted(plan));
         self.keep_alike(gl, kind, &plan);
         self.explain_this(&facts, &classed);
@@ -249,7 +250,34 @@ impl Layer {
     }
 
     pub(super) fn replay(&mut self, gl: &Gl, plan: &Plan, again: Again, call: &mut dyn FnMut(u32)) {
-        self.prove(gl, plan.shear, again, call);
+        if !plan.twin {
+            return self.replay_by(gl, plan.shear, again, call);
+        }
+        let mut twins = std::mem::take(&mut self.twins);
+        let (program, rig, tiles) = (self.state.program, self.rig, self.atlas.tiles);
+        let shifts = (plan.shear, plan.flat);
+        match twins.enter(gl, program) {
+            Some(twin) => {
+                self.replay_by(gl, None, again, &mut |view| {
+                    twin.place(gl, shifts, rig.place(view), tiles.stride);
+                    call(view);
+                });
+                gl.use_program(program);
+            }
+            None => self.replay_by(gl, None, again, call),
+        }
+        self.twins = twins;
+    }
+
+    /// With this shift of the projection.
+    fn replay_by(
+        &mut self,
+        gl: &Gl,
+        shear: Option<Shear>,
+        again: Again,
+        call: &mut dyn FnMut(u32),
+    ) {
+        self.prove(gl, shear, again, call);
         // Of what queries count, only the own view is counted.
         let bound = self.copies.bound(gl);
         let mut queries = std::mem::take(&mut self.queries);
@@ -260,7 +288,7 @@ impl Layer {
             &mut self.atlas,
             &self.state,
             &self.rig,
-            plan.shear,
+            shear,
             again,
             true,
             &mut |view| {

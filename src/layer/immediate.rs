@@ -134,6 +134,7 @@ impl Layer {
             || !triangles
             || !tiles.grid.is_full()
             || state.program != 0
+            || state.pipeline != 0
         {
             return all;
         }

@@ -17,6 +17,7 @@ mod framebuffer;
 mod frames;
 mod immediate;
 mod lists;
+mod programs;
 mod prove;
 mod queries;
 mod sampling;
@@ -72,6 +73,7 @@ pub struct Layer {
     means: Means,
     interleaver: Interleaver,
     programs: Programs,
+    twins: programs::Twins,
     fixed: Option<FixedState>,
     driver: Driver,
     lists: SharedLists,
@@ -139,6 +141,8 @@ impl Layer {
         state.clip_control = gl.version() >= (4, 5) || gl.has_extension("GL_ARB_clip_control");
         state.offset_clamp =
             gl.version() >= (4, 6) || gl.has_extension("GL_ARB_polygon_offset_clamp");
+        state.pipelines =
+            gl.version() >= (4, 1) || gl.has_extension("GL_ARB_separate_shader_objects");
         state.keep_errors(gl);
         let mut names = Names::default();
         let mut report = Report::default();
@@ -206,6 +210,7 @@ impl Layer {
             means,
             interleaver,
             programs,
+            twins: programs::Twins::default(),
             fixed: None,
             driver,
             lists,
@@ -433,6 +438,7 @@ impl Layer {
         lists.left.buffers.extend(buffer);
         lists.left.fences.extend(fence);
         let programs = self.interleaver.programs().chain(self.programs.names());
+        let programs = programs.chain(self.twins.names());
         lists.left.programs.extend(programs);
         if let Some(accumulation) = &self.accumulated.buffer {
             lists.left.framebuffers.push(accumulation.framebuffer());

@@ -72,7 +72,7 @@ impl Layer {
             Kind::Clear { .. } => return self.hold_rects(gl),
             _ => {}
         }
-        if self.state.program != 0 {
+        if self.state.program != 0 || self.state.pipeline != 0 {
             return self.hold_everything(gl, "has shaders of its own");
         }
         if gl.is_enabled(c::POLYGON_STIPPLE) {

@@ -1,6 +1,7 @@
 //! A draw plus state in, a [`Plan`] value out: which views, which parallax, which strategy. Calls no GL.
 #![forbid(unsafe_code)]
 
+pub mod camera;
 pub mod class;
 pub mod comfort;
 pub mod depths;
@@ -92,6 +93,10 @@ pub struct Plan {
     pub class: Class,
     /// The shift of the views; none for what is the same in all of them.
     pub shear: Option<Shear>,
+    /// It goes by a twin of the program's own shaders.
+    pub twin: bool,
+    /// Under a twin, the shift of what has no depth.
+    pub flat: Option<Shear>,
     /// Why not by the strategy asked for.
     pub reason: Option<Reason>,
 }
@@ -117,6 +122,8 @@ pub fn plan(kind: Kind, state: &State, rig: &Rig, means: &Means, classed: &Class
             method: Method::Once,
             class,
             shear: None,
+            twin: false,
+            flat: None,
             reason: None,
         };
     }
@@ -142,6 +149,8 @@ pub fn plan(kind: Kind, state: &State, rig: &Rig, means: &Means, classed: &Class
         method,
         class,
         shear,
+        twin: false,
+        flat: None,
         reason,
     }
 }
@@ -179,7 +188,7 @@ fn method(kind: Kind, state: &State, means: &Means) -> Result<Method, Option<Rea
         }
         _ => {}
     }
-    if state.program != 0 {
+    if state.program != 0 || state.pipeline != 0 {
         return Err(Some(Reason::Program));
     }
     match wish {

@@ -4,6 +4,7 @@
 //! A list of the program stays whole in the driver as well: under its own name it calls its runs in order. Whoever calls it by
 //! itself (another list, a context without a layer, selection) gets all of it.
 
+use super::Shaders;
 use super::{Effect, Immediate, Touch};
 use crate::gl::{Fence, consts as c};
 use std::collections::HashMap;
@@ -131,6 +132,8 @@ pub struct Left {
 pub struct Lists {
     /// Names of ours without a context.
     pub left: Left,
+    /// Its programs.
+    pub shaders: Shaders,
     bodies: HashMap<u32, Body>,
     spare: Vec<u32>,
     next: u32,
@@ -144,6 +147,7 @@ impl Default for Lists {
     fn default() -> Self {
         Lists {
             left: Left::default(),
+            shaders: Shaders::default(),
             bodies: HashMap::new(),
             spare: Vec::new(),
             // From the top downwards, where no program numbers its lists.

@@ -6,11 +6,13 @@ mod effect;
 mod framebuffer;
 mod lists;
 mod look;
+mod shaders;
 
 pub use effect::{Effect, Immediate};
 pub use framebuffer::{BACK, FRONT, Framebuffers, Window};
 pub use lists::{Body, Command, Compiling, Left, Lists, Run, Segment, Start};
 pub use look::Look;
+pub use shaders::{Linked, Shaders, Text, uniform_change, uniform_changes};
 
 use crate::gl::{Gl, consts as c};
 
@@ -113,6 +115,10 @@ pub struct State {
     pub transform_feedback: bool,
     /// glUseProgram.
     pub program: u32,
+    /// glBindProgramPipeline, which counts where no program is in use.
+    pub pipeline: u32,
+    /// The context has such objects.
+    pub pipelines: bool,
     /// Errors of the program that were taken out of the driver's queue before calls of ours, oldest first.
     pub errors: std::collections::VecDeque<u32>,
     /// Whether the context has the fixed-function pipeline.
@@ -141,6 +147,8 @@ impl State {
             render_mode: c::RENDER,
             transform_feedback: false,
             program: 0,
+            pipeline: 0,
+            pipelines: false,
             errors: std::collections::VecDeque::new(),
             compatibility,
             clip_control: false,
@@ -180,6 +188,9 @@ impl State {
         }
         if touched.has(Touch::OBJECTS) {
             self.program = gl.get_integer(c::CURRENT_PROGRAM) as u32;
+            if self.pipelines {
+                self.pipeline = gl.get_integer(c::PROGRAM_PIPELINE_BINDING) as u32;
+            }
             self.framebuffers.reread(gl);
         }
         self.touched =

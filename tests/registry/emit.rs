@@ -268,10 +268,10 @@ pub fn entry(commands: &[Command]) -> String {
                 )
                 .unwrap();
             }
-            "matrix" | "cap" | "any" | "ask" | "texture" => {
+            "matrix" | "cap" | "any" | "ask" | "uniform" | "texture" => {
                 let note = match class {
                     "matrix" => format!("matrix(Command::{arg})"),
-                    "any" | "ask" => format!("{class}()"),
+                    "any" | "ask" | "uniform" => format!("{class}()"),
                     "texture" => "texture(target)".into(),
                     _ => format!("cap({}, {})", c.params[0].name, name.starts_with("glEnable")),
                 };

@@ -8,6 +8,7 @@
 
 mod drawing;
 mod framebuffer;
+mod programs;
 mod queries;
 mod state;
 mod visuals;
@@ -15,6 +16,7 @@ mod window;
 
 pub(crate) use drawing::*;
 pub(crate) use framebuffer::*;
+pub(crate) use programs::*;
 pub(crate) use queries::*;
 pub(crate) use state::*;
 pub(crate) use visuals::*;

@@ -1,0 +1,290 @@
+//! A twin of one of the program's own GLSL programs, linked from rewritten shaders: what draws the views. The program's own stays as
+//! it is, and everything that the program asks about it is answered by it.
+
+use crate::gl::{Gl, consts as c};
+use crate::plan::{Shear, camera};
+use crate::rewrite::{Amplifier, Names, Options, Refusal, Stage, Target, Uniform, facts, rewrite};
+use crate::state::Text;
+use std::ffi::CString;
+
+/// What a program draws the views by.
+#[derive(Debug)]
+pub enum Drawn {
+    /// Its vertices are placed by the projection matrix of fixed function, which the layer moves.
+    ByMatrix,
+    /// A twin shifts its vertices.
+    ByTwin(Twin),
+}
+
+/// Why a program has no twin. Its draws are the same in all views.
+#[derive(Debug, thiserror::Error)]
+pub enum NoTwin {
+    /// The text.
+    #[error(transparent)]
+    Refused(#[from] Refusal),
+    /// There is no text: a binary, SPIR-V, or a program that was linked before the layer saw it.
+    #[error("the text of its shaders is not known")]
+    NoText,
+    /// Subroutines are chosen per context, and not followed.
+    #[error("it has subroutines")]
+    Subroutines,
+    /// Nothing moves vertices that could be shifted.
+    #[error("it has no vertex shader")]
+    NoVertex,
+    /// The driver says no.
+    #[error("the driver refused the rewritten shaders: {0}")]
+    Driver(String),
+}
+
+/// The rewritten program.
+#[derive(Debug)]
+pub struct Twin {
+    name: u32,
+    shift: i32,
+    across: i32,
+    up: i32,
+    /// Type, location in the program, location here; one for each element of arrays.
+    uniforms: Vec<(u32, i32, i32)>,
+    /// Index of each block in the program, here the index in the twin.
+    blocks: Vec<Option<u32>>,
+    /// Where the camera may be: locations of the program's matrices, and block and offset of those in blocks.
+    matrices: Vec<i32>,
+    in_blocks: Vec<(u32, u32)>,
+    /// The last one that was there.
+    camera: Option<[f32; 16]>,
+}
+
+fn kind(stage: Stage) -> u32 {
+    match stage {
+        Stage::Vertex => c::VERTEX_SHADER,
+        Stage::TessControl => c::TESS_CONTROL_SHADER,
+        Stage::TessEvaluation => c::TESS_EVALUATION_SHADER,
+        Stage::Geometry => c::GEOMETRY_SHADER,
+        Stage::Fragment => c::FRAGMENT_SHADER,
+        Stage::Compute => c::COMPUTE_SHADER,
+    }
+}
+
+/// How the draws of a program get their views. `texts` are those that it was linked from. Changes nothing of the program's state.
+pub fn drawn(gl: &Gl, program: u32, texts: &[Text]) -> Result<Drawn, NoTwin> {
+    if texts.is_empty() || texts.iter().any(|text| text.source.is_empty()) {
+        return Err(NoTwin::NoText);
+    }
+    let rank = |stage: Stage| match stage {
+        Stage::Vertex => 1,
+        Stage::TessEvaluation => 2,
+        Stage::Geometry => 3,
+        _ => 0,
+    };
+    let stages = texts.iter().map(|text| text.stage);
+    let last = stages
+        .max_by_key(|&stage| rank(stage))
+        .filter(|&stage| rank(stage) > 0);
+    let last = last.ok_or(NoTwin::NoVertex)?;
+    let options = Options {
+        amplifier: Amplifier::Replay,
+        target: Target::Whole,
+        views: 1,
+        es: false,
+    };
+    let mut projection = false;
+    let mut rewritten = Vec::with_capacity(texts.len());
+    let mut shift = None;
+    let mut place = None;
+    for text in texts {
+        let moves = text.stage == last;
+        if !moves && text.stage != Stage::Fragment {
+            let facts = facts(&text.source, false)?;
+            if facts.subroutines {
+                return Err(NoTwin::Subroutines);
+            }
+            projection |= facts.projection;
+            rewritten.push((kind(text.stage), text.source.as_slice().into()));
+            continue;
+        }
+        let new = rewrite(&text.source, text.stage, &options)?;
+        if new.facts.subroutines {
+            return Err(NoTwin::Subroutines);
+        }
+        let changed = matches!(new.text, std::borrow::Cow::Owned(_));
+        match text.stage {
+            Stage::Fragment if changed => place = Some(new.names),
+            Stage::Fragment => {}
+            _ => {
+                projection |= new.facts.projection;
+                if changed {
+                    shift = Some(new.names);
+                }
+            }
+        }
+        rewritten.push((kind(text.stage), new.text));
+    }
+    if projection {
+        return Ok(Drawn::ByMatrix);
+    }
+    let shift = shift.ok_or(NoTwin::NoVertex)?;
+    let mut shaders = Vec::with_capacity(rewritten.len());
+    for (kind, text) in &rewritten {
+        match gl.compile(*kind, text) {
+            Ok(shader) => shaders.push(shader),
+            Err(log) => {
+                shaders
+                    .into_iter()
+                    .for_each(|shader| gl.delete_shader(shader));
+                return Err(NoTwin::Driver(log));
+            }
+        }
+    }
+    let attributes = places(gl.active_attributes(program), |name| {
+        gl.attribute_location(program, name)
+    });
+    let outputs = outputs(gl, program);
+    let name = gl
+        .link_at(&shaders, &attributes, &outputs)
+        .map_err(NoTwin::Driver)?;
+    Ok(Drawn::ByTwin(Twin::of(
+        gl,
+        program,
+        name,
+        &shift,
+        place.as_ref(),
+    )))
+}
+
+fn places(
+    actives: Vec<crate::gl::Active>,
+    location: impl Fn(&std::ffi::CStr) -> i32,
+) -> Vec<(CString, u32)> {
+    let place = |active: crate::gl::Active| {
+        let at = u32::try_from(location(&active.name)).ok()?;
+        Some((active.name, at))
+    };
+    actives.into_iter().filter_map(place).collect()
+}
+
+/// The colours that a program's fragment shader writes under names of its own.
+fn outputs(gl: &Gl, program: u32) -> Vec<(CString, u32)> {
+    let names = gl.program_outputs(program).into_iter();
+    let place = |name: CString| {
+        let at = u32::try_from(gl.output_location(program, &name)).ok()?;
+        Some((name, at))
+    };
+    names.filter_map(place).collect()
+}
+
+impl Twin {
+    fn of(gl: &Gl, program: u32, name: u32, shift: &Names, place: Option<&Names>) -> Twin {
+        let ours = |names: &Names, uniform| {
+            let text = CString::new(names.uniform(uniform)).unwrap_or_default();
+            gl.uniform_location(name, &text)
+        };
+        let window = |uniform| place.map_or(-1, |names| ours(names, uniform));
+        let (mut uniforms, mut matrices) = (Vec::new(), Vec::new());
+        let mut in_blocks = Vec::new();
+        for (index, active) in (0..).zip(gl.active_uniforms(program)) {
+            let text = active.name.to_string_lossy();
+            let stem = text.strip_suffix("[0]").unwrap_or(&text);
+            for at in 0..active.size.max(1) {
+                let element = match active.size {
+                    ..=1 => text.clone().into_owned(),
+                    _ => format!("{stem}[{at}]"),
+                };
+                let element = CString::new(element).unwrap_or_default();
+                let [from, to] = [program, name].map(|of| gl.uniform_location(of, &element));
+                if from >= 0 && to >= 0 {
+                    uniforms.push((active.kind, from, to));
+                }
+                if at > 0 || active.kind != c::FLOAT_MAT4 {
+                    continue;
+                }
+                if from >= 0 {
+                    matrices.push(from);
+                } else {
+                    in_blocks.extend(gl.place_in_block(program, index));
+                }
+            }
+        }
+        let blocks = gl.block_bindings(program).len() as u32;
+        Twin {
+            name,
+            shift: ours(shift, Uniform::Shift),
+            across: window(Uniform::Across),
+            up: window(Uniform::Up),
+            uniforms,
+            blocks: (0..blocks)
+                .map(|at| gl.same_block(program, at, name))
+                .collect(),
+            matrices,
+            in_blocks,
+            camera: None,
+        }
+    }
+
+    /// The name of the twin.
+    pub fn name(&self) -> u32 {
+        self.name
+    }
+
+    /// The camera that the program has set, as a pure projection; none where none of its matrices has a perspective.
+    pub fn camera(&self) -> Option<&[f32; 16]> {
+        self.camera.as_ref()
+    }
+
+    /// Whether the camera may be in a buffer, of whose changes nothing is told.
+    pub fn has_blocks(&self) -> bool {
+        !self.in_blocks.is_empty()
+    }
+
+    /// Looks for the camera among the program's matrices.
+    pub fn find_camera(&mut self, gl: &Gl, program: u32) {
+        let uniforms = self.matrices.iter();
+        let mut all: Vec<_> = uniforms.map(|&at| gl.uniform_matrix(program, at)).collect();
+        // Buffers are looked at until a camera is found: the driver has to be waited for.
+        if self.camera.is_none() {
+            let blocks = self.in_blocks.iter();
+            all.extend(blocks.filter_map(|&at| gl.block_matrix(program, at)));
+        }
+        let mut found: Vec<_> = all
+            .into_iter()
+            .filter_map(|m| Some((!camera::is_projection(&m), camera::equivalent(&m)?)))
+            .collect();
+        // Projections alone first, else the first matrix that has one in it.
+        found.sort_by_key(|(mixed, _)| *mixed);
+        self.camera = found.first().map(|(_, p)| *p).or(self.camera);
+    }
+
+    /// Gives the twin, which is in use, the values that the program's uniforms have.
+    pub fn follow(&self, gl: &Gl, program: u32) {
+        for &(kind, from, to) in &self.uniforms {
+            gl.copy_uniform(kind, (program, from), to);
+        }
+        let bindings = gl.block_bindings(program);
+        for (binding, block) in bindings.into_iter().zip(&self.blocks) {
+            if let Some(block) = *block {
+                gl.uniform_block_binding(self.name, block, binding);
+            }
+        }
+    }
+
+    /// The view that is drawn next; the twin is in use. `shear` of the scene, `flat` of what has no depth, both at the view's `place`
+    /// (see [`crate::plan::Rig::place`]); `stride`: pixels from tile to tile.
+    pub fn place(
+        &self,
+        gl: &Gl,
+        (shear, flat): (Option<Shear>, Option<Shear>),
+        place: f64,
+        stride: u32,
+    ) {
+        let sep = |shear: &Shear| shear.separation(place);
+        let scene = shear.map_or((0.0, 0.0), |s| (sep(&s), sep(&s) * s.conv));
+        let flat = flat.map_or(0.0, |s| sep(&s));
+        gl.uniform_4fv(
+            self.shift,
+            &[[scene.0 as f32, scene.1 as f32, flat as f32, 0.0]],
+        );
+        if self.across >= 0 {
+            gl.uniform_4fv(self.across, &[[1.0, 0.0, stride as f32, 0.0]]);
+            gl.uniform_4fv(self.up, &[[0.0, 1.0, 0.0, 0.0]]);
+        }
+    }
+}

@@ -1,0 +1,195 @@
+//! Programs with shaders of their own: their draws go by a twin that shifts the vertices of each view.
+
+use super::Layer;
+use crate::config::Class;
+use crate::draw::{Drawn, NoTwin, Twin, drawn};
+use crate::gl::Gl;
+use crate::plan::{Classed, Kind, Method, Plan};
+use crate::state::{Shaders, uniform_change};
+use std::collections::HashMap;
+use std::sync::PoisonError;
+
+/// The programs that were drawn with, by name.
+#[derive(Debug, Default)]
+pub(super) struct Twins {
+    known: HashMap<u32, Known>,
+    /// The camera of the last program that had one, for those that have none.
+    camera: Option<[f32; 16]>,
+}
+
+/// How the draws of one program go.
+#[derive(Debug)]
+struct Known {
+    /// The link that it belongs to.
+    link: u64,
+    how: Result<Drawn, NoTwin>,
+    /// The changes of uniforms up to which its camera was looked for, and its values follow.
+    seen: u64,
+    followed: u64,
+}
+
+impl Twins {
+    /// The twin of a program, in use, with the values of its uniforms.
+    pub(super) fn enter(&mut self, gl: &Gl, program: u32) -> Option<&Twin> {
+        let known = self.known.get_mut(&program)?;
+        let Ok(Drawn::ByTwin(twin)) = &known.how else {
+            return None;
+        };
+        gl.use_program(twin.name());
+        let change = uniform_change();
+        if std::mem::replace(&mut known.followed, change) != change {
+            twin.follow(gl, program);
+        }
+        Some(twin)
+    }
+
+    /// The names of all twins.
+    pub(super) fn names(&self) -> impl Iterator<Item = u32> {
+        self.known.values().filter_map(|known| match &known.how {
+            Ok(Drawn::ByTwin(twin)) => Some(twin.name()),
+            _ => None,
+        })
+    }
+}
+
+impl Layer {
+    /// After glLinkProgram.
+    pub fn linked(&mut self, gl: &Gl, program: u32) {
+        self.shaders(|shaders| shaders.linked(gl, program));
+    }
+
+    /// A program got its executable in another way.
+    pub fn forget_program(&mut self, program: u32) {
+        self.shaders(|shaders| shaders.forget(program));
+    }
+
+    /// After glDeleteProgram: what is in use stays until it is not.
+    pub fn deleted_program(&mut self, gl: &Gl, program: u32) {
+        if gl.is_program(program) != 0 {
+            return;
+        }
+        self.shaders(|shaders| shaders.forget(program));
+        if let Some(Known {
+            how: Ok(Drawn::ByTwin(twin)),
+            ..
+        }) = self.twins.known.remove(&program)
+        {
+            gl.delete_program(twin.name());
+        }
+    }
+
+    fn shaders<R>(&self, ask: impl FnOnce(&mut Shaders) -> R) -> R {
+        let mut lists = self.lists.lock().unwrap_or_else(PoisonError::into_inner);
+        ask(&mut lists.shaders)
+    }
+
+    /// How a draw with the program's own shaders goes: `plan` is what fixed function would make of it.
+    pub(super) fn plan_shaders(
+        &mut self,
+        gl: &Gl,
+        kind: Kind,
+        classed: &Classed,
+        plan: Plan,
+    ) -> Plan {
+        let program = self.state.program;
+        let fragments = matches!(kind, Kind::Clear { .. } | Kind::Pixels | Kind::Accum);
+        if plan.method == Method::Once || program == 0 || fragments || self.config.views < 2 {
+            return plan;
+        }
+        self.know(gl, program);
+        let Some(camera) = self.camera_of(gl, program) else {
+            return plan;
+        };
+        let camera = camera.or(self.twins.camera);
+        let Some(camera) = camera else {
+            self.report.note(
+                "no camera was found in the matrices of some of the program's shaders: what they draw is the same in all views".into(),
+            );
+            return plan;
+        };
+        self.twins.camera = Some(camera);
+        self.rig.latch(&camera);
+        let flat = match classed.class {
+            Class::Flat => plan.shear,
+            _ => None,
+        };
+        Plan {
+            method: Method::Replay,
+            class: Class::Scene,
+            shear: self.rig.shear(&camera),
+            twin: true,
+            flat,
+            ..plan
+        }
+    }
+
+    /// The camera that a program with a twin has, where it has one; none for other programs.
+    #[allow(clippy::option_option, reason = "a twin, and a camera")]
+    fn camera_of(&mut self, gl: &Gl, program: u32) -> Option<Option<[f32; 16]>> {
+        let Some(Known {
+            how: Ok(Drawn::ByTwin(twin)),
+            seen,
+            ..
+        }) = self.twins.known.get_mut(&program)
+        else {
+            return None;
+        };
+        let change = uniform_change();
+        let searches = twin.camera().is_none();
+        if std::mem::replace(seen, change) != change || searches && twin.has_blocks() {
+            // A buffer that is mapped is not to be read.
+            if searches {
+                self.state.keep_errors(gl);
+            }
+            twin.find_camera(gl, program);
+        }
+        let camera = twin.camera().copied();
+        if searches {
+            self.drain_own_errors(gl);
+        }
+        Some(camera)
+    }
+
+    /// Learns how a program is drawn, once for each of its links.
+    fn know(&mut self, gl: &Gl, program: u32) {
+        let linked = self.shaders(|shaders| shaders.of(program));
+        let link = linked.as_ref().map_or(0, |(link, _)| *link);
+        if self
+            .twins
+            .known
+            .get(&program)
+            .is_some_and(|k| k.link == link)
+        {
+            return;
+        }
+        self.state.keep_errors(gl);
+        let how = match &linked {
+            Some((_, texts)) => drawn(gl, program, texts),
+            None => Err(NoTwin::NoText),
+        };
+        self.drain_own_errors(gl);
+        match &how {
+            Ok(Drawn::ByTwin(_)) => {
+                self.programs.compiled += 1;
+                self.report.shaders(self.programs.compiled);
+            }
+            Ok(Drawn::ByMatrix) => {}
+            Err(reason) => self.report.note(format!(
+                "what program {program} draws is the same in all views: {reason}"
+            )),
+        }
+        let new = Known {
+            link,
+            how,
+            seen: 0,
+            followed: 0,
+        };
+        if let Some(Known {
+            how: Ok(Drawn::ByTwin(old)),
+            ..
+        }) = self.twins.known.insert(program, new)
+        {
+            gl.delete_program(old.name());
+        }
+    }
+}

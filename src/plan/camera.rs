@@ -1,0 +1,139 @@
+//! The camera in a matrix that a program's own shaders multiply positions by.
+
+use glam::DVec4;
+
+/// A pure projection with the focal length and the distances of `m` (column-major), which may be the projection, that times the camera, or
+/// times the place of a model as well: what clip-space w is per unit of the matrix's own space does not matter, since w is the depth.
+/// None where `m` has no perspective, or no near distance.
+///
+/// A is what row 0 has at a right angle to row 3, per unit of row 3; near and far are w where z is −w and w, seen along the direction
+/// in which w grows. Infinite and reversed depths are the same with their ends swapped.
+pub fn equivalent(m: &[f32; 16]) -> Option<[f32; 16]> {
+    let row = |r: usize| {
+        let at = |column: usize| m.get(4 * column + r).copied().map_or(0.0, f64::from);
+        DVec4::new(at(0), at(1), at(2), at(3))
+    };
+    let (row0, row2, row3) = (row(0), row(2), row(3));
+    let direction = row3.truncate();
+    let scale = direction.length();
+    // A w that is a constant but for rounding has no perspective.
+    let size = row0.truncate().length().max(row(1).truncate().length());
+    if !m.iter().all(|v| v.is_finite()) || scale <= 1e-6 * size || size == 0.0 {
+        return None;
+    }
+    let a = row0.truncate().reject_from(direction).length() / scale;
+    let along = row2.truncate().dot(direction / scale);
+    // t along the direction: w = scale·t + row3.w, z = along·t + row2.w.
+    let w_where = |sign: f64| {
+        let slope = along - sign * scale;
+        let t = (sign * row3.w - row2.w) / slope;
+        let w = scale * t + row3.w;
+        // Beyond what single precision tells from infinity.
+        if slope.abs() <= 1e-6 * scale || w.abs() > 1e9 {
+            f64::INFINITY
+        } else {
+            w
+        }
+    };
+    let ends = [w_where(-1.0), w_where(1.0)];
+    let positive = || ends.into_iter().filter(|w| *w > 0.0);
+    let near = positive().fold(f64::INFINITY, f64::min);
+    let far = positive().fold(0.0, f64::max);
+    if !near.is_finite() || a <= 0.0 || !a.is_finite() {
+        return None;
+    }
+    let (c, d) = if far.is_finite() && far > near {
+        (
+            -(far + near) / (far - near),
+            -2.0 * far * near / (far - near),
+        )
+    } else {
+        (-1.0, -2.0 * near)
+    };
+    let mut p = [0.0f32; 16];
+    for (at, value) in [(0, a), (5, a), (10, c), (11, -1.0), (14, d)] {
+        if let Some(p) = p.get_mut(at) {
+            *p = value as f32;
+        }
+    }
+    Some(p)
+}
+
+/// How much a matrix looks like a projection alone: nothing but that has −1 or 1 for the whole of row 3.
+pub fn is_projection(m: &[f32; 16]) -> bool {
+    m[3] == 0.0 && m[7] == 0.0 && m[15] == 0.0 && m[11].abs() == 1.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::parallax::planes;
+    use super::*;
+    use glam::{Mat4, Quat, Vec3};
+
+    /// A projection with the focal length `a` both ways.
+    fn frustum(a: f32, c: f32, d: f32) -> Mat4 {
+        Mat4::from_cols_array(&[
+            a, 0.0, 0.0, 0.0, 0.0, a, 0.0, 0.0, 0.0, 0.0, c, -1.0, 0.0, 0.0, d, 0.0,
+        ])
+    }
+
+    fn finite(a: f32, near: f32, far: f32) -> Mat4 {
+        let (c, d) = (far + near, 2.0 * far * near);
+        frustum(a, -c / (far - near), -d / (far - near))
+    }
+
+    #[track_caller]
+    fn check(m: Mat4, a: f32, near: f32, far: f32) {
+        let p = equivalent(&m.to_cols_array()).expect("a perspective");
+        let [n, f] = planes(&p).map(|v| v as f32);
+        let close = |x: f32, y: f32| (x - y).abs() <= 2e-3 * y.abs();
+        assert!(
+            close(p[0], a) && close(n, near) && close(f, far),
+            "{p:?} {n} {f}"
+        );
+    }
+
+    #[test]
+    fn a_model_and_a_camera_change_nothing() {
+        let p = finite(1.4, 0.25, 80.0);
+        check(p, 1.4, 0.25, 80.0);
+        let turned = |scale: f32, angle: f32, place: Vec3| {
+            Mat4::from_scale_rotation_translation(
+                Vec3::splat(scale),
+                Quat::from_axis_angle(Vec3::new(0.6, 0.8, 0.0), angle),
+                place,
+            )
+        };
+        let camera = turned(1.0, 0.7, Vec3::new(3.0, -2.0, 9.0));
+        check(p * camera, 1.4, 0.25, 80.0);
+        let place = turned(7.0, 2.0, Vec3::new(4.0, 5.0, 6.0));
+        check(p * camera * place, 1.4, 0.25, 80.0);
+        // All rows times the same: the same picture, and w is as many times the depth.
+        check(p * 3.0, 1.4, 0.75, 240.0);
+    }
+
+    #[test]
+    fn infinite_and_reversed_depths_have_a_near_distance() {
+        // z = −w at 0.5; the far end is at most 1000 near distances away, as `planes` has it.
+        check(frustum(1.0, -1.0, -1.0), 1.0, 0.5, 500.0);
+        // Reversed, 0 to 1: z = w at 0.5, and z = 0 infinitely far.
+        check(frustum(1.0, 0.0, 0.5), 1.0, 0.5, 500.0);
+        // Reversed, 1 to −1.
+        let p = finite(1.0, 0.25, 80.0);
+        let upside_down = Mat4::from_scale(Vec3::new(1.0, 1.0, -1.0));
+        check(upside_down * p, 1.0, 0.25, 80.0);
+    }
+
+    #[test]
+    fn what_has_no_perspective_is_none() {
+        let flat = Mat4::from_scale_rotation_translation(
+            Vec3::new(0.01, 0.02, -1.0),
+            Quat::IDENTITY,
+            Vec3::new(-1.0, 1.0, 0.0),
+        );
+        assert_eq!(equivalent(&flat.to_cols_array()), None);
+        assert_eq!(equivalent(&Mat4::IDENTITY.to_cols_array()), None);
+        assert_eq!(equivalent(&[0.0; 16]), None);
+        assert_eq!(equivalent(&[f32::NAN; 16]), None);
+    }
+}
