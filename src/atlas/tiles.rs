@@ -147,7 +147,8 @@ impl Tiles {
 
     /// Whether a layer has a view that is drawn.
     pub fn draws_row(&self, row: u32) -> bool {
-        self.order().any(|view| self.place(view).0 == row)
+        let slots = row * self.columns..((row + 1) * self.columns).min(self.views);
+        slots.into_iter().any(|slot| self.draws(self.slot(slot)))
     }
 
     /// Whether a view is drawn.

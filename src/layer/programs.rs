@@ -136,15 +136,17 @@ impl Layer {
         };
         let change = uniform_change();
         let searches = twin.camera().is_none();
-        if std::mem::replace(seen, change) != change || searches && twin.has_blocks() {
-            // A buffer that is mapped is not to be read.
-            if searches {
-                self.state.keep_errors(gl);
-            }
+        let changed = std::mem::replace(seen, change) != change;
+        // Of what is written to buffers nothing is told. One that is mapped is not to be read, and raises an error.
+        let reads = searches && twin.has_blocks();
+        if reads {
+            self.state.keep_errors(gl);
+        }
+        if changed || reads {
             twin.find_camera(gl, program);
         }
         let camera = twin.camera().copied();
-        if searches {
+        if reads {
             self.drain_own_errors(gl);
         }
         Some(camera)
