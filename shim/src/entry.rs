@@ -600,8 +600,6 @@ pub(crate) static ENTRY: [AtomicPtr<()>; 1357] = [
     AtomicPtr::new(first_glUseProgramStages as *mut ()),
     AtomicPtr::new(first_glClampColor as *mut ()),
     AtomicPtr::new(first_glClampColorARB as *mut ()),
-    AtomicPtr::new(first_glUseProgram as *mut ()),
-    AtomicPtr::new(first_glUseProgramObjectARB as *mut ()),
     AtomicPtr::new(first_glBindProgramPipeline as *mut ()),
     AtomicPtr::new(first_glPushAttrib as *mut ()),
     AtomicPtr::new(first_glPopAttrib as *mut ()),
@@ -986,7 +984,10 @@ pub(crate) static ENTRY: [AtomicPtr<()>; 1357] = [
     AtomicPtr::new(first_glLinkProgramARB as *mut ()),
     AtomicPtr::new(first_glProgramBinary as *mut ()),
     AtomicPtr::new(first_glProgramBinaryOES as *mut ()),
+    AtomicPtr::new(first_glUseProgram as *mut ()),
+    AtomicPtr::new(first_glUseProgramObjectARB as *mut ()),
     AtomicPtr::new(first_glDeleteProgram as *mut ()),
+    AtomicPtr::new(first_glGetProgramiv as *mut ()),
     AtomicPtr::new(first_glClear as *mut ()),
     AtomicPtr::new(first_glClearBufferfi as *mut ()),
     AtomicPtr::new(first_glClearBufferfv as *mut ()),
@@ -1319,7 +1320,6 @@ pub(crate) static ENTRY: [AtomicPtr<()>; 1357] = [
     AtomicPtr::new(first_OSMesaCreateContextAttribs as *mut ()),
     AtomicPtr::new(first_OSMesaDestroyContext as *mut ()),
     AtomicPtr::new(first_OSMesaGetProcAddress as *mut ()),
-    AtomicPtr::new(core::ptr::null_mut()),
     AtomicPtr::new(core::ptr::null_mut()),
     AtomicPtr::new(core::ptr::null_mut()),
     AtomicPtr::new(core::ptr::null_mut()),
@@ -1961,8 +1961,6 @@ pub(crate) static HOOK: [Option<crate::Address>; 1357] = [
     Some(crate::Address(hook_glUseProgramStages as *const ())),
     Some(crate::Address(hook_glClampColor as *const ())),
     Some(crate::Address(hook_glClampColorARB as *const ())),
-    Some(crate::Address(hook_glUseProgram as *const ())),
-    Some(crate::Address(hook_glUseProgramObjectARB as *const ())),
     Some(crate::Address(hook_glBindProgramPipeline as *const ())),
     Some(crate::Address(hook_glPushAttrib as *const ())),
     Some(crate::Address(hook_glPopAttrib as *const ())),
@@ -2347,7 +2345,10 @@ pub(crate) static HOOK: [Option<crate::Address>; 1357] = [
     Some(crate::Address(hook_glLinkProgramARB as *const ())),
     Some(crate::Address(hook_glProgramBinary as *const ())),
     Some(crate::Address(hook_glProgramBinaryOES as *const ())),
+    Some(crate::Address(hook_glUseProgram as *const ())),
+    Some(crate::Address(hook_glUseProgramObjectARB as *const ())),
     Some(crate::Address(hook_glDeleteProgram as *const ())),
+    Some(crate::Address(hook_glGetProgramiv as *const ())),
     Some(crate::Address(hook_glClear as *const ())),
     Some(crate::Address(hook_glClearBufferfi as *const ())),
     Some(crate::Address(hook_glClearBufferfv as *const ())),
@@ -2725,125 +2726,124 @@ pub(crate) static HOOK: [Option<crate::Address>; 1357] = [
     None,
     None,
     None,
-    None,
 ];
 
 /// Exported names in order, their slots and addresses: what dlsym and the GetProcAddress family hand out.
-pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1306] = [
-    (b"OSMesaCreateContext", 1306, crate::Address(OSMesaCreateContext as *const ())),
-    (b"OSMesaCreateContextAttribs", 1308, crate::Address(OSMesaCreateContextAttribs as *const ())),
-    (b"OSMesaCreateContextExt", 1307, crate::Address(OSMesaCreateContextExt as *const ())),
-    (b"OSMesaDestroyContext", 1309, crate::Address(OSMesaDestroyContext as *const ())),
-    (b"OSMesaGetProcAddress", 1310, crate::Address(OSMesaGetProcAddress as *const ())),
-    (b"OSMesaMakeCurrent", 1305, crate::Address(OSMesaMakeCurrent as *const ())),
-    (b"eglCreateContext", 1290, crate::Address(eglCreateContext as *const ())),
-    (b"eglCreatePlatformWindowSurface", 1297, crate::Address(eglCreatePlatformWindowSurface as *const ())),
-    (b"eglCreatePlatformWindowSurfaceEXT", 1298, crate::Address(eglCreatePlatformWindowSurfaceEXT as *const ())),
-    (b"eglCreateWindowSurface", 1296, crate::Address(eglCreateWindowSurface as *const ())),
-    (b"eglDestroyContext", 1291, crate::Address(eglDestroyContext as *const ())),
-    (b"eglDestroySurface", 1299, crate::Address(eglDestroySurface as *const ())),
-    (b"eglGetDisplay", 1293, crate::Address(eglGetDisplay as *const ())),
-    (b"eglGetPlatformDisplay", 1294, crate::Address(eglGetPlatformDisplay as *const ())),
-    (b"eglGetPlatformDisplayEXT", 1295, crate::Address(eglGetPlatformDisplayEXT as *const ())),
-    (b"eglGetProcAddress", 1300, crate::Address(eglGetProcAddress as *const ())),
-    (b"eglMakeCurrent", 1289, crate::Address(eglMakeCurrent as *const ())),
-    (b"eglReleaseThread", 1292, crate::Address(eglReleaseThread as *const ())),
-    (b"eglSwapBuffers", 1286, crate::Address(eglSwapBuffers as *const ())),
-    (b"eglSwapBuffersWithDamageEXT", 1288, crate::Address(eglSwapBuffersWithDamageEXT as *const ())),
-    (b"eglSwapBuffersWithDamageKHR", 1287, crate::Address(eglSwapBuffersWithDamageKHR as *const ())),
-    (b"glAccum", 1045, crate::Address(glAccum as *const ())),
+pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1307] = [
+    (b"OSMesaCreateContext", 1307, crate::Address(OSMesaCreateContext as *const ())),
+    (b"OSMesaCreateContextAttribs", 1309, crate::Address(OSMesaCreateContextAttribs as *const ())),
+    (b"OSMesaCreateContextExt", 1308, crate::Address(OSMesaCreateContextExt as *const ())),
+    (b"OSMesaDestroyContext", 1310, crate::Address(OSMesaDestroyContext as *const ())),
+    (b"OSMesaGetProcAddress", 1311, crate::Address(OSMesaGetProcAddress as *const ())),
+    (b"OSMesaMakeCurrent", 1306, crate::Address(OSMesaMakeCurrent as *const ())),
+    (b"eglCreateContext", 1291, crate::Address(eglCreateContext as *const ())),
+    (b"eglCreatePlatformWindowSurface", 1298, crate::Address(eglCreatePlatformWindowSurface as *const ())),
+    (b"eglCreatePlatformWindowSurfaceEXT", 1299, crate::Address(eglCreatePlatformWindowSurfaceEXT as *const ())),
+    (b"eglCreateWindowSurface", 1297, crate::Address(eglCreateWindowSurface as *const ())),
+    (b"eglDestroyContext", 1292, crate::Address(eglDestroyContext as *const ())),
+    (b"eglDestroySurface", 1300, crate::Address(eglDestroySurface as *const ())),
+    (b"eglGetDisplay", 1294, crate::Address(eglGetDisplay as *const ())),
+    (b"eglGetPlatformDisplay", 1295, crate::Address(eglGetPlatformDisplay as *const ())),
+    (b"eglGetPlatformDisplayEXT", 1296, crate::Address(eglGetPlatformDisplayEXT as *const ())),
+    (b"eglGetProcAddress", 1301, crate::Address(eglGetProcAddress as *const ())),
+    (b"eglMakeCurrent", 1290, crate::Address(eglMakeCurrent as *const ())),
+    (b"eglReleaseThread", 1293, crate::Address(eglReleaseThread as *const ())),
+    (b"eglSwapBuffers", 1287, crate::Address(eglSwapBuffers as *const ())),
+    (b"eglSwapBuffersWithDamageEXT", 1289, crate::Address(eglSwapBuffersWithDamageEXT as *const ())),
+    (b"eglSwapBuffersWithDamageKHR", 1288, crate::Address(eglSwapBuffersWithDamageKHR as *const ())),
+    (b"glAccum", 1046, crate::Address(glAccum as *const ())),
     (b"glActiveTexture", 537, crate::Address(glActiveTexture as *const ())),
     (b"glActiveTextureARB", 538, crate::Address(glActiveTextureARB as *const ())),
-    (b"glAlphaFunc", 676, crate::Address(glAlphaFunc as *const ())),
+    (b"glAlphaFunc", 674, crate::Address(glAlphaFunc as *const ())),
     (b"glArrayElement", 260, crate::Address(glArrayElement as *const ())),
     (b"glArrayElementEXT", 261, crate::Address(glArrayElementEXT as *const ())),
     (b"glBegin", 454, crate::Address(glBegin as *const ())),
-    (b"glBeginConditionalRender", 1148, crate::Address(glBeginConditionalRender as *const ())),
-    (b"glBeginConditionalRenderNV", 1149, crate::Address(glBeginConditionalRenderNV as *const ())),
-    (b"glBeginQuery", 1153, crate::Address(glBeginQuery as *const ())),
-    (b"glBeginQueryARB", 1154, crate::Address(glBeginQueryARB as *const ())),
-    (b"glBeginTransformFeedback", 670, crate::Address(glBeginTransformFeedback as *const ())),
-    (b"glBeginTransformFeedbackEXT", 671, crate::Address(glBeginTransformFeedbackEXT as *const ())),
-    (b"glBeginTransformFeedbackNV", 672, crate::Address(glBeginTransformFeedbackNV as *const ())),
-    (b"glBindBuffer", 1235, crate::Address(glBindBuffer as *const ())),
-    (b"glBindBufferARB", 1236, crate::Address(glBindBufferARB as *const ())),
-    (b"glBindFramebuffer", 1062, crate::Address(glBindFramebuffer as *const ())),
-    (b"glBindFramebufferEXT", 1063, crate::Address(glBindFramebufferEXT as *const ())),
+    (b"glBeginConditionalRender", 1149, crate::Address(glBeginConditionalRender as *const ())),
+    (b"glBeginConditionalRenderNV", 1150, crate::Address(glBeginConditionalRenderNV as *const ())),
+    (b"glBeginQuery", 1154, crate::Address(glBeginQuery as *const ())),
+    (b"glBeginQueryARB", 1155, crate::Address(glBeginQueryARB as *const ())),
+    (b"glBeginTransformFeedback", 668, crate::Address(glBeginTransformFeedback as *const ())),
+    (b"glBeginTransformFeedbackEXT", 669, crate::Address(glBeginTransformFeedbackEXT as *const ())),
+    (b"glBeginTransformFeedbackNV", 670, crate::Address(glBeginTransformFeedbackNV as *const ())),
+    (b"glBindBuffer", 1236, crate::Address(glBindBuffer as *const ())),
+    (b"glBindBufferARB", 1237, crate::Address(glBindBufferARB as *const ())),
+    (b"glBindFramebuffer", 1063, crate::Address(glBindFramebuffer as *const ())),
+    (b"glBindFramebufferEXT", 1064, crate::Address(glBindFramebufferEXT as *const ())),
     (b"glBindMultiTextureEXT", 541, crate::Address(glBindMultiTextureEXT as *const ())),
     (b"glBindProgramARB", 587, crate::Address(glBindProgramARB as *const ())),
     (b"glBindProgramNV", 588, crate::Address(glBindProgramNV as *const ())),
-    (b"glBindProgramPipeline", 594, crate::Address(glBindProgramPipeline as *const ())),
-    (b"glBindRenderbuffer", 1227, crate::Address(glBindRenderbuffer as *const ())),
-    (b"glBindTexture", 1056, crate::Address(glBindTexture as *const ())),
-    (b"glBindTextureEXT", 1057, crate::Address(glBindTextureEXT as *const ())),
+    (b"glBindProgramPipeline", 592, crate::Address(glBindProgramPipeline as *const ())),
+    (b"glBindRenderbuffer", 1228, crate::Address(glBindRenderbuffer as *const ())),
+    (b"glBindTexture", 1057, crate::Address(glBindTexture as *const ())),
+    (b"glBindTextureEXT", 1058, crate::Address(glBindTextureEXT as *const ())),
     (b"glBindTextureUnit", 540, crate::Address(glBindTextureUnit as *const ())),
     (b"glBindTextures", 539, crate::Address(glBindTextures as *const ())),
-    (b"glBitmap", 1046, crate::Address(glBitmap as *const ())),
-    (b"glBlendColor", 705, crate::Address(glBlendColor as *const ())),
-    (b"glBlendColorEXT", 706, crate::Address(glBlendColorEXT as *const ())),
-    (b"glBlendEquation", 691, crate::Address(glBlendEquation as *const ())),
-    (b"glBlendEquationEXT", 692, crate::Address(glBlendEquationEXT as *const ())),
-    (b"glBlendEquationIndexedAMD", 701, crate::Address(glBlendEquationIndexedAMD as *const ())),
-    (b"glBlendEquationSeparate", 693, crate::Address(glBlendEquationSeparate as *const ())),
-    (b"glBlendEquationSeparateEXT", 694, crate::Address(glBlendEquationSeparateEXT as *const ())),
-    (b"glBlendEquationSeparateIndexedAMD", 696, crate::Address(glBlendEquationSeparateIndexedAMD as *const ())),
-    (b"glBlendEquationSeparatei", 695, crate::Address(glBlendEquationSeparatei as *const ())),
-    (b"glBlendEquationSeparateiARB", 697, crate::Address(glBlendEquationSeparateiARB as *const ())),
-    (b"glBlendEquationSeparateiEXT", 698, crate::Address(glBlendEquationSeparateiEXT as *const ())),
-    (b"glBlendEquationSeparateiOES", 699, crate::Address(glBlendEquationSeparateiOES as *const ())),
-    (b"glBlendEquationi", 700, crate::Address(glBlendEquationi as *const ())),
-    (b"glBlendEquationiARB", 702, crate::Address(glBlendEquationiARB as *const ())),
-    (b"glBlendEquationiEXT", 703, crate::Address(glBlendEquationiEXT as *const ())),
-    (b"glBlendEquationiOES", 704, crate::Address(glBlendEquationiOES as *const ())),
-    (b"glBlendFunc", 677, crate::Address(glBlendFunc as *const ())),
-    (b"glBlendFuncIndexedAMD", 687, crate::Address(glBlendFuncIndexedAMD as *const ())),
-    (b"glBlendFuncSeparate", 678, crate::Address(glBlendFuncSeparate as *const ())),
-    (b"glBlendFuncSeparateEXT", 679, crate::Address(glBlendFuncSeparateEXT as *const ())),
-    (b"glBlendFuncSeparateINGR", 680, crate::Address(glBlendFuncSeparateINGR as *const ())),
-    (b"glBlendFuncSeparateIndexedAMD", 682, crate::Address(glBlendFuncSeparateIndexedAMD as *const ())),
-    (b"glBlendFuncSeparatei", 681, crate::Address(glBlendFuncSeparatei as *const ())),
-    (b"glBlendFuncSeparateiARB", 683, crate::Address(glBlendFuncSeparateiARB as *const ())),
-    (b"glBlendFuncSeparateiEXT", 684, crate::Address(glBlendFuncSeparateiEXT as *const ())),
-    (b"glBlendFuncSeparateiOES", 685, crate::Address(glBlendFuncSeparateiOES as *const ())),
-    (b"glBlendFunci", 686, crate::Address(glBlendFunci as *const ())),
-    (b"glBlendFunciARB", 688, crate::Address(glBlendFunciARB as *const ())),
-    (b"glBlendFunciEXT", 689, crate::Address(glBlendFunciEXT as *const ())),
-    (b"glBlendFunciOES", 690, crate::Address(glBlendFunciOES as *const ())),
-    (b"glBlitFramebuffer", 1078, crate::Address(glBlitFramebuffer as *const ())),
-    (b"glBlitFramebufferEXT", 1079, crate::Address(glBlitFramebufferEXT as *const ())),
-    (b"glBlitFramebufferNV", 1080, crate::Address(glBlitFramebufferNV as *const ())),
-    (b"glBlitNamedFramebuffer", 1081, crate::Address(glBlitNamedFramebuffer as *const ())),
-    (b"glBufferData", 1237, crate::Address(glBufferData as *const ())),
-    (b"glBufferDataARB", 1238, crate::Address(glBufferDataARB as *const ())),
-    (b"glBufferSubData", 1239, crate::Address(glBufferSubData as *const ())),
-    (b"glBufferSubDataARB", 1240, crate::Address(glBufferSubDataARB as *const ())),
-    (b"glCallList", 1051, crate::Address(glCallList as *const ())),
-    (b"glCallLists", 1052, crate::Address(glCallLists as *const ())),
-    (b"glCheckFramebufferStatus", 1110, crate::Address(glCheckFramebufferStatus as *const ())),
-    (b"glCheckFramebufferStatusEXT", 1111, crate::Address(glCheckFramebufferStatusEXT as *const ())),
+    (b"glBitmap", 1047, crate::Address(glBitmap as *const ())),
+    (b"glBlendColor", 703, crate::Address(glBlendColor as *const ())),
+    (b"glBlendColorEXT", 704, crate::Address(glBlendColorEXT as *const ())),
+    (b"glBlendEquation", 689, crate::Address(glBlendEquation as *const ())),
+    (b"glBlendEquationEXT", 690, crate::Address(glBlendEquationEXT as *const ())),
+    (b"glBlendEquationIndexedAMD", 699, crate::Address(glBlendEquationIndexedAMD as *const ())),
+    (b"glBlendEquationSeparate", 691, crate::Address(glBlendEquationSeparate as *const ())),
+    (b"glBlendEquationSeparateEXT", 692, crate::Address(glBlendEquationSeparateEXT as *const ())),
+    (b"glBlendEquationSeparateIndexedAMD", 694, crate::Address(glBlendEquationSeparateIndexedAMD as *const ())),
+    (b"glBlendEquationSeparatei", 693, crate::Address(glBlendEquationSeparatei as *const ())),
+    (b"glBlendEquationSeparateiARB", 695, crate::Address(glBlendEquationSeparateiARB as *const ())),
+    (b"glBlendEquationSeparateiEXT", 696, crate::Address(glBlendEquationSeparateiEXT as *const ())),
+    (b"glBlendEquationSeparateiOES", 697, crate::Address(glBlendEquationSeparateiOES as *const ())),
+    (b"glBlendEquationi", 698, crate::Address(glBlendEquationi as *const ())),
+    (b"glBlendEquationiARB", 700, crate::Address(glBlendEquationiARB as *const ())),
+    (b"glBlendEquationiEXT", 701, crate::Address(glBlendEquationiEXT as *const ())),
+    (b"glBlendEquationiOES", 702, crate::Address(glBlendEquationiOES as *const ())),
+    (b"glBlendFunc", 675, crate::Address(glBlendFunc as *const ())),
+    (b"glBlendFuncIndexedAMD", 685, crate::Address(glBlendFuncIndexedAMD as *const ())),
+    (b"glBlendFuncSeparate", 676, crate::Address(glBlendFuncSeparate as *const ())),
+    (b"glBlendFuncSeparateEXT", 677, crate::Address(glBlendFuncSeparateEXT as *const ())),
+    (b"glBlendFuncSeparateINGR", 678, crate::Address(glBlendFuncSeparateINGR as *const ())),
+    (b"glBlendFuncSeparateIndexedAMD", 680, crate::Address(glBlendFuncSeparateIndexedAMD as *const ())),
+    (b"glBlendFuncSeparatei", 679, crate::Address(glBlendFuncSeparatei as *const ())),
+    (b"glBlendFuncSeparateiARB", 681, crate::Address(glBlendFuncSeparateiARB as *const ())),
+    (b"glBlendFuncSeparateiEXT", 682, crate::Address(glBlendFuncSeparateiEXT as *const ())),
+    (b"glBlendFuncSeparateiOES", 683, crate::Address(glBlendFuncSeparateiOES as *const ())),
+    (b"glBlendFunci", 684, crate::Address(glBlendFunci as *const ())),
+    (b"glBlendFunciARB", 686, crate::Address(glBlendFunciARB as *const ())),
+    (b"glBlendFunciEXT", 687, crate::Address(glBlendFunciEXT as *const ())),
+    (b"glBlendFunciOES", 688, crate::Address(glBlendFunciOES as *const ())),
+    (b"glBlitFramebuffer", 1079, crate::Address(glBlitFramebuffer as *const ())),
+    (b"glBlitFramebufferEXT", 1080, crate::Address(glBlitFramebufferEXT as *const ())),
+    (b"glBlitFramebufferNV", 1081, crate::Address(glBlitFramebufferNV as *const ())),
+    (b"glBlitNamedFramebuffer", 1082, crate::Address(glBlitNamedFramebuffer as *const ())),
+    (b"glBufferData", 1238, crate::Address(glBufferData as *const ())),
+    (b"glBufferDataARB", 1239, crate::Address(glBufferDataARB as *const ())),
+    (b"glBufferSubData", 1240, crate::Address(glBufferSubData as *const ())),
+    (b"glBufferSubDataARB", 1241, crate::Address(glBufferSubDataARB as *const ())),
+    (b"glCallList", 1052, crate::Address(glCallList as *const ())),
+    (b"glCallLists", 1053, crate::Address(glCallLists as *const ())),
+    (b"glCheckFramebufferStatus", 1111, crate::Address(glCheckFramebufferStatus as *const ())),
+    (b"glCheckFramebufferStatusEXT", 1112, crate::Address(glCheckFramebufferStatusEXT as *const ())),
     (b"glClampColor", 590, crate::Address(glClampColor as *const ())),
     (b"glClampColorARB", 591, crate::Address(glClampColorARB as *const ())),
-    (b"glClear", 979, crate::Address(glClear as *const ())),
-    (b"glClearAccum", 707, crate::Address(glClearAccum as *const ())),
-    (b"glClearBufferfi", 980, crate::Address(glClearBufferfi as *const ())),
-    (b"glClearBufferfv", 981, crate::Address(glClearBufferfv as *const ())),
-    (b"glClearBufferiv", 982, crate::Address(glClearBufferiv as *const ())),
-    (b"glClearBufferuiv", 983, crate::Address(glClearBufferuiv as *const ())),
-    (b"glClearColor", 708, crate::Address(glClearColor as *const ())),
-    (b"glClearDepth", 709, crate::Address(glClearDepth as *const ())),
-    (b"glClearDepthf", 710, crate::Address(glClearDepthf as *const ())),
-    (b"glClearDepthfOES", 711, crate::Address(glClearDepthfOES as *const ())),
-    (b"glClearIndex", 712, crate::Address(glClearIndex as *const ())),
-    (b"glClearNamedFramebufferfi", 1085, crate::Address(glClearNamedFramebufferfi as *const ())),
-    (b"glClearNamedFramebufferfv", 1082, crate::Address(glClearNamedFramebufferfv as *const ())),
-    (b"glClearNamedFramebufferiv", 1083, crate::Address(glClearNamedFramebufferiv as *const ())),
-    (b"glClearNamedFramebufferuiv", 1084, crate::Address(glClearNamedFramebufferuiv as *const ())),
-    (b"glClearStencil", 713, crate::Address(glClearStencil as *const ())),
-    (b"glClientActiveTexture", 1249, crate::Address(glClientActiveTexture as *const ())),
-    (b"glClientActiveTextureARB", 1250, crate::Address(glClientActiveTextureARB as *const ())),
+    (b"glClear", 980, crate::Address(glClear as *const ())),
+    (b"glClearAccum", 705, crate::Address(glClearAccum as *const ())),
+    (b"glClearBufferfi", 981, crate::Address(glClearBufferfi as *const ())),
+    (b"glClearBufferfv", 982, crate::Address(glClearBufferfv as *const ())),
+    (b"glClearBufferiv", 983, crate::Address(glClearBufferiv as *const ())),
+    (b"glClearBufferuiv", 984, crate::Address(glClearBufferuiv as *const ())),
+    (b"glClearColor", 706, crate::Address(glClearColor as *const ())),
+    (b"glClearDepth", 707, crate::Address(glClearDepth as *const ())),
+    (b"glClearDepthf", 708, crate::Address(glClearDepthf as *const ())),
+    (b"glClearDepthfOES", 709, crate::Address(glClearDepthfOES as *const ())),
+    (b"glClearIndex", 710, crate::Address(glClearIndex as *const ())),
+    (b"glClearNamedFramebufferfi", 1086, crate::Address(glClearNamedFramebufferfi as *const ())),
+    (b"glClearNamedFramebufferfv", 1083, crate::Address(glClearNamedFramebufferfv as *const ())),
+    (b"glClearNamedFramebufferiv", 1084, crate::Address(glClearNamedFramebufferiv as *const ())),
+    (b"glClearNamedFramebufferuiv", 1085, crate::Address(glClearNamedFramebufferuiv as *const ())),
+    (b"glClearStencil", 711, crate::Address(glClearStencil as *const ())),
+    (b"glClientActiveTexture", 1250, crate::Address(glClientActiveTexture as *const ())),
+    (b"glClientActiveTextureARB", 1251, crate::Address(glClientActiveTextureARB as *const ())),
     (b"glClipControl", 585, crate::Address(glClipControl as *const ())),
     (b"glClipControlEXT", 586, crate::Address(glClipControlEXT as *const ())),
-    (b"glClipPlane", 714, crate::Address(glClipPlane as *const ())),
+    (b"glClipPlane", 712, crate::Address(glClipPlane as *const ())),
     (b"glColor3b", 30, crate::Address(glColor3b as *const ())),
     (b"glColor3bv", 31, crate::Address(glColor3bv as *const ())),
     (b"glColor3d", 32, crate::Address(glColor3d as *const ())),
@@ -2880,66 +2880,66 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1306] = [
     (b"glColor4uiv", 59, crate::Address(glColor4uiv as *const ())),
     (b"glColor4us", 60, crate::Address(glColor4us as *const ())),
     (b"glColor4usv", 61, crate::Address(glColor4usv as *const ())),
-    (b"glColorMask", 715, crate::Address(glColorMask as *const ())),
-    (b"glColorMaskIndexedEXT", 717, crate::Address(glColorMaskIndexedEXT as *const ())),
-    (b"glColorMaski", 716, crate::Address(glColorMaski as *const ())),
-    (b"glColorMaskiEXT", 718, crate::Address(glColorMaskiEXT as *const ())),
-    (b"glColorMaskiOES", 719, crate::Address(glColorMaskiOES as *const ())),
+    (b"glColorMask", 713, crate::Address(glColorMask as *const ())),
+    (b"glColorMaskIndexedEXT", 715, crate::Address(glColorMaskIndexedEXT as *const ())),
+    (b"glColorMaski", 714, crate::Address(glColorMaski as *const ())),
+    (b"glColorMaskiEXT", 716, crate::Address(glColorMaskiEXT as *const ())),
+    (b"glColorMaskiOES", 717, crate::Address(glColorMaskiOES as *const ())),
     (b"glColorMaterial", 550, crate::Address(glColorMaterial as *const ())),
     (b"glColorP3ui", 440, crate::Address(glColorP3ui as *const ())),
     (b"glColorP3uiv", 441, crate::Address(glColorP3uiv as *const ())),
     (b"glColorP4ui", 442, crate::Address(glColorP4ui as *const ())),
     (b"glColorP4uiv", 443, crate::Address(glColorP4uiv as *const ())),
-    (b"glColorPointer", 1252, crate::Address(glColorPointer as *const ())),
-    (b"glCompressedTexImage1D", 775, crate::Address(glCompressedTexImage1D as *const ())),
-    (b"glCompressedTexImage1DARB", 776, crate::Address(glCompressedTexImage1DARB as *const ())),
-    (b"glCompressedTexImage2D", 777, crate::Address(glCompressedTexImage2D as *const ())),
-    (b"glCompressedTexImage2DARB", 778, crate::Address(glCompressedTexImage2DARB as *const ())),
-    (b"glCompressedTexImage3D", 779, crate::Address(glCompressedTexImage3D as *const ())),
-    (b"glCompressedTexImage3DARB", 780, crate::Address(glCompressedTexImage3DARB as *const ())),
-    (b"glCompressedTexSubImage1D", 781, crate::Address(glCompressedTexSubImage1D as *const ())),
-    (b"glCompressedTexSubImage1DARB", 782, crate::Address(glCompressedTexSubImage1DARB as *const ())),
-    (b"glCompressedTexSubImage2D", 783, crate::Address(glCompressedTexSubImage2D as *const ())),
-    (b"glCompressedTexSubImage2DARB", 784, crate::Address(glCompressedTexSubImage2DARB as *const ())),
-    (b"glCompressedTexSubImage3D", 785, crate::Address(glCompressedTexSubImage3D as *const ())),
-    (b"glCompressedTexSubImage3DARB", 786, crate::Address(glCompressedTexSubImage3DARB as *const ())),
-    (b"glCopyColorTable", 1139, crate::Address(glCopyColorTable as *const ())),
-    (b"glCopyColorTableSGI", 1140, crate::Address(glCopyColorTableSGI as *const ())),
-    (b"glCopyConvolutionFilter1D", 1141, crate::Address(glCopyConvolutionFilter1D as *const ())),
-    (b"glCopyConvolutionFilter1DEXT", 1142, crate::Address(glCopyConvolutionFilter1DEXT as *const ())),
-    (b"glCopyConvolutionFilter2D", 1143, crate::Address(glCopyConvolutionFilter2D as *const ())),
-    (b"glCopyConvolutionFilter2DEXT", 1144, crate::Address(glCopyConvolutionFilter2DEXT as *const ())),
-    (b"glCopyMultiTexImage1DEXT", 1135, crate::Address(glCopyMultiTexImage1DEXT as *const ())),
-    (b"glCopyMultiTexImage2DEXT", 1136, crate::Address(glCopyMultiTexImage2DEXT as *const ())),
-    (b"glCopyPixels", 1048, crate::Address(glCopyPixels as *const ())),
-    (b"glCopyTexImage1D", 1117, crate::Address(glCopyTexImage1D as *const ())),
-    (b"glCopyTexImage1DEXT", 1118, crate::Address(glCopyTexImage1DEXT as *const ())),
-    (b"glCopyTexImage2D", 1119, crate::Address(glCopyTexImage2D as *const ())),
-    (b"glCopyTexImage2DEXT", 1120, crate::Address(glCopyTexImage2DEXT as *const ())),
-    (b"glCopyTexSubImage1D", 1121, crate::Address(glCopyTexSubImage1D as *const ())),
-    (b"glCopyTexSubImage1DEXT", 1122, crate::Address(glCopyTexSubImage1DEXT as *const ())),
-    (b"glCopyTexSubImage2D", 1123, crate::Address(glCopyTexSubImage2D as *const ())),
-    (b"glCopyTexSubImage2DEXT", 1124, crate::Address(glCopyTexSubImage2DEXT as *const ())),
-    (b"glCopyTexSubImage3D", 1130, crate::Address(glCopyTexSubImage3D as *const ())),
-    (b"glCopyTexSubImage3DEXT", 1131, crate::Address(glCopyTexSubImage3DEXT as *const ())),
-    (b"glCopyTextureImage1DEXT", 1137, crate::Address(glCopyTextureImage1DEXT as *const ())),
-    (b"glCopyTextureImage2DEXT", 1138, crate::Address(glCopyTextureImage2DEXT as *const ())),
-    (b"glCopyTextureSubImage1D", 1132, crate::Address(glCopyTextureSubImage1D as *const ())),
-    (b"glCopyTextureSubImage2D", 1133, crate::Address(glCopyTextureSubImage2D as *const ())),
-    (b"glCopyTextureSubImage3D", 1134, crate::Address(glCopyTextureSubImage3D as *const ())),
-    (b"glCullFace", 720, crate::Address(glCullFace as *const ())),
-    (b"glDeleteBuffers", 1241, crate::Address(glDeleteBuffers as *const ())),
-    (b"glDeleteBuffersARB", 1242, crate::Address(glDeleteBuffersARB as *const ())),
-    (b"glDeleteFramebuffers", 1064, crate::Address(glDeleteFramebuffers as *const ())),
-    (b"glDeleteFramebuffersEXT", 1065, crate::Address(glDeleteFramebuffersEXT as *const ())),
-    (b"glDeleteLists", 1053, crate::Address(glDeleteLists as *const ())),
+    (b"glColorPointer", 1253, crate::Address(glColorPointer as *const ())),
+    (b"glCompressedTexImage1D", 773, crate::Address(glCompressedTexImage1D as *const ())),
+    (b"glCompressedTexImage1DARB", 774, crate::Address(glCompressedTexImage1DARB as *const ())),
+    (b"glCompressedTexImage2D", 775, crate::Address(glCompressedTexImage2D as *const ())),
+    (b"glCompressedTexImage2DARB", 776, crate::Address(glCompressedTexImage2DARB as *const ())),
+    (b"glCompressedTexImage3D", 777, crate::Address(glCompressedTexImage3D as *const ())),
+    (b"glCompressedTexImage3DARB", 778, crate::Address(glCompressedTexImage3DARB as *const ())),
+    (b"glCompressedTexSubImage1D", 779, crate::Address(glCompressedTexSubImage1D as *const ())),
+    (b"glCompressedTexSubImage1DARB", 780, crate::Address(glCompressedTexSubImage1DARB as *const ())),
+    (b"glCompressedTexSubImage2D", 781, crate::Address(glCompressedTexSubImage2D as *const ())),
+    (b"glCompressedTexSubImage2DARB", 782, crate::Address(glCompressedTexSubImage2DARB as *const ())),
+    (b"glCompressedTexSubImage3D", 783, crate::Address(glCompressedTexSubImage3D as *const ())),
+    (b"glCompressedTexSubImage3DARB", 784, crate::Address(glCompressedTexSubImage3DARB as *const ())),
+    (b"glCopyColorTable", 1140, crate::Address(glCopyColorTable as *const ())),
+    (b"glCopyColorTableSGI", 1141, crate::Address(glCopyColorTableSGI as *const ())),
+    (b"glCopyConvolutionFilter1D", 1142, crate::Address(glCopyConvolutionFilter1D as *const ())),
+    (b"glCopyConvolutionFilter1DEXT", 1143, crate::Address(glCopyConvolutionFilter1DEXT as *const ())),
+    (b"glCopyConvolutionFilter2D", 1144, crate::Address(glCopyConvolutionFilter2D as *const ())),
+    (b"glCopyConvolutionFilter2DEXT", 1145, crate::Address(glCopyConvolutionFilter2DEXT as *const ())),
+    (b"glCopyMultiTexImage1DEXT", 1136, crate::Address(glCopyMultiTexImage1DEXT as *const ())),
+    (b"glCopyMultiTexImage2DEXT", 1137, crate::Address(glCopyMultiTexImage2DEXT as *const ())),
+    (b"glCopyPixels", 1049, crate::Address(glCopyPixels as *const ())),
+    (b"glCopyTexImage1D", 1118, crate::Address(glCopyTexImage1D as *const ())),
+    (b"glCopyTexImage1DEXT", 1119, crate::Address(glCopyTexImage1DEXT as *const ())),
+    (b"glCopyTexImage2D", 1120, crate::Address(glCopyTexImage2D as *const ())),
+    (b"glCopyTexImage2DEXT", 1121, crate::Address(glCopyTexImage2DEXT as *const ())),
+    (b"glCopyTexSubImage1D", 1122, crate::Address(glCopyTexSubImage1D as *const ())),
+    (b"glCopyTexSubImage1DEXT", 1123, crate::Address(glCopyTexSubImage1DEXT as *const ())),
+    (b"glCopyTexSubImage2D", 1124, crate::Address(glCopyTexSubImage2D as *const ())),
+    (b"glCopyTexSubImage2DEXT", 1125, crate::Address(glCopyTexSubImage2DEXT as *const ())),
+    (b"glCopyTexSubImage3D", 1131, crate::Address(glCopyTexSubImage3D as *const ())),
+    (b"glCopyTexSubImage3DEXT", 1132, crate::Address(glCopyTexSubImage3DEXT as *const ())),
+    (b"glCopyTextureImage1DEXT", 1138, crate::Address(glCopyTextureImage1DEXT as *const ())),
+    (b"glCopyTextureImage2DEXT", 1139, crate::Address(glCopyTextureImage2DEXT as *const ())),
+    (b"glCopyTextureSubImage1D", 1133, crate::Address(glCopyTextureSubImage1D as *const ())),
+    (b"glCopyTextureSubImage2D", 1134, crate::Address(glCopyTextureSubImage2D as *const ())),
+    (b"glCopyTextureSubImage3D", 1135, crate::Address(glCopyTextureSubImage3D as *const ())),
+    (b"glCullFace", 718, crate::Address(glCullFace as *const ())),
+    (b"glDeleteBuffers", 1242, crate::Address(glDeleteBuffers as *const ())),
+    (b"glDeleteBuffersARB", 1243, crate::Address(glDeleteBuffersARB as *const ())),
+    (b"glDeleteFramebuffers", 1065, crate::Address(glDeleteFramebuffers as *const ())),
+    (b"glDeleteFramebuffersEXT", 1066, crate::Address(glDeleteFramebuffersEXT as *const ())),
+    (b"glDeleteLists", 1054, crate::Address(glDeleteLists as *const ())),
     (b"glDeleteProgram", 978, crate::Address(glDeleteProgram as *const ())),
-    (b"glDeleteQueries", 1157, crate::Address(glDeleteQueries as *const ())),
-    (b"glDeleteQueriesARB", 1158, crate::Address(glDeleteQueriesARB as *const ())),
-    (b"glDeleteRenderbuffers", 1233, crate::Address(glDeleteRenderbuffers as *const ())),
-    (b"glDeleteRenderbuffersEXT", 1234, crate::Address(glDeleteRenderbuffersEXT as *const ())),
-    (b"glDeleteTextures", 1058, crate::Address(glDeleteTextures as *const ())),
-    (b"glDepthBoundsEXT", 721, crate::Address(glDepthBoundsEXT as *const ())),
+    (b"glDeleteQueries", 1158, crate::Address(glDeleteQueries as *const ())),
+    (b"glDeleteQueriesARB", 1159, crate::Address(glDeleteQueriesARB as *const ())),
+    (b"glDeleteRenderbuffers", 1234, crate::Address(glDeleteRenderbuffers as *const ())),
+    (b"glDeleteRenderbuffersEXT", 1235, crate::Address(glDeleteRenderbuffersEXT as *const ())),
+    (b"glDeleteTextures", 1059, crate::Address(glDeleteTextures as *const ())),
+    (b"glDepthBoundsEXT", 719, crate::Address(glDepthBoundsEXT as *const ())),
     (b"glDepthFunc", 531, crate::Address(glDepthFunc as *const ())),
     (b"glDepthMask", 530, crate::Address(glDepthMask as *const ())),
     (b"glDepthRange", 532, crate::Address(glDepthRange as *const ())),
@@ -2948,82 +2948,82 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1306] = [
     (b"glDepthRangef", 533, crate::Address(glDepthRangef as *const ())),
     (b"glDepthRangefOES", 534, crate::Address(glDepthRangefOES as *const ())),
     (b"glDisable", 519, crate::Address(glDisable as *const ())),
-    (b"glDisableClientState", 1248, crate::Address(glDisableClientState as *const ())),
+    (b"glDisableClientState", 1249, crate::Address(glDisableClientState as *const ())),
     (b"glDisableIndexedEXT", 526, crate::Address(glDisableIndexedEXT as *const ())),
-    (b"glDisableVertexAttribArray", 1266, crate::Address(glDisableVertexAttribArray as *const ())),
-    (b"glDisableVertexAttribArrayARB", 1267, crate::Address(glDisableVertexAttribArrayARB as *const ())),
+    (b"glDisableVertexAttribArray", 1267, crate::Address(glDisableVertexAttribArray as *const ())),
+    (b"glDisableVertexAttribArrayARB", 1268, crate::Address(glDisableVertexAttribArrayARB as *const ())),
     (b"glDisablei", 525, crate::Address(glDisablei as *const ())),
     (b"glDisableiEXT", 527, crate::Address(glDisableiEXT as *const ())),
     (b"glDisableiNV", 528, crate::Address(glDisableiNV as *const ())),
     (b"glDisableiOES", 529, crate::Address(glDisableiOES as *const ())),
-    (b"glDiscardFramebufferEXT", 1116, crate::Address(glDiscardFramebufferEXT as *const ())),
-    (b"glDrawArrays", 984, crate::Address(glDrawArrays as *const ())),
-    (b"glDrawArraysEXT", 985, crate::Address(glDrawArraysEXT as *const ())),
-    (b"glDrawArraysIndirect", 1020, crate::Address(glDrawArraysIndirect as *const ())),
-    (b"glDrawArraysInstanced", 1001, crate::Address(glDrawArraysInstanced as *const ())),
-    (b"glDrawArraysInstancedANGLE", 1002, crate::Address(glDrawArraysInstancedANGLE as *const ())),
-    (b"glDrawArraysInstancedARB", 1003, crate::Address(glDrawArraysInstancedARB as *const ())),
-    (b"glDrawArraysInstancedBaseInstance", 1014, crate::Address(glDrawArraysInstancedBaseInstance as *const ())),
-    (b"glDrawArraysInstancedBaseInstanceEXT", 1015, crate::Address(glDrawArraysInstancedBaseInstanceEXT as *const ())),
-    (b"glDrawArraysInstancedEXT", 1004, crate::Address(glDrawArraysInstancedEXT as *const ())),
-    (b"glDrawArraysInstancedNV", 1005, crate::Address(glDrawArraysInstancedNV as *const ())),
-    (b"glDrawBuffer", 1066, crate::Address(glDrawBuffer as *const ())),
-    (b"glDrawBuffers", 1067, crate::Address(glDrawBuffers as *const ())),
-    (b"glDrawBuffersARB", 1068, crate::Address(glDrawBuffersARB as *const ())),
-    (b"glDrawBuffersATI", 1069, crate::Address(glDrawBuffersATI as *const ())),
-    (b"glDrawBuffersEXT", 1070, crate::Address(glDrawBuffersEXT as *const ())),
-    (b"glDrawElements", 986, crate::Address(glDrawElements as *const ())),
-    (b"glDrawElementsBaseVertex", 993, crate::Address(glDrawElementsBaseVertex as *const ())),
-    (b"glDrawElementsBaseVertexEXT", 994, crate::Address(glDrawElementsBaseVertexEXT as *const ())),
-    (b"glDrawElementsBaseVertexOES", 995, crate::Address(glDrawElementsBaseVertexOES as *const ())),
-    (b"glDrawElementsIndirect", 1021, crate::Address(glDrawElementsIndirect as *const ())),
-    (b"glDrawElementsInstanced", 1006, crate::Address(glDrawElementsInstanced as *const ())),
-    (b"glDrawElementsInstancedANGLE", 1007, crate::Address(glDrawElementsInstancedANGLE as *const ())),
-    (b"glDrawElementsInstancedARB", 1008, crate::Address(glDrawElementsInstancedARB as *const ())),
-    (b"glDrawElementsInstancedBaseInstance", 1016, crate::Address(glDrawElementsInstancedBaseInstance as *const ())),
-    (b"glDrawElementsInstancedBaseInstanceEXT", 1017, crate::Address(glDrawElementsInstancedBaseInstanceEXT as *const ())),
-    (b"glDrawElementsInstancedBaseVertex", 1011, crate::Address(glDrawElementsInstancedBaseVertex as *const ())),
-    (b"glDrawElementsInstancedBaseVertexBaseInstance", 1018, crate::Address(glDrawElementsInstancedBaseVertexBaseInstance as *const ())),
-    (b"glDrawElementsInstancedBaseVertexBaseInstanceEXT", 1019, crate::Address(glDrawElementsInstancedBaseVertexBaseInstanceEXT as *const ())),
-    (b"glDrawElementsInstancedBaseVertexEXT", 1012, crate::Address(glDrawElementsInstancedBaseVertexEXT as *const ())),
-    (b"glDrawElementsInstancedBaseVertexOES", 1013, crate::Address(glDrawElementsInstancedBaseVertexOES as *const ())),
-    (b"glDrawElementsInstancedEXT", 1009, crate::Address(glDrawElementsInstancedEXT as *const ())),
-    (b"glDrawElementsInstancedNV", 1010, crate::Address(glDrawElementsInstancedNV as *const ())),
-    (b"glDrawPixels", 1047, crate::Address(glDrawPixels as *const ())),
-    (b"glDrawRangeElements", 987, crate::Address(glDrawRangeElements as *const ())),
-    (b"glDrawRangeElementsBaseVertex", 996, crate::Address(glDrawRangeElementsBaseVertex as *const ())),
-    (b"glDrawRangeElementsBaseVertexEXT", 997, crate::Address(glDrawRangeElementsBaseVertexEXT as *const ())),
-    (b"glDrawRangeElementsBaseVertexOES", 998, crate::Address(glDrawRangeElementsBaseVertexOES as *const ())),
-    (b"glDrawRangeElementsEXT", 988, crate::Address(glDrawRangeElementsEXT as *const ())),
-    (b"glDrawTransformFeedback", 1028, crate::Address(glDrawTransformFeedback as *const ())),
-    (b"glDrawTransformFeedbackEXT", 1029, crate::Address(glDrawTransformFeedbackEXT as *const ())),
-    (b"glDrawTransformFeedbackInstanced", 1031, crate::Address(glDrawTransformFeedbackInstanced as *const ())),
-    (b"glDrawTransformFeedbackInstancedEXT", 1032, crate::Address(glDrawTransformFeedbackInstancedEXT as *const ())),
-    (b"glDrawTransformFeedbackNV", 1030, crate::Address(glDrawTransformFeedbackNV as *const ())),
-    (b"glDrawTransformFeedbackStream", 1033, crate::Address(glDrawTransformFeedbackStream as *const ())),
-    (b"glDrawTransformFeedbackStreamInstanced", 1034, crate::Address(glDrawTransformFeedbackStreamInstanced as *const ())),
+    (b"glDiscardFramebufferEXT", 1117, crate::Address(glDiscardFramebufferEXT as *const ())),
+    (b"glDrawArrays", 985, crate::Address(glDrawArrays as *const ())),
+    (b"glDrawArraysEXT", 986, crate::Address(glDrawArraysEXT as *const ())),
+    (b"glDrawArraysIndirect", 1021, crate::Address(glDrawArraysIndirect as *const ())),
+    (b"glDrawArraysInstanced", 1002, crate::Address(glDrawArraysInstanced as *const ())),
+    (b"glDrawArraysInstancedANGLE", 1003, crate::Address(glDrawArraysInstancedANGLE as *const ())),
+    (b"glDrawArraysInstancedARB", 1004, crate::Address(glDrawArraysInstancedARB as *const ())),
+    (b"glDrawArraysInstancedBaseInstance", 1015, crate::Address(glDrawArraysInstancedBaseInstance as *const ())),
+    (b"glDrawArraysInstancedBaseInstanceEXT", 1016, crate::Address(glDrawArraysInstancedBaseInstanceEXT as *const ())),
+    (b"glDrawArraysInstancedEXT", 1005, crate::Address(glDrawArraysInstancedEXT as *const ())),
+    (b"glDrawArraysInstancedNV", 1006, crate::Address(glDrawArraysInstancedNV as *const ())),
+    (b"glDrawBuffer", 1067, crate::Address(glDrawBuffer as *const ())),
+    (b"glDrawBuffers", 1068, crate::Address(glDrawBuffers as *const ())),
+    (b"glDrawBuffersARB", 1069, crate::Address(glDrawBuffersARB as *const ())),
+    (b"glDrawBuffersATI", 1070, crate::Address(glDrawBuffersATI as *const ())),
+    (b"glDrawBuffersEXT", 1071, crate::Address(glDrawBuffersEXT as *const ())),
+    (b"glDrawElements", 987, crate::Address(glDrawElements as *const ())),
+    (b"glDrawElementsBaseVertex", 994, crate::Address(glDrawElementsBaseVertex as *const ())),
+    (b"glDrawElementsBaseVertexEXT", 995, crate::Address(glDrawElementsBaseVertexEXT as *const ())),
+    (b"glDrawElementsBaseVertexOES", 996, crate::Address(glDrawElementsBaseVertexOES as *const ())),
+    (b"glDrawElementsIndirect", 1022, crate::Address(glDrawElementsIndirect as *const ())),
+    (b"glDrawElementsInstanced", 1007, crate::Address(glDrawElementsInstanced as *const ())),
+    (b"glDrawElementsInstancedANGLE", 1008, crate::Address(glDrawElementsInstancedANGLE as *const ())),
+    (b"glDrawElementsInstancedARB", 1009, crate::Address(glDrawElementsInstancedARB as *const ())),
+    (b"glDrawElementsInstancedBaseInstance", 1017, crate::Address(glDrawElementsInstancedBaseInstance as *const ())),
+    (b"glDrawElementsInstancedBaseInstanceEXT", 1018, crate::Address(glDrawElementsInstancedBaseInstanceEXT as *const ())),
+    (b"glDrawElementsInstancedBaseVertex", 1012, crate::Address(glDrawElementsInstancedBaseVertex as *const ())),
+    (b"glDrawElementsInstancedBaseVertexBaseInstance", 1019, crate::Address(glDrawElementsInstancedBaseVertexBaseInstance as *const ())),
+    (b"glDrawElementsInstancedBaseVertexBaseInstanceEXT", 1020, crate::Address(glDrawElementsInstancedBaseVertexBaseInstanceEXT as *const ())),
+    (b"glDrawElementsInstancedBaseVertexEXT", 1013, crate::Address(glDrawElementsInstancedBaseVertexEXT as *const ())),
+    (b"glDrawElementsInstancedBaseVertexOES", 1014, crate::Address(glDrawElementsInstancedBaseVertexOES as *const ())),
+    (b"glDrawElementsInstancedEXT", 1010, crate::Address(glDrawElementsInstancedEXT as *const ())),
+    (b"glDrawElementsInstancedNV", 1011, crate::Address(glDrawElementsInstancedNV as *const ())),
+    (b"glDrawPixels", 1048, crate::Address(glDrawPixels as *const ())),
+    (b"glDrawRangeElements", 988, crate::Address(glDrawRangeElements as *const ())),
+    (b"glDrawRangeElementsBaseVertex", 997, crate::Address(glDrawRangeElementsBaseVertex as *const ())),
+    (b"glDrawRangeElementsBaseVertexEXT", 998, crate::Address(glDrawRangeElementsBaseVertexEXT as *const ())),
+    (b"glDrawRangeElementsBaseVertexOES", 999, crate::Address(glDrawRangeElementsBaseVertexOES as *const ())),
+    (b"glDrawRangeElementsEXT", 989, crate::Address(glDrawRangeElementsEXT as *const ())),
+    (b"glDrawTransformFeedback", 1029, crate::Address(glDrawTransformFeedback as *const ())),
+    (b"glDrawTransformFeedbackEXT", 1030, crate::Address(glDrawTransformFeedbackEXT as *const ())),
+    (b"glDrawTransformFeedbackInstanced", 1032, crate::Address(glDrawTransformFeedbackInstanced as *const ())),
+    (b"glDrawTransformFeedbackInstancedEXT", 1033, crate::Address(glDrawTransformFeedbackInstancedEXT as *const ())),
+    (b"glDrawTransformFeedbackNV", 1031, crate::Address(glDrawTransformFeedbackNV as *const ())),
+    (b"glDrawTransformFeedbackStream", 1034, crate::Address(glDrawTransformFeedbackStream as *const ())),
+    (b"glDrawTransformFeedbackStreamInstanced", 1035, crate::Address(glDrawTransformFeedbackStreamInstanced as *const ())),
     (b"glEdgeFlag", 234, crate::Address(glEdgeFlag as *const ())),
-    (b"glEdgeFlagPointer", 1257, crate::Address(glEdgeFlagPointer as *const ())),
+    (b"glEdgeFlagPointer", 1258, crate::Address(glEdgeFlagPointer as *const ())),
     (b"glEdgeFlagv", 235, crate::Address(glEdgeFlagv as *const ())),
     (b"glEnable", 518, crate::Address(glEnable as *const ())),
-    (b"glEnableClientState", 1247, crate::Address(glEnableClientState as *const ())),
+    (b"glEnableClientState", 1248, crate::Address(glEnableClientState as *const ())),
     (b"glEnableIndexedEXT", 521, crate::Address(glEnableIndexedEXT as *const ())),
-    (b"glEnableVertexAttribArray", 1264, crate::Address(glEnableVertexAttribArray as *const ())),
-    (b"glEnableVertexAttribArrayARB", 1265, crate::Address(glEnableVertexAttribArrayARB as *const ())),
+    (b"glEnableVertexAttribArray", 1265, crate::Address(glEnableVertexAttribArray as *const ())),
+    (b"glEnableVertexAttribArrayARB", 1266, crate::Address(glEnableVertexAttribArrayARB as *const ())),
     (b"glEnablei", 520, crate::Address(glEnablei as *const ())),
     (b"glEnableiEXT", 522, crate::Address(glEnableiEXT as *const ())),
     (b"glEnableiNV", 523, crate::Address(glEnableiNV as *const ())),
     (b"glEnableiOES", 524, crate::Address(glEnableiOES as *const ())),
     (b"glEnd", 455, crate::Address(glEnd as *const ())),
-    (b"glEndConditionalRender", 1150, crate::Address(glEndConditionalRender as *const ())),
-    (b"glEndConditionalRenderNV", 1151, crate::Address(glEndConditionalRenderNV as *const ())),
-    (b"glEndConditionalRenderNVX", 1152, crate::Address(glEndConditionalRenderNVX as *const ())),
-    (b"glEndList", 1050, crate::Address(glEndList as *const ())),
-    (b"glEndQuery", 1155, crate::Address(glEndQuery as *const ())),
-    (b"glEndQueryARB", 1156, crate::Address(glEndQueryARB as *const ())),
-    (b"glEndTransformFeedback", 673, crate::Address(glEndTransformFeedback as *const ())),
-    (b"glEndTransformFeedbackEXT", 674, crate::Address(glEndTransformFeedbackEXT as *const ())),
-    (b"glEndTransformFeedbackNV", 675, crate::Address(glEndTransformFeedbackNV as *const ())),
+    (b"glEndConditionalRender", 1151, crate::Address(glEndConditionalRender as *const ())),
+    (b"glEndConditionalRenderNV", 1152, crate::Address(glEndConditionalRenderNV as *const ())),
+    (b"glEndConditionalRenderNVX", 1153, crate::Address(glEndConditionalRenderNVX as *const ())),
+    (b"glEndList", 1051, crate::Address(glEndList as *const ())),
+    (b"glEndQuery", 1156, crate::Address(glEndQuery as *const ())),
+    (b"glEndQueryARB", 1157, crate::Address(glEndQueryARB as *const ())),
+    (b"glEndTransformFeedback", 671, crate::Address(glEndTransformFeedback as *const ())),
+    (b"glEndTransformFeedbackEXT", 672, crate::Address(glEndTransformFeedbackEXT as *const ())),
+    (b"glEndTransformFeedbackNV", 673, crate::Address(glEndTransformFeedbackNV as *const ())),
     (b"glEvalCoord1d", 250, crate::Address(glEvalCoord1d as *const ())),
     (b"glEvalCoord1dv", 251, crate::Address(glEvalCoord1dv as *const ())),
     (b"glEvalCoord1f", 252, crate::Address(glEvalCoord1f as *const ())),
@@ -3032,15 +3032,15 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1306] = [
     (b"glEvalCoord2dv", 255, crate::Address(glEvalCoord2dv as *const ())),
     (b"glEvalCoord2f", 256, crate::Address(glEvalCoord2f as *const ())),
     (b"glEvalCoord2fv", 257, crate::Address(glEvalCoord2fv as *const ())),
-    (b"glEvalMesh1", 1043, crate::Address(glEvalMesh1 as *const ())),
-    (b"glEvalMesh2", 1044, crate::Address(glEvalMesh2 as *const ())),
+    (b"glEvalMesh1", 1044, crate::Address(glEvalMesh1 as *const ())),
+    (b"glEvalMesh2", 1045, crate::Address(glEvalMesh2 as *const ())),
     (b"glEvalPoint1", 258, crate::Address(glEvalPoint1 as *const ())),
     (b"glEvalPoint2", 259, crate::Address(glEvalPoint2 as *const ())),
-    (b"glFeedbackBuffer", 1220, crate::Address(glFeedbackBuffer as *const ())),
-    (b"glFinish", 1145, crate::Address(glFinish as *const ())),
-    (b"glFlush", 1146, crate::Address(glFlush as *const ())),
-    (b"glFogCoordPointer", 1258, crate::Address(glFogCoordPointer as *const ())),
-    (b"glFogCoordPointerEXT", 1259, crate::Address(glFogCoordPointerEXT as *const ())),
+    (b"glFeedbackBuffer", 1221, crate::Address(glFeedbackBuffer as *const ())),
+    (b"glFinish", 1146, crate::Address(glFinish as *const ())),
+    (b"glFlush", 1147, crate::Address(glFlush as *const ())),
+    (b"glFogCoordPointer", 1259, crate::Address(glFogCoordPointer as *const ())),
+    (b"glFogCoordPointerEXT", 1260, crate::Address(glFogCoordPointerEXT as *const ())),
     (b"glFogCoordd", 224, crate::Address(glFogCoordd as *const ())),
     (b"glFogCoorddEXT", 225, crate::Address(glFogCoorddEXT as *const ())),
     (b"glFogCoorddv", 226, crate::Address(glFogCoorddv as *const ())),
@@ -3055,104 +3055,105 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1306] = [
     (b"glFogfv", 558, crate::Address(glFogfv as *const ())),
     (b"glFogi", 559, crate::Address(glFogi as *const ())),
     (b"glFogiv", 560, crate::Address(glFogiv as *const ())),
-    (b"glFramebufferDrawBufferEXT", 1075, crate::Address(glFramebufferDrawBufferEXT as *const ())),
-    (b"glFramebufferDrawBuffersEXT", 1076, crate::Address(glFramebufferDrawBuffersEXT as *const ())),
-    (b"glFramebufferParameteri", 1112, crate::Address(glFramebufferParameteri as *const ())),
-    (b"glFramebufferReadBufferEXT", 1077, crate::Address(glFramebufferReadBufferEXT as *const ())),
-    (b"glFramebufferRenderbuffer", 1106, crate::Address(glFramebufferRenderbuffer as *const ())),
-    (b"glFramebufferRenderbufferEXT", 1107, crate::Address(glFramebufferRenderbufferEXT as *const ())),
-    (b"glFramebufferTexture", 1093, crate::Address(glFramebufferTexture as *const ())),
-    (b"glFramebufferTexture1D", 1097, crate::Address(glFramebufferTexture1D as *const ())),
-    (b"glFramebufferTexture1DEXT", 1098, crate::Address(glFramebufferTexture1DEXT as *const ())),
-    (b"glFramebufferTexture2D", 1099, crate::Address(glFramebufferTexture2D as *const ())),
-    (b"glFramebufferTexture2DEXT", 1100, crate::Address(glFramebufferTexture2DEXT as *const ())),
-    (b"glFramebufferTexture3D", 1101, crate::Address(glFramebufferTexture3D as *const ())),
-    (b"glFramebufferTexture3DEXT", 1102, crate::Address(glFramebufferTexture3DEXT as *const ())),
-    (b"glFramebufferTextureARB", 1094, crate::Address(glFramebufferTextureARB as *const ())),
-    (b"glFramebufferTextureEXT", 1095, crate::Address(glFramebufferTextureEXT as *const ())),
-    (b"glFramebufferTextureLayer", 1103, crate::Address(glFramebufferTextureLayer as *const ())),
-    (b"glFramebufferTextureLayerARB", 1104, crate::Address(glFramebufferTextureLayerARB as *const ())),
-    (b"glFramebufferTextureLayerEXT", 1105, crate::Address(glFramebufferTextureLayerEXT as *const ())),
-    (b"glFramebufferTextureOES", 1096, crate::Address(glFramebufferTextureOES as *const ())),
-    (b"glFrontFace", 722, crate::Address(glFrontFace as *const ())),
+    (b"glFramebufferDrawBufferEXT", 1076, crate::Address(glFramebufferDrawBufferEXT as *const ())),
+    (b"glFramebufferDrawBuffersEXT", 1077, crate::Address(glFramebufferDrawBuffersEXT as *const ())),
+    (b"glFramebufferParameteri", 1113, crate::Address(glFramebufferParameteri as *const ())),
+    (b"glFramebufferReadBufferEXT", 1078, crate::Address(glFramebufferReadBufferEXT as *const ())),
+    (b"glFramebufferRenderbuffer", 1107, crate::Address(glFramebufferRenderbuffer as *const ())),
+    (b"glFramebufferRenderbufferEXT", 1108, crate::Address(glFramebufferRenderbufferEXT as *const ())),
+    (b"glFramebufferTexture", 1094, crate::Address(glFramebufferTexture as *const ())),
+    (b"glFramebufferTexture1D", 1098, crate::Address(glFramebufferTexture1D as *const ())),
+    (b"glFramebufferTexture1DEXT", 1099, crate::Address(glFramebufferTexture1DEXT as *const ())),
+    (b"glFramebufferTexture2D", 1100, crate::Address(glFramebufferTexture2D as *const ())),
+    (b"glFramebufferTexture2DEXT", 1101, crate::Address(glFramebufferTexture2DEXT as *const ())),
+    (b"glFramebufferTexture3D", 1102, crate::Address(glFramebufferTexture3D as *const ())),
+    (b"glFramebufferTexture3DEXT", 1103, crate::Address(glFramebufferTexture3DEXT as *const ())),
+    (b"glFramebufferTextureARB", 1095, crate::Address(glFramebufferTextureARB as *const ())),
+    (b"glFramebufferTextureEXT", 1096, crate::Address(glFramebufferTextureEXT as *const ())),
+    (b"glFramebufferTextureLayer", 1104, crate::Address(glFramebufferTextureLayer as *const ())),
+    (b"glFramebufferTextureLayerARB", 1105, crate::Address(glFramebufferTextureLayerARB as *const ())),
+    (b"glFramebufferTextureLayerEXT", 1106, crate::Address(glFramebufferTextureLayerEXT as *const ())),
+    (b"glFramebufferTextureOES", 1097, crate::Address(glFramebufferTextureOES as *const ())),
+    (b"glFrontFace", 720, crate::Address(glFrontFace as *const ())),
     (b"glFrustum", 476, crate::Address(glFrustum as *const ())),
-    (b"glGenFramebuffers", 1223, crate::Address(glGenFramebuffers as *const ())),
-    (b"glGenFramebuffersEXT", 1224, crate::Address(glGenFramebuffersEXT as *const ())),
-    (b"glGenLists", 1054, crate::Address(glGenLists as *const ())),
-    (b"glGenRenderbuffers", 1225, crate::Address(glGenRenderbuffers as *const ())),
-    (b"glGenRenderbuffersEXT", 1226, crate::Address(glGenRenderbuffersEXT as *const ())),
-    (b"glGenTextures", 1222, crate::Address(glGenTextures as *const ())),
-    (b"glGenerateMipmap", 805, crate::Address(glGenerateMipmap as *const ())),
-    (b"glGenerateMipmapEXT", 806, crate::Address(glGenerateMipmapEXT as *const ())),
-    (b"glGetBooleanv", 1087, crate::Address(glGetBooleanv as *const ())),
-    (b"glGetClipPlane", 1189, crate::Address(glGetClipPlane as *const ())),
-    (b"glGetDoublev", 1089, crate::Address(glGetDoublev as *const ())),
-    (b"glGetError", 1147, crate::Address(glGetError as *const ())),
-    (b"glGetFloatv", 1088, crate::Address(glGetFloatv as *const ())),
-    (b"glGetFramebufferAttachmentParameteriv", 1108, crate::Address(glGetFramebufferAttachmentParameteriv as *const ())),
-    (b"glGetFramebufferAttachmentParameterivEXT", 1109, crate::Address(glGetFramebufferAttachmentParameterivEXT as *const ())),
-    (b"glGetFramebufferParameteriv", 1113, crate::Address(glGetFramebufferParameteriv as *const ())),
-    (b"glGetInteger64v", 1090, crate::Address(glGetInteger64v as *const ())),
-    (b"glGetInteger64vAPPLE", 1091, crate::Address(glGetInteger64vAPPLE as *const ())),
-    (b"glGetInteger64vEXT", 1092, crate::Address(glGetInteger64vEXT as *const ())),
-    (b"glGetIntegerIndexedvEXT", 1203, crate::Address(glGetIntegerIndexedvEXT as *const ())),
-    (b"glGetIntegeri_v", 1202, crate::Address(glGetIntegeri_v as *const ())),
-    (b"glGetIntegerv", 1086, crate::Address(glGetIntegerv as *const ())),
-    (b"glGetLightfv", 1181, crate::Address(glGetLightfv as *const ())),
-    (b"glGetLightiv", 1182, crate::Address(glGetLightiv as *const ())),
-    (b"glGetMapdv", 1190, crate::Address(glGetMapdv as *const ())),
-    (b"glGetMapfv", 1191, crate::Address(glGetMapfv as *const ())),
-    (b"glGetMapiv", 1192, crate::Address(glGetMapiv as *const ())),
-    (b"glGetMaterialfv", 1183, crate::Address(glGetMaterialfv as *const ())),
-    (b"glGetMaterialiv", 1184, crate::Address(glGetMaterialiv as *const ())),
-    (b"glGetPixelMapfv", 1193, crate::Address(glGetPixelMapfv as *const ())),
-    (b"glGetPixelMapuiv", 1194, crate::Address(glGetPixelMapuiv as *const ())),
-    (b"glGetPixelMapusv", 1195, crate::Address(glGetPixelMapusv as *const ())),
-    (b"glGetPointerv", 1199, crate::Address(glGetPointerv as *const ())),
-    (b"glGetPointervEXT", 1200, crate::Address(glGetPointervEXT as *const ())),
-    (b"glGetPointervKHR", 1201, crate::Address(glGetPointervKHR as *const ())),
-    (b"glGetPolygonStipple", 1196, crate::Address(glGetPolygonStipple as *const ())),
-    (b"glGetQueryObjecti64v", 1166, crate::Address(glGetQueryObjecti64v as *const ())),
-    (b"glGetQueryObjecti64vEXT", 1167, crate::Address(glGetQueryObjecti64vEXT as *const ())),
-    (b"glGetQueryObjectiv", 1161, crate::Address(glGetQueryObjectiv as *const ())),
-    (b"glGetQueryObjectivARB", 1162, crate::Address(glGetQueryObjectivARB as *const ())),
-    (b"glGetQueryObjectivEXT", 1163, crate::Address(glGetQueryObjectivEXT as *const ())),
-    (b"glGetQueryObjectui64v", 1168, crate::Address(glGetQueryObjectui64v as *const ())),
-    (b"glGetQueryObjectui64vEXT", 1169, crate::Address(glGetQueryObjectui64vEXT as *const ())),
-    (b"glGetQueryObjectuiv", 1164, crate::Address(glGetQueryObjectuiv as *const ())),
-    (b"glGetQueryObjectuivARB", 1165, crate::Address(glGetQueryObjectuivARB as *const ())),
-    (b"glGetQueryiv", 1159, crate::Address(glGetQueryiv as *const ())),
-    (b"glGetQueryivARB", 1160, crate::Address(glGetQueryivARB as *const ())),
-    (b"glGetTexEnvfv", 1179, crate::Address(glGetTexEnvfv as *const ())),
-    (b"glGetTexEnviv", 1180, crate::Address(glGetTexEnviv as *const ())),
-    (b"glGetTexGendv", 1176, crate::Address(glGetTexGendv as *const ())),
-    (b"glGetTexGenfv", 1177, crate::Address(glGetTexGenfv as *const ())),
-    (b"glGetTexGeniv", 1178, crate::Address(glGetTexGeniv as *const ())),
-    (b"glGetTexImage", 1197, crate::Address(glGetTexImage as *const ())),
-    (b"glGetTexLevelParameterfv", 1187, crate::Address(glGetTexLevelParameterfv as *const ())),
-    (b"glGetTexLevelParameteriv", 1188, crate::Address(glGetTexLevelParameteriv as *const ())),
-    (b"glGetTexParameterfv", 1185, crate::Address(glGetTexParameterfv as *const ())),
-    (b"glGetTexParameteriv", 1186, crate::Address(glGetTexParameteriv as *const ())),
-    (b"glGetUniformfv", 1204, crate::Address(glGetUniformfv as *const ())),
-    (b"glGetUniformfvARB", 1205, crate::Address(glGetUniformfvARB as *const ())),
-    (b"glGetUniformiv", 1206, crate::Address(glGetUniformiv as *const ())),
-    (b"glGetUniformivARB", 1207, crate::Address(glGetUniformivARB as *const ())),
-    (b"glGetVertexAttribPointerv", 1217, crate::Address(glGetVertexAttribPointerv as *const ())),
-    (b"glGetVertexAttribPointervARB", 1218, crate::Address(glGetVertexAttribPointervARB as *const ())),
-    (b"glGetVertexAttribPointervNV", 1219, crate::Address(glGetVertexAttribPointervNV as *const ())),
-    (b"glGetVertexAttribdv", 1208, crate::Address(glGetVertexAttribdv as *const ())),
-    (b"glGetVertexAttribdvARB", 1209, crate::Address(glGetVertexAttribdvARB as *const ())),
-    (b"glGetVertexAttribdvNV", 1210, crate::Address(glGetVertexAttribdvNV as *const ())),
-    (b"glGetVertexAttribfv", 1211, crate::Address(glGetVertexAttribfv as *const ())),
-    (b"glGetVertexAttribfvARB", 1212, crate::Address(glGetVertexAttribfvARB as *const ())),
-    (b"glGetVertexAttribfvNV", 1213, crate::Address(glGetVertexAttribfvNV as *const ())),
-    (b"glGetVertexAttribiv", 1214, crate::Address(glGetVertexAttribiv as *const ())),
-    (b"glGetVertexAttribivARB", 1215, crate::Address(glGetVertexAttribivARB as *const ())),
-    (b"glGetVertexAttribivNV", 1216, crate::Address(glGetVertexAttribivNV as *const ())),
-    (b"glGetnTexImage", 1198, crate::Address(glGetnTexImage as *const ())),
+    (b"glGenFramebuffers", 1224, crate::Address(glGenFramebuffers as *const ())),
+    (b"glGenFramebuffersEXT", 1225, crate::Address(glGenFramebuffersEXT as *const ())),
+    (b"glGenLists", 1055, crate::Address(glGenLists as *const ())),
+    (b"glGenRenderbuffers", 1226, crate::Address(glGenRenderbuffers as *const ())),
+    (b"glGenRenderbuffersEXT", 1227, crate::Address(glGenRenderbuffersEXT as *const ())),
+    (b"glGenTextures", 1223, crate::Address(glGenTextures as *const ())),
+    (b"glGenerateMipmap", 803, crate::Address(glGenerateMipmap as *const ())),
+    (b"glGenerateMipmapEXT", 804, crate::Address(glGenerateMipmapEXT as *const ())),
+    (b"glGetBooleanv", 1088, crate::Address(glGetBooleanv as *const ())),
+    (b"glGetClipPlane", 1190, crate::Address(glGetClipPlane as *const ())),
+    (b"glGetDoublev", 1090, crate::Address(glGetDoublev as *const ())),
+    (b"glGetError", 1148, crate::Address(glGetError as *const ())),
+    (b"glGetFloatv", 1089, crate::Address(glGetFloatv as *const ())),
+    (b"glGetFramebufferAttachmentParameteriv", 1109, crate::Address(glGetFramebufferAttachmentParameteriv as *const ())),
+    (b"glGetFramebufferAttachmentParameterivEXT", 1110, crate::Address(glGetFramebufferAttachmentParameterivEXT as *const ())),
+    (b"glGetFramebufferParameteriv", 1114, crate::Address(glGetFramebufferParameteriv as *const ())),
+    (b"glGetInteger64v", 1091, crate::Address(glGetInteger64v as *const ())),
+    (b"glGetInteger64vAPPLE", 1092, crate::Address(glGetInteger64vAPPLE as *const ())),
+    (b"glGetInteger64vEXT", 1093, crate::Address(glGetInteger64vEXT as *const ())),
+    (b"glGetIntegerIndexedvEXT", 1204, crate::Address(glGetIntegerIndexedvEXT as *const ())),
+    (b"glGetIntegeri_v", 1203, crate::Address(glGetIntegeri_v as *const ())),
+    (b"glGetIntegerv", 1087, crate::Address(glGetIntegerv as *const ())),
+    (b"glGetLightfv", 1182, crate::Address(glGetLightfv as *const ())),
+    (b"glGetLightiv", 1183, crate::Address(glGetLightiv as *const ())),
+    (b"glGetMapdv", 1191, crate::Address(glGetMapdv as *const ())),
+    (b"glGetMapfv", 1192, crate::Address(glGetMapfv as *const ())),
+    (b"glGetMapiv", 1193, crate::Address(glGetMapiv as *const ())),
+    (b"glGetMaterialfv", 1184, crate::Address(glGetMaterialfv as *const ())),
+    (b"glGetMaterialiv", 1185, crate::Address(glGetMaterialiv as *const ())),
+    (b"glGetPixelMapfv", 1194, crate::Address(glGetPixelMapfv as *const ())),
+    (b"glGetPixelMapuiv", 1195, crate::Address(glGetPixelMapuiv as *const ())),
+    (b"glGetPixelMapusv", 1196, crate::Address(glGetPixelMapusv as *const ())),
+    (b"glGetPointerv", 1200, crate::Address(glGetPointerv as *const ())),
+    (b"glGetPointervEXT", 1201, crate::Address(glGetPointervEXT as *const ())),
+    (b"glGetPointervKHR", 1202, crate::Address(glGetPointervKHR as *const ())),
+    (b"glGetPolygonStipple", 1197, crate::Address(glGetPolygonStipple as *const ())),
+    (b"glGetProgramiv", 979, crate::Address(glGetProgramiv as *const ())),
+    (b"glGetQueryObjecti64v", 1167, crate::Address(glGetQueryObjecti64v as *const ())),
+    (b"glGetQueryObjecti64vEXT", 1168, crate::Address(glGetQueryObjecti64vEXT as *const ())),
+    (b"glGetQueryObjectiv", 1162, crate::Address(glGetQueryObjectiv as *const ())),
+    (b"glGetQueryObjectivARB", 1163, crate::Address(glGetQueryObjectivARB as *const ())),
+    (b"glGetQueryObjectivEXT", 1164, crate::Address(glGetQueryObjectivEXT as *const ())),
+    (b"glGetQueryObjectui64v", 1169, crate::Address(glGetQueryObjectui64v as *const ())),
+    (b"glGetQueryObjectui64vEXT", 1170, crate::Address(glGetQueryObjectui64vEXT as *const ())),
+    (b"glGetQueryObjectuiv", 1165, crate::Address(glGetQueryObjectuiv as *const ())),
+    (b"glGetQueryObjectuivARB", 1166, crate::Address(glGetQueryObjectuivARB as *const ())),
+    (b"glGetQueryiv", 1160, crate::Address(glGetQueryiv as *const ())),
+    (b"glGetQueryivARB", 1161, crate::Address(glGetQueryivARB as *const ())),
+    (b"glGetTexEnvfv", 1180, crate::Address(glGetTexEnvfv as *const ())),
+    (b"glGetTexEnviv", 1181, crate::Address(glGetTexEnviv as *const ())),
+    (b"glGetTexGendv", 1177, crate::Address(glGetTexGendv as *const ())),
+    (b"glGetTexGenfv", 1178, crate::Address(glGetTexGenfv as *const ())),
+    (b"glGetTexGeniv", 1179, crate::Address(glGetTexGeniv as *const ())),
+    (b"glGetTexImage", 1198, crate::Address(glGetTexImage as *const ())),
+    (b"glGetTexLevelParameterfv", 1188, crate::Address(glGetTexLevelParameterfv as *const ())),
+    (b"glGetTexLevelParameteriv", 1189, crate::Address(glGetTexLevelParameteriv as *const ())),
+    (b"glGetTexParameterfv", 1186, crate::Address(glGetTexParameterfv as *const ())),
+    (b"glGetTexParameteriv", 1187, crate::Address(glGetTexParameteriv as *const ())),
+    (b"glGetUniformfv", 1205, crate::Address(glGetUniformfv as *const ())),
+    (b"glGetUniformfvARB", 1206, crate::Address(glGetUniformfvARB as *const ())),
+    (b"glGetUniformiv", 1207, crate::Address(glGetUniformiv as *const ())),
+    (b"glGetUniformivARB", 1208, crate::Address(glGetUniformivARB as *const ())),
+    (b"glGetVertexAttribPointerv", 1218, crate::Address(glGetVertexAttribPointerv as *const ())),
+    (b"glGetVertexAttribPointervARB", 1219, crate::Address(glGetVertexAttribPointervARB as *const ())),
+    (b"glGetVertexAttribPointervNV", 1220, crate::Address(glGetVertexAttribPointervNV as *const ())),
+    (b"glGetVertexAttribdv", 1209, crate::Address(glGetVertexAttribdv as *const ())),
+    (b"glGetVertexAttribdvARB", 1210, crate::Address(glGetVertexAttribdvARB as *const ())),
+    (b"glGetVertexAttribdvNV", 1211, crate::Address(glGetVertexAttribdvNV as *const ())),
+    (b"glGetVertexAttribfv", 1212, crate::Address(glGetVertexAttribfv as *const ())),
+    (b"glGetVertexAttribfvARB", 1213, crate::Address(glGetVertexAttribfvARB as *const ())),
+    (b"glGetVertexAttribfvNV", 1214, crate::Address(glGetVertexAttribfvNV as *const ())),
+    (b"glGetVertexAttribiv", 1215, crate::Address(glGetVertexAttribiv as *const ())),
+    (b"glGetVertexAttribivARB", 1216, crate::Address(glGetVertexAttribivARB as *const ())),
+    (b"glGetVertexAttribivNV", 1217, crate::Address(glGetVertexAttribivNV as *const ())),
+    (b"glGetnTexImage", 1199, crate::Address(glGetnTexImage as *const ())),
     (b"glHint", 581, crate::Address(glHint as *const ())),
-    (b"glIndexMask", 723, crate::Address(glIndexMask as *const ())),
-    (b"glIndexPointer", 1260, crate::Address(glIndexPointer as *const ())),
+    (b"glIndexMask", 721, crate::Address(glIndexMask as *const ())),
+    (b"glIndexPointer", 1261, crate::Address(glIndexPointer as *const ())),
     (b"glIndexd", 236, crate::Address(glIndexd as *const ())),
     (b"glIndexdv", 237, crate::Address(glIndexdv as *const ())),
     (b"glIndexf", 238, crate::Address(glIndexf as *const ())),
@@ -3163,20 +3164,20 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1306] = [
     (b"glIndexsv", 243, crate::Address(glIndexsv as *const ())),
     (b"glIndexub", 244, crate::Address(glIndexub as *const ())),
     (b"glIndexubv", 245, crate::Address(glIndexubv as *const ())),
-    (b"glInitNames", 724, crate::Address(glInitNames as *const ())),
-    (b"glInterleavedArrays", 1251, crate::Address(glInterleavedArrays as *const ())),
-    (b"glInvalidateFramebuffer", 1114, crate::Address(glInvalidateFramebuffer as *const ())),
-    (b"glInvalidateSubFramebuffer", 1115, crate::Address(glInvalidateSubFramebuffer as *const ())),
-    (b"glIsEnabled", 1170, crate::Address(glIsEnabled as *const ())),
-    (b"glIsEnabledIndexedEXT", 1172, crate::Address(glIsEnabledIndexedEXT as *const ())),
-    (b"glIsEnabledi", 1171, crate::Address(glIsEnabledi as *const ())),
-    (b"glIsEnablediEXT", 1173, crate::Address(glIsEnablediEXT as *const ())),
-    (b"glIsEnablediNV", 1174, crate::Address(glIsEnablediNV as *const ())),
-    (b"glIsEnablediOES", 1175, crate::Address(glIsEnablediOES as *const ())),
-    (b"glIsFramebuffer", 1060, crate::Address(glIsFramebuffer as *const ())),
-    (b"glIsFramebufferEXT", 1061, crate::Address(glIsFramebufferEXT as *const ())),
-    (b"glIsList", 1055, crate::Address(glIsList as *const ())),
-    (b"glIsTexture", 1059, crate::Address(glIsTexture as *const ())),
+    (b"glInitNames", 722, crate::Address(glInitNames as *const ())),
+    (b"glInterleavedArrays", 1252, crate::Address(glInterleavedArrays as *const ())),
+    (b"glInvalidateFramebuffer", 1115, crate::Address(glInvalidateFramebuffer as *const ())),
+    (b"glInvalidateSubFramebuffer", 1116, crate::Address(glInvalidateSubFramebuffer as *const ())),
+    (b"glIsEnabled", 1171, crate::Address(glIsEnabled as *const ())),
+    (b"glIsEnabledIndexedEXT", 1173, crate::Address(glIsEnabledIndexedEXT as *const ())),
+    (b"glIsEnabledi", 1172, crate::Address(glIsEnabledi as *const ())),
+    (b"glIsEnablediEXT", 1174, crate::Address(glIsEnablediEXT as *const ())),
+    (b"glIsEnablediNV", 1175, crate::Address(glIsEnablediNV as *const ())),
+    (b"glIsEnablediOES", 1176, crate::Address(glIsEnablediOES as *const ())),
+    (b"glIsFramebuffer", 1061, crate::Address(glIsFramebuffer as *const ())),
+    (b"glIsFramebufferEXT", 1062, crate::Address(glIsFramebufferEXT as *const ())),
+    (b"glIsList", 1056, crate::Address(glIsList as *const ())),
+    (b"glIsTexture", 1060, crate::Address(glIsTexture as *const ())),
     (b"glLightModelf", 546, crate::Address(glLightModelf as *const ())),
     (b"glLightModelfv", 547, crate::Address(glLightModelfv as *const ())),
     (b"glLightModeli", 548, crate::Address(glLightModeli as *const ())),
@@ -3185,28 +3186,28 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1306] = [
     (b"glLightfv", 543, crate::Address(glLightfv as *const ())),
     (b"glLighti", 544, crate::Address(glLighti as *const ())),
     (b"glLightiv", 545, crate::Address(glLightiv as *const ())),
-    (b"glLineStipple", 729, crate::Address(glLineStipple as *const ())),
+    (b"glLineStipple", 727, crate::Address(glLineStipple as *const ())),
     (b"glLineWidth", 582, crate::Address(glLineWidth as *const ())),
-    (b"glLinkProgram", 974, crate::Address(glLinkProgram as *const ())),
-    (b"glLinkProgramARB", 975, crate::Address(glLinkProgramARB as *const ())),
-    (b"glListBase", 730, crate::Address(glListBase as *const ())),
+    (b"glLinkProgram", 972, crate::Address(glLinkProgram as *const ())),
+    (b"glLinkProgramARB", 973, crate::Address(glLinkProgramARB as *const ())),
+    (b"glListBase", 728, crate::Address(glListBase as *const ())),
     (b"glLoadIdentity", 457, crate::Address(glLoadIdentity as *const ())),
     (b"glLoadMatrixd", 458, crate::Address(glLoadMatrixd as *const ())),
     (b"glLoadMatrixf", 459, crate::Address(glLoadMatrixf as *const ())),
-    (b"glLoadName", 725, crate::Address(glLoadName as *const ())),
+    (b"glLoadName", 723, crate::Address(glLoadName as *const ())),
     (b"glLoadTransposeMatrixd", 460, crate::Address(glLoadTransposeMatrixd as *const ())),
     (b"glLoadTransposeMatrixdARB", 461, crate::Address(glLoadTransposeMatrixdARB as *const ())),
     (b"glLoadTransposeMatrixf", 462, crate::Address(glLoadTransposeMatrixf as *const ())),
     (b"glLoadTransposeMatrixfARB", 463, crate::Address(glLoadTransposeMatrixfARB as *const ())),
-    (b"glLogicOp", 731, crate::Address(glLogicOp as *const ())),
-    (b"glMap1d", 732, crate::Address(glMap1d as *const ())),
-    (b"glMap1f", 733, crate::Address(glMap1f as *const ())),
-    (b"glMap2d", 734, crate::Address(glMap2d as *const ())),
-    (b"glMap2f", 735, crate::Address(glMap2f as *const ())),
-    (b"glMapGrid1d", 736, crate::Address(glMapGrid1d as *const ())),
-    (b"glMapGrid1f", 737, crate::Address(glMapGrid1f as *const ())),
-    (b"glMapGrid2d", 738, crate::Address(glMapGrid2d as *const ())),
-    (b"glMapGrid2f", 739, crate::Address(glMapGrid2f as *const ())),
+    (b"glLogicOp", 729, crate::Address(glLogicOp as *const ())),
+    (b"glMap1d", 730, crate::Address(glMap1d as *const ())),
+    (b"glMap1f", 731, crate::Address(glMap1f as *const ())),
+    (b"glMap2d", 732, crate::Address(glMap2d as *const ())),
+    (b"glMap2f", 733, crate::Address(glMap2f as *const ())),
+    (b"glMapGrid1d", 734, crate::Address(glMapGrid1d as *const ())),
+    (b"glMapGrid1f", 735, crate::Address(glMapGrid1f as *const ())),
+    (b"glMapGrid2d", 736, crate::Address(glMapGrid2d as *const ())),
+    (b"glMapGrid2f", 737, crate::Address(glMapGrid2f as *const ())),
     (b"glMaterialf", 246, crate::Address(glMaterialf as *const ())),
     (b"glMaterialfv", 247, crate::Address(glMaterialfv as *const ())),
     (b"glMateriali", 248, crate::Address(glMateriali as *const ())),
@@ -3230,27 +3231,27 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1306] = [
     (b"glMatrixScalefEXT", 491, crate::Address(glMatrixScalefEXT as *const ())),
     (b"glMatrixTranslatedEXT", 492, crate::Address(glMatrixTranslatedEXT as *const ())),
     (b"glMatrixTranslatefEXT", 493, crate::Address(glMatrixTranslatefEXT as *const ())),
-    (b"glMinSampleShading", 754, crate::Address(glMinSampleShading as *const ())),
-    (b"glMinSampleShadingARB", 755, crate::Address(glMinSampleShadingARB as *const ())),
-    (b"glMinSampleShadingOES", 756, crate::Address(glMinSampleShadingOES as *const ())),
+    (b"glMinSampleShading", 752, crate::Address(glMinSampleShading as *const ())),
+    (b"glMinSampleShadingARB", 753, crate::Address(glMinSampleShadingARB as *const ())),
+    (b"glMinSampleShadingOES", 754, crate::Address(glMinSampleShadingOES as *const ())),
     (b"glMultMatrixd", 464, crate::Address(glMultMatrixd as *const ())),
     (b"glMultMatrixf", 465, crate::Address(glMultMatrixf as *const ())),
     (b"glMultTransposeMatrixd", 466, crate::Address(glMultTransposeMatrixd as *const ())),
     (b"glMultTransposeMatrixdARB", 467, crate::Address(glMultTransposeMatrixdARB as *const ())),
     (b"glMultTransposeMatrixf", 468, crate::Address(glMultTransposeMatrixf as *const ())),
     (b"glMultTransposeMatrixfARB", 469, crate::Address(glMultTransposeMatrixfARB as *const ())),
-    (b"glMultiDrawArrays", 989, crate::Address(glMultiDrawArrays as *const ())),
-    (b"glMultiDrawArraysEXT", 990, crate::Address(glMultiDrawArraysEXT as *const ())),
-    (b"glMultiDrawArraysIndirect", 1022, crate::Address(glMultiDrawArraysIndirect as *const ())),
-    (b"glMultiDrawArraysIndirectAMD", 1023, crate::Address(glMultiDrawArraysIndirectAMD as *const ())),
-    (b"glMultiDrawArraysIndirectEXT", 1024, crate::Address(glMultiDrawArraysIndirectEXT as *const ())),
-    (b"glMultiDrawElements", 991, crate::Address(glMultiDrawElements as *const ())),
-    (b"glMultiDrawElementsBaseVertex", 999, crate::Address(glMultiDrawElementsBaseVertex as *const ())),
-    (b"glMultiDrawElementsBaseVertexEXT", 1000, crate::Address(glMultiDrawElementsBaseVertexEXT as *const ())),
-    (b"glMultiDrawElementsEXT", 992, crate::Address(glMultiDrawElementsEXT as *const ())),
-    (b"glMultiDrawElementsIndirect", 1025, crate::Address(glMultiDrawElementsIndirect as *const ())),
-    (b"glMultiDrawElementsIndirectAMD", 1026, crate::Address(glMultiDrawElementsIndirectAMD as *const ())),
-    (b"glMultiDrawElementsIndirectEXT", 1027, crate::Address(glMultiDrawElementsIndirectEXT as *const ())),
+    (b"glMultiDrawArrays", 990, crate::Address(glMultiDrawArrays as *const ())),
+    (b"glMultiDrawArraysEXT", 991, crate::Address(glMultiDrawArraysEXT as *const ())),
+    (b"glMultiDrawArraysIndirect", 1023, crate::Address(glMultiDrawArraysIndirect as *const ())),
+    (b"glMultiDrawArraysIndirectAMD", 1024, crate::Address(glMultiDrawArraysIndirectAMD as *const ())),
+    (b"glMultiDrawArraysIndirectEXT", 1025, crate::Address(glMultiDrawArraysIndirectEXT as *const ())),
+    (b"glMultiDrawElements", 992, crate::Address(glMultiDrawElements as *const ())),
+    (b"glMultiDrawElementsBaseVertex", 1000, crate::Address(glMultiDrawElementsBaseVertex as *const ())),
+    (b"glMultiDrawElementsBaseVertexEXT", 1001, crate::Address(glMultiDrawElementsBaseVertexEXT as *const ())),
+    (b"glMultiDrawElementsEXT", 993, crate::Address(glMultiDrawElementsEXT as *const ())),
+    (b"glMultiDrawElementsIndirect", 1026, crate::Address(glMultiDrawElementsIndirect as *const ())),
+    (b"glMultiDrawElementsIndirectAMD", 1027, crate::Address(glMultiDrawElementsIndirectAMD as *const ())),
+    (b"glMultiDrawElementsIndirectEXT", 1028, crate::Address(glMultiDrawElementsIndirectEXT as *const ())),
     (b"glMultiTexCoord1d", 118, crate::Address(glMultiTexCoord1d as *const ())),
     (b"glMultiTexCoord1dARB", 119, crate::Address(glMultiTexCoord1dARB as *const ())),
     (b"glMultiTexCoord1dv", 120, crate::Address(glMultiTexCoord1dv as *const ())),
@@ -3331,10 +3332,10 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1306] = [
     (b"glMultiTexCoordP3uiv", 421, crate::Address(glMultiTexCoordP3uiv as *const ())),
     (b"glMultiTexCoordP4ui", 422, crate::Address(glMultiTexCoordP4ui as *const ())),
     (b"glMultiTexCoordP4uiv", 423, crate::Address(glMultiTexCoordP4uiv as *const ())),
-    (b"glNamedFramebufferDrawBuffer", 1072, crate::Address(glNamedFramebufferDrawBuffer as *const ())),
-    (b"glNamedFramebufferDrawBuffers", 1073, crate::Address(glNamedFramebufferDrawBuffers as *const ())),
-    (b"glNamedFramebufferReadBuffer", 1074, crate::Address(glNamedFramebufferReadBuffer as *const ())),
-    (b"glNewList", 1049, crate::Address(glNewList as *const ())),
+    (b"glNamedFramebufferDrawBuffer", 1073, crate::Address(glNamedFramebufferDrawBuffer as *const ())),
+    (b"glNamedFramebufferDrawBuffers", 1074, crate::Address(glNamedFramebufferDrawBuffers as *const ())),
+    (b"glNamedFramebufferReadBuffer", 1075, crate::Address(glNamedFramebufferReadBuffer as *const ())),
+    (b"glNewList", 1050, crate::Address(glNewList as *const ())),
     (b"glNormal3b", 66, crate::Address(glNormal3b as *const ())),
     (b"glNormal3bv", 67, crate::Address(glNormal3bv as *const ())),
     (b"glNormal3d", 68, crate::Address(glNormal3d as *const ())),
@@ -3349,17 +3350,17 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1306] = [
     (b"glNormal3sv", 75, crate::Address(glNormal3sv as *const ())),
     (b"glNormalP3ui", 438, crate::Address(glNormalP3ui as *const ())),
     (b"glNormalP3uiv", 439, crate::Address(glNormalP3uiv as *const ())),
-    (b"glNormalPointer", 1261, crate::Address(glNormalPointer as *const ())),
+    (b"glNormalPointer", 1262, crate::Address(glNormalPointer as *const ())),
     (b"glOrtho", 477, crate::Address(glOrtho as *const ())),
-    (b"glPassThrough", 728, crate::Address(glPassThrough as *const ())),
-    (b"glPixelMapfv", 740, crate::Address(glPixelMapfv as *const ())),
-    (b"glPixelMapuiv", 741, crate::Address(glPixelMapuiv as *const ())),
-    (b"glPixelMapusv", 742, crate::Address(glPixelMapusv as *const ())),
-    (b"glPixelStoref", 1243, crate::Address(glPixelStoref as *const ())),
-    (b"glPixelStorei", 1244, crate::Address(glPixelStorei as *const ())),
-    (b"glPixelTransferf", 743, crate::Address(glPixelTransferf as *const ())),
-    (b"glPixelTransferi", 744, crate::Address(glPixelTransferi as *const ())),
-    (b"glPixelZoom", 745, crate::Address(glPixelZoom as *const ())),
+    (b"glPassThrough", 726, crate::Address(glPassThrough as *const ())),
+    (b"glPixelMapfv", 738, crate::Address(glPixelMapfv as *const ())),
+    (b"glPixelMapuiv", 739, crate::Address(glPixelMapuiv as *const ())),
+    (b"glPixelMapusv", 740, crate::Address(glPixelMapusv as *const ())),
+    (b"glPixelStoref", 1244, crate::Address(glPixelStoref as *const ())),
+    (b"glPixelStorei", 1245, crate::Address(glPixelStorei as *const ())),
+    (b"glPixelTransferf", 741, crate::Address(glPixelTransferf as *const ())),
+    (b"glPixelTransferi", 742, crate::Address(glPixelTransferi as *const ())),
+    (b"glPixelZoom", 743, crate::Address(glPixelZoom as *const ())),
     (b"glPointParameterf", 561, crate::Address(glPointParameterf as *const ())),
     (b"glPointParameterfARB", 562, crate::Address(glPointParameterfARB as *const ())),
     (b"glPointParameterfEXT", 563, crate::Address(glPointParameterfEXT as *const ())),
@@ -3375,164 +3376,164 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1306] = [
     (b"glPointSize", 573, crate::Address(glPointSize as *const ())),
     (b"glPolygonMode", 575, crate::Address(glPolygonMode as *const ())),
     (b"glPolygonModeNV", 576, crate::Address(glPolygonModeNV as *const ())),
-    (b"glPolygonOffset", 746, crate::Address(glPolygonOffset as *const ())),
-    (b"glPolygonOffsetClamp", 747, crate::Address(glPolygonOffsetClamp as *const ())),
-    (b"glPolygonOffsetClampEXT", 748, crate::Address(glPolygonOffsetClampEXT as *const ())),
-    (b"glPolygonStipple", 749, crate::Address(glPolygonStipple as *const ())),
-    (b"glPopAttrib", 596, crate::Address(glPopAttrib as *const ())),
-    (b"glPopClientAttrib", 1246, crate::Address(glPopClientAttrib as *const ())),
+    (b"glPolygonOffset", 744, crate::Address(glPolygonOffset as *const ())),
+    (b"glPolygonOffsetClamp", 745, crate::Address(glPolygonOffsetClamp as *const ())),
+    (b"glPolygonOffsetClampEXT", 746, crate::Address(glPolygonOffsetClampEXT as *const ())),
+    (b"glPolygonStipple", 747, crate::Address(glPolygonStipple as *const ())),
+    (b"glPopAttrib", 594, crate::Address(glPopAttrib as *const ())),
+    (b"glPopClientAttrib", 1247, crate::Address(glPopClientAttrib as *const ())),
     (b"glPopMatrix", 479, crate::Address(glPopMatrix as *const ())),
-    (b"glPopName", 727, crate::Address(glPopName as *const ())),
-    (b"glPrimitiveRestartIndex", 764, crate::Address(glPrimitiveRestartIndex as *const ())),
-    (b"glPrioritizeTextures", 750, crate::Address(glPrioritizeTextures as *const ())),
-    (b"glPrioritizeTexturesEXT", 751, crate::Address(glPrioritizeTexturesEXT as *const ())),
-    (b"glProgramBinary", 976, crate::Address(glProgramBinary as *const ())),
-    (b"glProgramBinaryOES", 977, crate::Address(glProgramBinaryOES as *const ())),
-    (b"glProgramEnvParameter4dARB", 797, crate::Address(glProgramEnvParameter4dARB as *const ())),
-    (b"glProgramEnvParameter4dvARB", 798, crate::Address(glProgramEnvParameter4dvARB as *const ())),
-    (b"glProgramEnvParameter4fARB", 799, crate::Address(glProgramEnvParameter4fARB as *const ())),
-    (b"glProgramEnvParameter4fvARB", 800, crate::Address(glProgramEnvParameter4fvARB as *const ())),
-    (b"glProgramLocalParameter4dARB", 801, crate::Address(glProgramLocalParameter4dARB as *const ())),
-    (b"glProgramLocalParameter4dvARB", 802, crate::Address(glProgramLocalParameter4dvARB as *const ())),
-    (b"glProgramLocalParameter4fARB", 803, crate::Address(glProgramLocalParameter4fARB as *const ())),
-    (b"glProgramLocalParameter4fvARB", 804, crate::Address(glProgramLocalParameter4fvARB as *const ())),
-    (b"glProgramUniform1d", 890, crate::Address(glProgramUniform1d as *const ())),
-    (b"glProgramUniform1dv", 891, crate::Address(glProgramUniform1dv as *const ())),
-    (b"glProgramUniform1f", 892, crate::Address(glProgramUniform1f as *const ())),
-    (b"glProgramUniform1fEXT", 893, crate::Address(glProgramUniform1fEXT as *const ())),
-    (b"glProgramUniform1fv", 894, crate::Address(glProgramUniform1fv as *const ())),
-    (b"glProgramUniform1fvEXT", 895, crate::Address(glProgramUniform1fvEXT as *const ())),
-    (b"glProgramUniform1i", 896, crate::Address(glProgramUniform1i as *const ())),
-    (b"glProgramUniform1iEXT", 897, crate::Address(glProgramUniform1iEXT as *const ())),
-    (b"glProgramUniform1iv", 898, crate::Address(glProgramUniform1iv as *const ())),
-    (b"glProgramUniform1ivEXT", 899, crate::Address(glProgramUniform1ivEXT as *const ())),
-    (b"glProgramUniform1ui", 900, crate::Address(glProgramUniform1ui as *const ())),
-    (b"glProgramUniform1uiEXT", 901, crate::Address(glProgramUniform1uiEXT as *const ())),
-    (b"glProgramUniform1uiv", 902, crate::Address(glProgramUniform1uiv as *const ())),
-    (b"glProgramUniform1uivEXT", 903, crate::Address(glProgramUniform1uivEXT as *const ())),
-    (b"glProgramUniform2d", 904, crate::Address(glProgramUniform2d as *const ())),
-    (b"glProgramUniform2dv", 905, crate::Address(glProgramUniform2dv as *const ())),
-    (b"glProgramUniform2f", 906, crate::Address(glProgramUniform2f as *const ())),
-    (b"glProgramUniform2fEXT", 907, crate::Address(glProgramUniform2fEXT as *const ())),
-    (b"glProgramUniform2fv", 908, crate::Address(glProgramUniform2fv as *const ())),
-    (b"glProgramUniform2fvEXT", 909, crate::Address(glProgramUniform2fvEXT as *const ())),
-    (b"glProgramUniform2i", 910, crate::Address(glProgramUniform2i as *const ())),
-    (b"glProgramUniform2iEXT", 911, crate::Address(glProgramUniform2iEXT as *const ())),
-    (b"glProgramUniform2iv", 912, crate::Address(glProgramUniform2iv as *const ())),
-    (b"glProgramUniform2ivEXT", 913, crate::Address(glProgramUniform2ivEXT as *const ())),
-    (b"glProgramUniform2ui", 914, crate::Address(glProgramUniform2ui as *const ())),
-    (b"glProgramUniform2uiEXT", 915, crate::Address(glProgramUniform2uiEXT as *const ())),
-    (b"glProgramUniform2uiv", 916, crate::Address(glProgramUniform2uiv as *const ())),
-    (b"glProgramUniform2uivEXT", 917, crate::Address(glProgramUniform2uivEXT as *const ())),
-    (b"glProgramUniform3d", 918, crate::Address(glProgramUniform3d as *const ())),
-    (b"glProgramUniform3dv", 919, crate::Address(glProgramUniform3dv as *const ())),
-    (b"glProgramUniform3f", 920, crate::Address(glProgramUniform3f as *const ())),
-    (b"glProgramUniform3fEXT", 921, crate::Address(glProgramUniform3fEXT as *const ())),
-    (b"glProgramUniform3fv", 922, crate::Address(glProgramUniform3fv as *const ())),
-    (b"glProgramUniform3fvEXT", 923, crate::Address(glProgramUniform3fvEXT as *const ())),
-    (b"glProgramUniform3i", 924, crate::Address(glProgramUniform3i as *const ())),
-    (b"glProgramUniform3iEXT", 925, crate::Address(glProgramUniform3iEXT as *const ())),
-    (b"glProgramUniform3iv", 926, crate::Address(glProgramUniform3iv as *const ())),
-    (b"glProgramUniform3ivEXT", 927, crate::Address(glProgramUniform3ivEXT as *const ())),
-    (b"glProgramUniform3ui", 928, crate::Address(glProgramUniform3ui as *const ())),
-    (b"glProgramUniform3uiEXT", 929, crate::Address(glProgramUniform3uiEXT as *const ())),
-    (b"glProgramUniform3uiv", 930, crate::Address(glProgramUniform3uiv as *const ())),
-    (b"glProgramUniform3uivEXT", 931, crate::Address(glProgramUniform3uivEXT as *const ())),
-    (b"glProgramUniform4d", 932, crate::Address(glProgramUniform4d as *const ())),
-    (b"glProgramUniform4dv", 933, crate::Address(glProgramUniform4dv as *const ())),
-    (b"glProgramUniform4f", 934, crate::Address(glProgramUniform4f as *const ())),
-    (b"glProgramUniform4fEXT", 935, crate::Address(glProgramUniform4fEXT as *const ())),
-    (b"glProgramUniform4fv", 936, crate::Address(glProgramUniform4fv as *const ())),
-    (b"glProgramUniform4fvEXT", 937, crate::Address(glProgramUniform4fvEXT as *const ())),
-    (b"glProgramUniform4i", 938, crate::Address(glProgramUniform4i as *const ())),
-    (b"glProgramUniform4iEXT", 939, crate::Address(glProgramUniform4iEXT as *const ())),
-    (b"glProgramUniform4iv", 940, crate::Address(glProgramUniform4iv as *const ())),
-    (b"glProgramUniform4ivEXT", 941, crate::Address(glProgramUniform4ivEXT as *const ())),
-    (b"glProgramUniform4ui", 942, crate::Address(glProgramUniform4ui as *const ())),
-    (b"glProgramUniform4uiEXT", 943, crate::Address(glProgramUniform4uiEXT as *const ())),
-    (b"glProgramUniform4uiv", 944, crate::Address(glProgramUniform4uiv as *const ())),
-    (b"glProgramUniform4uivEXT", 945, crate::Address(glProgramUniform4uivEXT as *const ())),
-    (b"glProgramUniformMatrix2dv", 946, crate::Address(glProgramUniformMatrix2dv as *const ())),
-    (b"glProgramUniformMatrix2fv", 947, crate::Address(glProgramUniformMatrix2fv as *const ())),
-    (b"glProgramUniformMatrix2fvEXT", 948, crate::Address(glProgramUniformMatrix2fvEXT as *const ())),
-    (b"glProgramUniformMatrix2x3dv", 949, crate::Address(glProgramUniformMatrix2x3dv as *const ())),
-    (b"glProgramUniformMatrix2x3fv", 950, crate::Address(glProgramUniformMatrix2x3fv as *const ())),
-    (b"glProgramUniformMatrix2x3fvEXT", 951, crate::Address(glProgramUniformMatrix2x3fvEXT as *const ())),
-    (b"glProgramUniformMatrix2x4dv", 952, crate::Address(glProgramUniformMatrix2x4dv as *const ())),
-    (b"glProgramUniformMatrix2x4fv", 953, crate::Address(glProgramUniformMatrix2x4fv as *const ())),
-    (b"glProgramUniformMatrix2x4fvEXT", 954, crate::Address(glProgramUniformMatrix2x4fvEXT as *const ())),
-    (b"glProgramUniformMatrix3dv", 955, crate::Address(glProgramUniformMatrix3dv as *const ())),
-    (b"glProgramUniformMatrix3fv", 956, crate::Address(glProgramUniformMatrix3fv as *const ())),
-    (b"glProgramUniformMatrix3fvEXT", 957, crate::Address(glProgramUniformMatrix3fvEXT as *const ())),
-    (b"glProgramUniformMatrix3x2dv", 958, crate::Address(glProgramUniformMatrix3x2dv as *const ())),
-    (b"glProgramUniformMatrix3x2fv", 959, crate::Address(glProgramUniformMatrix3x2fv as *const ())),
-    (b"glProgramUniformMatrix3x2fvEXT", 960, crate::Address(glProgramUniformMatrix3x2fvEXT as *const ())),
-    (b"glProgramUniformMatrix3x4dv", 961, crate::Address(glProgramUniformMatrix3x4dv as *const ())),
-    (b"glProgramUniformMatrix3x4fv", 962, crate::Address(glProgramUniformMatrix3x4fv as *const ())),
-    (b"glProgramUniformMatrix3x4fvEXT", 963, crate::Address(glProgramUniformMatrix3x4fvEXT as *const ())),
-    (b"glProgramUniformMatrix4dv", 964, crate::Address(glProgramUniformMatrix4dv as *const ())),
-    (b"glProgramUniformMatrix4fv", 965, crate::Address(glProgramUniformMatrix4fv as *const ())),
-    (b"glProgramUniformMatrix4fvEXT", 966, crate::Address(glProgramUniformMatrix4fvEXT as *const ())),
-    (b"glProgramUniformMatrix4x2dv", 967, crate::Address(glProgramUniformMatrix4x2dv as *const ())),
-    (b"glProgramUniformMatrix4x2fv", 968, crate::Address(glProgramUniformMatrix4x2fv as *const ())),
-    (b"glProgramUniformMatrix4x2fvEXT", 969, crate::Address(glProgramUniformMatrix4x2fvEXT as *const ())),
-    (b"glProgramUniformMatrix4x3dv", 970, crate::Address(glProgramUniformMatrix4x3dv as *const ())),
-    (b"glProgramUniformMatrix4x3fv", 971, crate::Address(glProgramUniformMatrix4x3fv as *const ())),
-    (b"glProgramUniformMatrix4x3fvEXT", 972, crate::Address(glProgramUniformMatrix4x3fvEXT as *const ())),
+    (b"glPopName", 725, crate::Address(glPopName as *const ())),
+    (b"glPrimitiveRestartIndex", 762, crate::Address(glPrimitiveRestartIndex as *const ())),
+    (b"glPrioritizeTextures", 748, crate::Address(glPrioritizeTextures as *const ())),
+    (b"glPrioritizeTexturesEXT", 749, crate::Address(glPrioritizeTexturesEXT as *const ())),
+    (b"glProgramBinary", 974, crate::Address(glProgramBinary as *const ())),
+    (b"glProgramBinaryOES", 975, crate::Address(glProgramBinaryOES as *const ())),
+    (b"glProgramEnvParameter4dARB", 795, crate::Address(glProgramEnvParameter4dARB as *const ())),
+    (b"glProgramEnvParameter4dvARB", 796, crate::Address(glProgramEnvParameter4dvARB as *const ())),
+    (b"glProgramEnvParameter4fARB", 797, crate::Address(glProgramEnvParameter4fARB as *const ())),
+    (b"glProgramEnvParameter4fvARB", 798, crate::Address(glProgramEnvParameter4fvARB as *const ())),
+    (b"glProgramLocalParameter4dARB", 799, crate::Address(glProgramLocalParameter4dARB as *const ())),
+    (b"glProgramLocalParameter4dvARB", 800, crate::Address(glProgramLocalParameter4dvARB as *const ())),
+    (b"glProgramLocalParameter4fARB", 801, crate::Address(glProgramLocalParameter4fARB as *const ())),
+    (b"glProgramLocalParameter4fvARB", 802, crate::Address(glProgramLocalParameter4fvARB as *const ())),
+    (b"glProgramUniform1d", 888, crate::Address(glProgramUniform1d as *const ())),
+    (b"glProgramUniform1dv", 889, crate::Address(glProgramUniform1dv as *const ())),
+    (b"glProgramUniform1f", 890, crate::Address(glProgramUniform1f as *const ())),
+    (b"glProgramUniform1fEXT", 891, crate::Address(glProgramUniform1fEXT as *const ())),
+    (b"glProgramUniform1fv", 892, crate::Address(glProgramUniform1fv as *const ())),
+    (b"glProgramUniform1fvEXT", 893, crate::Address(glProgramUniform1fvEXT as *const ())),
+    (b"glProgramUniform1i", 894, crate::Address(glProgramUniform1i as *const ())),
+    (b"glProgramUniform1iEXT", 895, crate::Address(glProgramUniform1iEXT as *const ())),
+    (b"glProgramUniform1iv", 896, crate::Address(glProgramUniform1iv as *const ())),
+    (b"glProgramUniform1ivEXT", 897, crate::Address(glProgramUniform1ivEXT as *const ())),
+    (b"glProgramUniform1ui", 898, crate::Address(glProgramUniform1ui as *const ())),
+    (b"glProgramUniform1uiEXT", 899, crate::Address(glProgramUniform1uiEXT as *const ())),
+    (b"glProgramUniform1uiv", 900, crate::Address(glProgramUniform1uiv as *const ())),
+    (b"glProgramUniform1uivEXT", 901, crate::Address(glProgramUniform1uivEXT as *const ())),
+    (b"glProgramUniform2d", 902, crate::Address(glProgramUniform2d as *const ())),
+    (b"glProgramUniform2dv", 903, crate::Address(glProgramUniform2dv as *const ())),
+    (b"glProgramUniform2f", 904, crate::Address(glProgramUniform2f as *const ())),
+    (b"glProgramUniform2fEXT", 905, crate::Address(glProgramUniform2fEXT as *const ())),
+    (b"glProgramUniform2fv", 906, crate::Address(glProgramUniform2fv as *const ())),
+    (b"glProgramUniform2fvEXT", 907, crate::Address(glProgramUniform2fvEXT as *const ())),
+    (b"glProgramUniform2i", 908, crate::Address(glProgramUniform2i as *const ())),
+    (b"glProgramUniform2iEXT", 909, crate::Address(glProgramUniform2iEXT as *const ())),
+    (b"glProgramUniform2iv", 910, crate::Address(glProgramUniform2iv as *const ())),
+    (b"glProgramUniform2ivEXT", 911, crate::Address(glProgramUniform2ivEXT as *const ())),
+    (b"glProgramUniform2ui", 912, crate::Address(glProgramUniform2ui as *const ())),
+    (b"glProgramUniform2uiEXT", 913, crate::Address(glProgramUniform2uiEXT as *const ())),
+    (b"glProgramUniform2uiv", 914, crate::Address(glProgramUniform2uiv as *const ())),
+    (b"glProgramUniform2uivEXT", 915, crate::Address(glProgramUniform2uivEXT as *const ())),
+    (b"glProgramUniform3d", 916, crate::Address(glProgramUniform3d as *const ())),
+    (b"glProgramUniform3dv", 917, crate::Address(glProgramUniform3dv as *const ())),
+    (b"glProgramUniform3f", 918, crate::Address(glProgramUniform3f as *const ())),
+    (b"glProgramUniform3fEXT", 919, crate::Address(glProgramUniform3fEXT as *const ())),
+    (b"glProgramUniform3fv", 920, crate::Address(glProgramUniform3fv as *const ())),
+    (b"glProgramUniform3fvEXT", 921, crate::Address(glProgramUniform3fvEXT as *const ())),
+    (b"glProgramUniform3i", 922, crate::Address(glProgramUniform3i as *const ())),
+    (b"glProgramUniform3iEXT", 923, crate::Address(glProgramUniform3iEXT as *const ())),
+    (b"glProgramUniform3iv", 924, crate::Address(glProgramUniform3iv as *const ())),
+    (b"glProgramUniform3ivEXT", 925, crate::Address(glProgramUniform3ivEXT as *const ())),
+    (b"glProgramUniform3ui", 926, crate::Address(glProgramUniform3ui as *const ())),
+    (b"glProgramUniform3uiEXT", 927, crate::Address(glProgramUniform3uiEXT as *const ())),
+    (b"glProgramUniform3uiv", 928, crate::Address(glProgramUniform3uiv as *const ())),
+    (b"glProgramUniform3uivEXT", 929, crate::Address(glProgramUniform3uivEXT as *const ())),
+    (b"glProgramUniform4d", 930, crate::Address(glProgramUniform4d as *const ())),
+    (b"glProgramUniform4dv", 931, crate::Address(glProgramUniform4dv as *const ())),
+    (b"glProgramUniform4f", 932, crate::Address(glProgramUniform4f as *const ())),
+    (b"glProgramUniform4fEXT", 933, crate::Address(glProgramUniform4fEXT as *const ())),
+    (b"glProgramUniform4fv", 934, crate::Address(glProgramUniform4fv as *const ())),
+    (b"glProgramUniform4fvEXT", 935, crate::Address(glProgramUniform4fvEXT as *const ())),
+    (b"glProgramUniform4i", 936, crate::Address(glProgramUniform4i as *const ())),
+    (b"glProgramUniform4iEXT", 937, crate::Address(glProgramUniform4iEXT as *const ())),
+    (b"glProgramUniform4iv", 938, crate::Address(glProgramUniform4iv as *const ())),
+    (b"glProgramUniform4ivEXT", 939, crate::Address(glProgramUniform4ivEXT as *const ())),
+    (b"glProgramUniform4ui", 940, crate::Address(glProgramUniform4ui as *const ())),
+    (b"glProgramUniform4uiEXT", 941, crate::Address(glProgramUniform4uiEXT as *const ())),
+    (b"glProgramUniform4uiv", 942, crate::Address(glProgramUniform4uiv as *const ())),
+    (b"glProgramUniform4uivEXT", 943, crate::Address(glProgramUniform4uivEXT as *const ())),
+    (b"glProgramUniformMatrix2dv", 944, crate::Address(glProgramUniformMatrix2dv as *const ())),
+    (b"glProgramUniformMatrix2fv", 945, crate::Address(glProgramUniformMatrix2fv as *const ())),
+    (b"glProgramUniformMatrix2fvEXT", 946, crate::Address(glProgramUniformMatrix2fvEXT as *const ())),
+    (b"glProgramUniformMatrix2x3dv", 947, crate::Address(glProgramUniformMatrix2x3dv as *const ())),
+    (b"glProgramUniformMatrix2x3fv", 948, crate::Address(glProgramUniformMatrix2x3fv as *const ())),
+    (b"glProgramUniformMatrix2x3fvEXT", 949, crate::Address(glProgramUniformMatrix2x3fvEXT as *const ())),
+    (b"glProgramUniformMatrix2x4dv", 950, crate::Address(glProgramUniformMatrix2x4dv as *const ())),
+    (b"glProgramUniformMatrix2x4fv", 951, crate::Address(glProgramUniformMatrix2x4fv as *const ())),
+    (b"glProgramUniformMatrix2x4fvEXT", 952, crate::Address(glProgramUniformMatrix2x4fvEXT as *const ())),
+    (b"glProgramUniformMatrix3dv", 953, crate::Address(glProgramUniformMatrix3dv as *const ())),
+    (b"glProgramUniformMatrix3fv", 954, crate::Address(glProgramUniformMatrix3fv as *const ())),
+    (b"glProgramUniformMatrix3fvEXT", 955, crate::Address(glProgramUniformMatrix3fvEXT as *const ())),
+    (b"glProgramUniformMatrix3x2dv", 956, crate::Address(glProgramUniformMatrix3x2dv as *const ())),
+    (b"glProgramUniformMatrix3x2fv", 957, crate::Address(glProgramUniformMatrix3x2fv as *const ())),
+    (b"glProgramUniformMatrix3x2fvEXT", 958, crate::Address(glProgramUniformMatrix3x2fvEXT as *const ())),
+    (b"glProgramUniformMatrix3x4dv", 959, crate::Address(glProgramUniformMatrix3x4dv as *const ())),
+    (b"glProgramUniformMatrix3x4fv", 960, crate::Address(glProgramUniformMatrix3x4fv as *const ())),
+    (b"glProgramUniformMatrix3x4fvEXT", 961, crate::Address(glProgramUniformMatrix3x4fvEXT as *const ())),
+    (b"glProgramUniformMatrix4dv", 962, crate::Address(glProgramUniformMatrix4dv as *const ())),
+    (b"glProgramUniformMatrix4fv", 963, crate::Address(glProgramUniformMatrix4fv as *const ())),
+    (b"glProgramUniformMatrix4fvEXT", 964, crate::Address(glProgramUniformMatrix4fvEXT as *const ())),
+    (b"glProgramUniformMatrix4x2dv", 965, crate::Address(glProgramUniformMatrix4x2dv as *const ())),
+    (b"glProgramUniformMatrix4x2fv", 966, crate::Address(glProgramUniformMatrix4x2fv as *const ())),
+    (b"glProgramUniformMatrix4x2fvEXT", 967, crate::Address(glProgramUniformMatrix4x2fvEXT as *const ())),
+    (b"glProgramUniformMatrix4x3dv", 968, crate::Address(glProgramUniformMatrix4x3dv as *const ())),
+    (b"glProgramUniformMatrix4x3fv", 969, crate::Address(glProgramUniformMatrix4x3fv as *const ())),
+    (b"glProgramUniformMatrix4x3fvEXT", 970, crate::Address(glProgramUniformMatrix4x3fvEXT as *const ())),
     (b"glProvokingVertex", 583, crate::Address(glProvokingVertex as *const ())),
     (b"glProvokingVertexEXT", 584, crate::Address(glProvokingVertexEXT as *const ())),
-    (b"glPushAttrib", 595, crate::Address(glPushAttrib as *const ())),
-    (b"glPushClientAttrib", 1245, crate::Address(glPushClientAttrib as *const ())),
+    (b"glPushAttrib", 593, crate::Address(glPushAttrib as *const ())),
+    (b"glPushClientAttrib", 1246, crate::Address(glPushClientAttrib as *const ())),
     (b"glPushMatrix", 478, crate::Address(glPushMatrix as *const ())),
-    (b"glPushName", 726, crate::Address(glPushName as *const ())),
-    (b"glRasterPos2d", 597, crate::Address(glRasterPos2d as *const ())),
-    (b"glRasterPos2dv", 598, crate::Address(glRasterPos2dv as *const ())),
-    (b"glRasterPos2f", 599, crate::Address(glRasterPos2f as *const ())),
-    (b"glRasterPos2fv", 600, crate::Address(glRasterPos2fv as *const ())),
-    (b"glRasterPos2i", 601, crate::Address(glRasterPos2i as *const ())),
-    (b"glRasterPos2iv", 602, crate::Address(glRasterPos2iv as *const ())),
-    (b"glRasterPos2s", 603, crate::Address(glRasterPos2s as *const ())),
-    (b"glRasterPos2sv", 604, crate::Address(glRasterPos2sv as *const ())),
-    (b"glRasterPos3d", 605, crate::Address(glRasterPos3d as *const ())),
-    (b"glRasterPos3dv", 606, crate::Address(glRasterPos3dv as *const ())),
-    (b"glRasterPos3f", 607, crate::Address(glRasterPos3f as *const ())),
-    (b"glRasterPos3fv", 608, crate::Address(glRasterPos3fv as *const ())),
-    (b"glRasterPos3i", 609, crate::Address(glRasterPos3i as *const ())),
-    (b"glRasterPos3iv", 610, crate::Address(glRasterPos3iv as *const ())),
-    (b"glRasterPos3s", 611, crate::Address(glRasterPos3s as *const ())),
-    (b"glRasterPos3sv", 612, crate::Address(glRasterPos3sv as *const ())),
-    (b"glRasterPos4d", 613, crate::Address(glRasterPos4d as *const ())),
-    (b"glRasterPos4dv", 614, crate::Address(glRasterPos4dv as *const ())),
-    (b"glRasterPos4f", 615, crate::Address(glRasterPos4f as *const ())),
-    (b"glRasterPos4fv", 616, crate::Address(glRasterPos4fv as *const ())),
-    (b"glRasterPos4i", 617, crate::Address(glRasterPos4i as *const ())),
-    (b"glRasterPos4iv", 618, crate::Address(glRasterPos4iv as *const ())),
-    (b"glRasterPos4s", 619, crate::Address(glRasterPos4s as *const ())),
-    (b"glRasterPos4sv", 620, crate::Address(glRasterPos4sv as *const ())),
-    (b"glReadBuffer", 1071, crate::Address(glReadBuffer as *const ())),
-    (b"glReadPixels", 1125, crate::Address(glReadPixels as *const ())),
-    (b"glReadnPixels", 1126, crate::Address(glReadnPixels as *const ())),
-    (b"glReadnPixelsARB", 1127, crate::Address(glReadnPixelsARB as *const ())),
-    (b"glReadnPixelsEXT", 1128, crate::Address(glReadnPixelsEXT as *const ())),
-    (b"glReadnPixelsKHR", 1129, crate::Address(glReadnPixelsKHR as *const ())),
-    (b"glRectd", 1035, crate::Address(glRectd as *const ())),
-    (b"glRectdv", 1036, crate::Address(glRectdv as *const ())),
-    (b"glRectf", 1037, crate::Address(glRectf as *const ())),
-    (b"glRectfv", 1038, crate::Address(glRectfv as *const ())),
-    (b"glRecti", 1039, crate::Address(glRecti as *const ())),
-    (b"glRectiv", 1040, crate::Address(glRectiv as *const ())),
-    (b"glRects", 1041, crate::Address(glRects as *const ())),
-    (b"glRectsv", 1042, crate::Address(glRectsv as *const ())),
-    (b"glRenderMode", 669, crate::Address(glRenderMode as *const ())),
-    (b"glRenderbufferStorage", 1228, crate::Address(glRenderbufferStorage as *const ())),
-    (b"glRenderbufferStorageEXT", 1229, crate::Address(glRenderbufferStorageEXT as *const ())),
-    (b"glRenderbufferStorageMultisample", 1230, crate::Address(glRenderbufferStorageMultisample as *const ())),
-    (b"glRenderbufferStorageMultisampleEXT", 1231, crate::Address(glRenderbufferStorageMultisampleEXT as *const ())),
-    (b"glRenderbufferStorageMultisampleNV", 1232, crate::Address(glRenderbufferStorageMultisampleNV as *const ())),
+    (b"glPushName", 724, crate::Address(glPushName as *const ())),
+    (b"glRasterPos2d", 595, crate::Address(glRasterPos2d as *const ())),
+    (b"glRasterPos2dv", 596, crate::Address(glRasterPos2dv as *const ())),
+    (b"glRasterPos2f", 597, crate::Address(glRasterPos2f as *const ())),
+    (b"glRasterPos2fv", 598, crate::Address(glRasterPos2fv as *const ())),
+    (b"glRasterPos2i", 599, crate::Address(glRasterPos2i as *const ())),
+    (b"glRasterPos2iv", 600, crate::Address(glRasterPos2iv as *const ())),
+    (b"glRasterPos2s", 601, crate::Address(glRasterPos2s as *const ())),
+    (b"glRasterPos2sv", 602, crate::Address(glRasterPos2sv as *const ())),
+    (b"glRasterPos3d", 603, crate::Address(glRasterPos3d as *const ())),
+    (b"glRasterPos3dv", 604, crate::Address(glRasterPos3dv as *const ())),
+    (b"glRasterPos3f", 605, crate::Address(glRasterPos3f as *const ())),
+    (b"glRasterPos3fv", 606, crate::Address(glRasterPos3fv as *const ())),
+    (b"glRasterPos3i", 607, crate::Address(glRasterPos3i as *const ())),
+    (b"glRasterPos3iv", 608, crate::Address(glRasterPos3iv as *const ())),
+    (b"glRasterPos3s", 609, crate::Address(glRasterPos3s as *const ())),
+    (b"glRasterPos3sv", 610, crate::Address(glRasterPos3sv as *const ())),
+    (b"glRasterPos4d", 611, crate::Address(glRasterPos4d as *const ())),
+    (b"glRasterPos4dv", 612, crate::Address(glRasterPos4dv as *const ())),
+    (b"glRasterPos4f", 613, crate::Address(glRasterPos4f as *const ())),
+    (b"glRasterPos4fv", 614, crate::Address(glRasterPos4fv as *const ())),
+    (b"glRasterPos4i", 615, crate::Address(glRasterPos4i as *const ())),
+    (b"glRasterPos4iv", 616, crate::Address(glRasterPos4iv as *const ())),
+    (b"glRasterPos4s", 617, crate::Address(glRasterPos4s as *const ())),
+    (b"glRasterPos4sv", 618, crate::Address(glRasterPos4sv as *const ())),
+    (b"glReadBuffer", 1072, crate::Address(glReadBuffer as *const ())),
+    (b"glReadPixels", 1126, crate::Address(glReadPixels as *const ())),
+    (b"glReadnPixels", 1127, crate::Address(glReadnPixels as *const ())),
+    (b"glReadnPixelsARB", 1128, crate::Address(glReadnPixelsARB as *const ())),
+    (b"glReadnPixelsEXT", 1129, crate::Address(glReadnPixelsEXT as *const ())),
+    (b"glReadnPixelsKHR", 1130, crate::Address(glReadnPixelsKHR as *const ())),
+    (b"glRectd", 1036, crate::Address(glRectd as *const ())),
+    (b"glRectdv", 1037, crate::Address(glRectdv as *const ())),
+    (b"glRectf", 1038, crate::Address(glRectf as *const ())),
+    (b"glRectfv", 1039, crate::Address(glRectfv as *const ())),
+    (b"glRecti", 1040, crate::Address(glRecti as *const ())),
+    (b"glRectiv", 1041, crate::Address(glRectiv as *const ())),
+    (b"glRects", 1042, crate::Address(glRects as *const ())),
+    (b"glRectsv", 1043, crate::Address(glRectsv as *const ())),
+    (b"glRenderMode", 667, crate::Address(glRenderMode as *const ())),
+    (b"glRenderbufferStorage", 1229, crate::Address(glRenderbufferStorage as *const ())),
+    (b"glRenderbufferStorageEXT", 1230, crate::Address(glRenderbufferStorageEXT as *const ())),
+    (b"glRenderbufferStorageMultisample", 1231, crate::Address(glRenderbufferStorageMultisample as *const ())),
+    (b"glRenderbufferStorageMultisampleEXT", 1232, crate::Address(glRenderbufferStorageMultisampleEXT as *const ())),
+    (b"glRenderbufferStorageMultisampleNV", 1233, crate::Address(glRenderbufferStorageMultisampleNV as *const ())),
     (b"glRotated", 470, crate::Address(glRotated as *const ())),
     (b"glRotatef", 471, crate::Address(glRotatef as *const ())),
-    (b"glSampleCoverage", 752, crate::Address(glSampleCoverage as *const ())),
-    (b"glSampleCoverageARB", 753, crate::Address(glSampleCoverageARB as *const ())),
+    (b"glSampleCoverage", 750, crate::Address(glSampleCoverage as *const ())),
+    (b"glSampleCoverageARB", 751, crate::Address(glSampleCoverageARB as *const ())),
     (b"glScaled", 472, crate::Address(glScaled as *const ())),
     (b"glScalef", 473, crate::Address(glScalef as *const ())),
     (b"glScissor", 499, crate::Address(glScissor as *const ())),
@@ -3581,17 +3582,17 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1306] = [
     (b"glSecondaryColor3usvEXT", 221, crate::Address(glSecondaryColor3usvEXT as *const ())),
     (b"glSecondaryColorP3ui", 444, crate::Address(glSecondaryColorP3ui as *const ())),
     (b"glSecondaryColorP3uiv", 445, crate::Address(glSecondaryColorP3uiv as *const ())),
-    (b"glSecondaryColorPointer", 1253, crate::Address(glSecondaryColorPointer as *const ())),
-    (b"glSecondaryColorPointerEXT", 1254, crate::Address(glSecondaryColorPointerEXT as *const ())),
-    (b"glSelectBuffer", 1221, crate::Address(glSelectBuffer as *const ())),
+    (b"glSecondaryColorPointer", 1254, crate::Address(glSecondaryColorPointer as *const ())),
+    (b"glSecondaryColorPointerEXT", 1255, crate::Address(glSecondaryColorPointerEXT as *const ())),
+    (b"glSelectBuffer", 1222, crate::Address(glSelectBuffer as *const ())),
     (b"glShadeModel", 574, crate::Address(glShadeModel as *const ())),
-    (b"glStencilFunc", 757, crate::Address(glStencilFunc as *const ())),
-    (b"glStencilFuncSeparate", 758, crate::Address(glStencilFuncSeparate as *const ())),
-    (b"glStencilMask", 759, crate::Address(glStencilMask as *const ())),
-    (b"glStencilMaskSeparate", 760, crate::Address(glStencilMaskSeparate as *const ())),
-    (b"glStencilOp", 761, crate::Address(glStencilOp as *const ())),
-    (b"glStencilOpSeparate", 762, crate::Address(glStencilOpSeparate as *const ())),
-    (b"glStencilOpSeparateATI", 763, crate::Address(glStencilOpSeparateATI as *const ())),
+    (b"glStencilFunc", 755, crate::Address(glStencilFunc as *const ())),
+    (b"glStencilFuncSeparate", 756, crate::Address(glStencilFuncSeparate as *const ())),
+    (b"glStencilMask", 757, crate::Address(glStencilMask as *const ())),
+    (b"glStencilMaskSeparate", 758, crate::Address(glStencilMaskSeparate as *const ())),
+    (b"glStencilOp", 759, crate::Address(glStencilOp as *const ())),
+    (b"glStencilOpSeparate", 760, crate::Address(glStencilOpSeparate as *const ())),
+    (b"glStencilOpSeparateATI", 761, crate::Address(glStencilOpSeparateATI as *const ())),
     (b"glTexCoord1d", 78, crate::Address(glTexCoord1d as *const ())),
     (b"glTexCoord1dv", 79, crate::Address(glTexCoord1dv as *const ())),
     (b"glTexCoord1f", 80, crate::Address(glTexCoord1f as *const ())),
@@ -3640,7 +3641,7 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1306] = [
     (b"glTexCoordP3uiv", 429, crate::Address(glTexCoordP3uiv as *const ())),
     (b"glTexCoordP4ui", 430, crate::Address(glTexCoordP4ui as *const ())),
     (b"glTexCoordP4uiv", 431, crate::Address(glTexCoordP4uiv as *const ())),
-    (b"glTexCoordPointer", 1255, crate::Address(glTexCoordPointer as *const ())),
+    (b"glTexCoordPointer", 1256, crate::Address(glTexCoordPointer as *const ())),
     (b"glTexEnvf", 577, crate::Address(glTexEnvf as *const ())),
     (b"glTexEnvfv", 578, crate::Address(glTexEnvfv as *const ())),
     (b"glTexEnvi", 579, crate::Address(glTexEnvi as *const ())),
@@ -3651,114 +3652,114 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1306] = [
     (b"glTexGenfv", 554, crate::Address(glTexGenfv as *const ())),
     (b"glTexGeni", 555, crate::Address(glTexGeni as *const ())),
     (b"glTexGeniv", 556, crate::Address(glTexGeniv as *const ())),
-    (b"glTexImage1D", 765, crate::Address(glTexImage1D as *const ())),
-    (b"glTexImage2D", 766, crate::Address(glTexImage2D as *const ())),
-    (b"glTexImage3D", 767, crate::Address(glTexImage3D as *const ())),
-    (b"glTexImage3DEXT", 768, crate::Address(glTexImage3DEXT as *const ())),
-    (b"glTexParameterIiv", 791, crate::Address(glTexParameterIiv as *const ())),
-    (b"glTexParameterIivEXT", 792, crate::Address(glTexParameterIivEXT as *const ())),
-    (b"glTexParameterIivOES", 793, crate::Address(glTexParameterIivOES as *const ())),
-    (b"glTexParameterIuiv", 794, crate::Address(glTexParameterIuiv as *const ())),
-    (b"glTexParameterIuivEXT", 795, crate::Address(glTexParameterIuivEXT as *const ())),
-    (b"glTexParameterIuivOES", 796, crate::Address(glTexParameterIuivOES as *const ())),
-    (b"glTexParameterf", 787, crate::Address(glTexParameterf as *const ())),
-    (b"glTexParameterfv", 788, crate::Address(glTexParameterfv as *const ())),
-    (b"glTexParameteri", 789, crate::Address(glTexParameteri as *const ())),
-    (b"glTexParameteriv", 790, crate::Address(glTexParameteriv as *const ())),
-    (b"glTexSubImage1D", 769, crate::Address(glTexSubImage1D as *const ())),
-    (b"glTexSubImage1DEXT", 770, crate::Address(glTexSubImage1DEXT as *const ())),
-    (b"glTexSubImage2D", 771, crate::Address(glTexSubImage2D as *const ())),
-    (b"glTexSubImage2DEXT", 772, crate::Address(glTexSubImage2DEXT as *const ())),
-    (b"glTexSubImage3D", 773, crate::Address(glTexSubImage3D as *const ())),
-    (b"glTexSubImage3DEXT", 774, crate::Address(glTexSubImage3DEXT as *const ())),
+    (b"glTexImage1D", 763, crate::Address(glTexImage1D as *const ())),
+    (b"glTexImage2D", 764, crate::Address(glTexImage2D as *const ())),
+    (b"glTexImage3D", 765, crate::Address(glTexImage3D as *const ())),
+    (b"glTexImage3DEXT", 766, crate::Address(glTexImage3DEXT as *const ())),
+    (b"glTexParameterIiv", 789, crate::Address(glTexParameterIiv as *const ())),
+    (b"glTexParameterIivEXT", 790, crate::Address(glTexParameterIivEXT as *const ())),
+    (b"glTexParameterIivOES", 791, crate::Address(glTexParameterIivOES as *const ())),
+    (b"glTexParameterIuiv", 792, crate::Address(glTexParameterIuiv as *const ())),
+    (b"glTexParameterIuivEXT", 793, crate::Address(glTexParameterIuivEXT as *const ())),
+    (b"glTexParameterIuivOES", 794, crate::Address(glTexParameterIuivOES as *const ())),
+    (b"glTexParameterf", 785, crate::Address(glTexParameterf as *const ())),
+    (b"glTexParameterfv", 786, crate::Address(glTexParameterfv as *const ())),
+    (b"glTexParameteri", 787, crate::Address(glTexParameteri as *const ())),
+    (b"glTexParameteriv", 788, crate::Address(glTexParameteriv as *const ())),
+    (b"glTexSubImage1D", 767, crate::Address(glTexSubImage1D as *const ())),
+    (b"glTexSubImage1DEXT", 768, crate::Address(glTexSubImage1DEXT as *const ())),
+    (b"glTexSubImage2D", 769, crate::Address(glTexSubImage2D as *const ())),
+    (b"glTexSubImage2DEXT", 770, crate::Address(glTexSubImage2DEXT as *const ())),
+    (b"glTexSubImage3D", 771, crate::Address(glTexSubImage3D as *const ())),
+    (b"glTexSubImage3DEXT", 772, crate::Address(glTexSubImage3DEXT as *const ())),
     (b"glTranslated", 474, crate::Address(glTranslated as *const ())),
     (b"glTranslatef", 475, crate::Address(glTranslatef as *const ())),
-    (b"glUniform1d", 807, crate::Address(glUniform1d as *const ())),
-    (b"glUniform1dv", 808, crate::Address(glUniform1dv as *const ())),
-    (b"glUniform1f", 809, crate::Address(glUniform1f as *const ())),
-    (b"glUniform1fARB", 810, crate::Address(glUniform1fARB as *const ())),
-    (b"glUniform1fv", 811, crate::Address(glUniform1fv as *const ())),
-    (b"glUniform1fvARB", 812, crate::Address(glUniform1fvARB as *const ())),
-    (b"glUniform1i", 813, crate::Address(glUniform1i as *const ())),
-    (b"glUniform1iARB", 814, crate::Address(glUniform1iARB as *const ())),
-    (b"glUniform1iv", 815, crate::Address(glUniform1iv as *const ())),
-    (b"glUniform1ivARB", 816, crate::Address(glUniform1ivARB as *const ())),
-    (b"glUniform1ui", 817, crate::Address(glUniform1ui as *const ())),
-    (b"glUniform1uiEXT", 818, crate::Address(glUniform1uiEXT as *const ())),
-    (b"glUniform1uiv", 819, crate::Address(glUniform1uiv as *const ())),
-    (b"glUniform1uivEXT", 820, crate::Address(glUniform1uivEXT as *const ())),
-    (b"glUniform2d", 821, crate::Address(glUniform2d as *const ())),
-    (b"glUniform2dv", 822, crate::Address(glUniform2dv as *const ())),
-    (b"glUniform2f", 823, crate::Address(glUniform2f as *const ())),
-    (b"glUniform2fARB", 824, crate::Address(glUniform2fARB as *const ())),
-    (b"glUniform2fv", 825, crate::Address(glUniform2fv as *const ())),
-    (b"glUniform2fvARB", 826, crate::Address(glUniform2fvARB as *const ())),
-    (b"glUniform2i", 827, crate::Address(glUniform2i as *const ())),
-    (b"glUniform2iARB", 828, crate::Address(glUniform2iARB as *const ())),
-    (b"glUniform2iv", 829, crate::Address(glUniform2iv as *const ())),
-    (b"glUniform2ivARB", 830, crate::Address(glUniform2ivARB as *const ())),
-    (b"glUniform2ui", 831, crate::Address(glUniform2ui as *const ())),
-    (b"glUniform2uiEXT", 832, crate::Address(glUniform2uiEXT as *const ())),
-    (b"glUniform2uiv", 833, crate::Address(glUniform2uiv as *const ())),
-    (b"glUniform2uivEXT", 834, crate::Address(glUniform2uivEXT as *const ())),
-    (b"glUniform3d", 835, crate::Address(glUniform3d as *const ())),
-    (b"glUniform3dv", 836, crate::Address(glUniform3dv as *const ())),
-    (b"glUniform3f", 837, crate::Address(glUniform3f as *const ())),
-    (b"glUniform3fARB", 838, crate::Address(glUniform3fARB as *const ())),
-    (b"glUniform3fv", 839, crate::Address(glUniform3fv as *const ())),
-    (b"glUniform3fvARB", 840, crate::Address(glUniform3fvARB as *const ())),
-    (b"glUniform3i", 841, crate::Address(glUniform3i as *const ())),
-    (b"glUniform3iARB", 842, crate::Address(glUniform3iARB as *const ())),
-    (b"glUniform3iv", 843, crate::Address(glUniform3iv as *const ())),
-    (b"glUniform3ivARB", 844, crate::Address(glUniform3ivARB as *const ())),
-    (b"glUniform3ui", 845, crate::Address(glUniform3ui as *const ())),
-    (b"glUniform3uiEXT", 846, crate::Address(glUniform3uiEXT as *const ())),
-    (b"glUniform3uiv", 847, crate::Address(glUniform3uiv as *const ())),
-    (b"glUniform3uivEXT", 848, crate::Address(glUniform3uivEXT as *const ())),
-    (b"glUniform4d", 849, crate::Address(glUniform4d as *const ())),
-    (b"glUniform4dv", 850, crate::Address(glUniform4dv as *const ())),
-    (b"glUniform4f", 851, crate::Address(glUniform4f as *const ())),
-    (b"glUniform4fARB", 852, crate::Address(glUniform4fARB as *const ())),
-    (b"glUniform4fv", 853, crate::Address(glUniform4fv as *const ())),
-    (b"glUniform4fvARB", 854, crate::Address(glUniform4fvARB as *const ())),
-    (b"glUniform4i", 855, crate::Address(glUniform4i as *const ())),
-    (b"glUniform4iARB", 856, crate::Address(glUniform4iARB as *const ())),
-    (b"glUniform4iv", 857, crate::Address(glUniform4iv as *const ())),
-    (b"glUniform4ivARB", 858, crate::Address(glUniform4ivARB as *const ())),
-    (b"glUniform4ui", 859, crate::Address(glUniform4ui as *const ())),
-    (b"glUniform4uiEXT", 860, crate::Address(glUniform4uiEXT as *const ())),
-    (b"glUniform4uiv", 861, crate::Address(glUniform4uiv as *const ())),
-    (b"glUniform4uivEXT", 862, crate::Address(glUniform4uivEXT as *const ())),
-    (b"glUniformBlockBinding", 973, crate::Address(glUniformBlockBinding as *const ())),
-    (b"glUniformMatrix2dv", 863, crate::Address(glUniformMatrix2dv as *const ())),
-    (b"glUniformMatrix2fv", 864, crate::Address(glUniformMatrix2fv as *const ())),
-    (b"glUniformMatrix2fvARB", 865, crate::Address(glUniformMatrix2fvARB as *const ())),
-    (b"glUniformMatrix2x3dv", 866, crate::Address(glUniformMatrix2x3dv as *const ())),
-    (b"glUniformMatrix2x3fv", 867, crate::Address(glUniformMatrix2x3fv as *const ())),
-    (b"glUniformMatrix2x3fvNV", 868, crate::Address(glUniformMatrix2x3fvNV as *const ())),
-    (b"glUniformMatrix2x4dv", 869, crate::Address(glUniformMatrix2x4dv as *const ())),
-    (b"glUniformMatrix2x4fv", 870, crate::Address(glUniformMatrix2x4fv as *const ())),
-    (b"glUniformMatrix2x4fvNV", 871, crate::Address(glUniformMatrix2x4fvNV as *const ())),
-    (b"glUniformMatrix3dv", 872, crate::Address(glUniformMatrix3dv as *const ())),
-    (b"glUniformMatrix3fv", 873, crate::Address(glUniformMatrix3fv as *const ())),
-    (b"glUniformMatrix3fvARB", 874, crate::Address(glUniformMatrix3fvARB as *const ())),
-    (b"glUniformMatrix3x2dv", 875, crate::Address(glUniformMatrix3x2dv as *const ())),
-    (b"glUniformMatrix3x2fv", 876, crate::Address(glUniformMatrix3x2fv as *const ())),
-    (b"glUniformMatrix3x2fvNV", 877, crate::Address(glUniformMatrix3x2fvNV as *const ())),
-    (b"glUniformMatrix3x4dv", 878, crate::Address(glUniformMatrix3x4dv as *const ())),
-    (b"glUniformMatrix3x4fv", 879, crate::Address(glUniformMatrix3x4fv as *const ())),
-    (b"glUniformMatrix3x4fvNV", 880, crate::Address(glUniformMatrix3x4fvNV as *const ())),
-    (b"glUniformMatrix4dv", 881, crate::Address(glUniformMatrix4dv as *const ())),
-    (b"glUniformMatrix4fv", 882, crate::Address(glUniformMatrix4fv as *const ())),
-    (b"glUniformMatrix4fvARB", 883, crate::Address(glUniformMatrix4fvARB as *const ())),
-    (b"glUniformMatrix4x2dv", 884, crate::Address(glUniformMatrix4x2dv as *const ())),
-    (b"glUniformMatrix4x2fv", 885, crate::Address(glUniformMatrix4x2fv as *const ())),
-    (b"glUniformMatrix4x2fvNV", 886, crate::Address(glUniformMatrix4x2fvNV as *const ())),
-    (b"glUniformMatrix4x3dv", 887, crate::Address(glUniformMatrix4x3dv as *const ())),
-    (b"glUniformMatrix4x3fv", 888, crate::Address(glUniformMatrix4x3fv as *const ())),
-    (b"glUniformMatrix4x3fvNV", 889, crate::Address(glUniformMatrix4x3fvNV as *const ())),
-    (b"glUseProgram", 592, crate::Address(glUseProgram as *const ())),
-    (b"glUseProgramObjectARB", 593, crate::Address(glUseProgramObjectARB as *const ())),
+    (b"glUniform1d", 805, crate::Address(glUniform1d as *const ())),
+    (b"glUniform1dv", 806, crate::Address(glUniform1dv as *const ())),
+    (b"glUniform1f", 807, crate::Address(glUniform1f as *const ())),
+    (b"glUniform1fARB", 808, crate::Address(glUniform1fARB as *const ())),
+    (b"glUniform1fv", 809, crate::Address(glUniform1fv as *const ())),
+    (b"glUniform1fvARB", 810, crate::Address(glUniform1fvARB as *const ())),
+    (b"glUniform1i", 811, crate::Address(glUniform1i as *const ())),
+    (b"glUniform1iARB", 812, crate::Address(glUniform1iARB as *const ())),
+    (b"glUniform1iv", 813, crate::Address(glUniform1iv as *const ())),
+    (b"glUniform1ivARB", 814, crate::Address(glUniform1ivARB as *const ())),
+    (b"glUniform1ui", 815, crate::Address(glUniform1ui as *const ())),
+    (b"glUniform1uiEXT", 816, crate::Address(glUniform1uiEXT as *const ())),
+    (b"glUniform1uiv", 817, crate::Address(glUniform1uiv as *const ())),
+    (b"glUniform1uivEXT", 818, crate::Address(glUniform1uivEXT as *const ())),
+    (b"glUniform2d", 819, crate::Address(glUniform2d as *const ())),
+    (b"glUniform2dv", 820, crate::Address(glUniform2dv as *const ())),
+    (b"glUniform2f", 821, crate::Address(glUniform2f as *const ())),
+    (b"glUniform2fARB", 822, crate::Address(glUniform2fARB as *const ())),
+    (b"glUniform2fv", 823, crate::Address(glUniform2fv as *const ())),
+    (b"glUniform2fvARB", 824, crate::Address(glUniform2fvARB as *const ())),
+    (b"glUniform2i", 825, crate::Address(glUniform2i as *const ())),
+    (b"glUniform2iARB", 826, crate::Address(glUniform2iARB as *const ())),
+    (b"glUniform2iv", 827, crate::Address(glUniform2iv as *const ())),
+    (b"glUniform2ivARB", 828, crate::Address(glUniform2ivARB as *const ())),
+    (b"glUniform2ui", 829, crate::Address(glUniform2ui as *const ())),
+    (b"glUniform2uiEXT", 830, crate::Address(glUniform2uiEXT as *const ())),
+    (b"glUniform2uiv", 831, crate::Address(glUniform2uiv as *const ())),
+    (b"glUniform2uivEXT", 832, crate::Address(glUniform2uivEXT as *const ())),
+    (b"glUniform3d", 833, crate::Address(glUniform3d as *const ())),
+    (b"glUniform3dv", 834, crate::Address(glUniform3dv as *const ())),
+    (b"glUniform3f", 835, crate::Address(glUniform3f as *const ())),
+    (b"glUniform3fARB", 836, crate::Address(glUniform3fARB as *const ())),
+    (b"glUniform3fv", 837, crate::Address(glUniform3fv as *const ())),
+    (b"glUniform3fvARB", 838, crate::Address(glUniform3fvARB as *const ())),
+    (b"glUniform3i", 839, crate::Address(glUniform3i as *const ())),
+    (b"glUniform3iARB", 840, crate::Address(glUniform3iARB as *const ())),
+    (b"glUniform3iv", 841, crate::Address(glUniform3iv as *const ())),
+    (b"glUniform3ivARB", 842, crate::Address(glUniform3ivARB as *const ())),
+    (b"glUniform3ui", 843, crate::Address(glUniform3ui as *const ())),
+    (b"glUniform3uiEXT", 844, crate::Address(glUniform3uiEXT as *const ())),
+    (b"glUniform3uiv", 845, crate::Address(glUniform3uiv as *const ())),
+    (b"glUniform3uivEXT", 846, crate::Address(glUniform3uivEXT as *const ())),
+    (b"glUniform4d", 847, crate::Address(glUniform4d as *const ())),
+    (b"glUniform4dv", 848, crate::Address(glUniform4dv as *const ())),
+    (b"glUniform4f", 849, crate::Address(glUniform4f as *const ())),
+    (b"glUniform4fARB", 850, crate::Address(glUniform4fARB as *const ())),
+    (b"glUniform4fv", 851, crate::Address(glUniform4fv as *const ())),
+    (b"glUniform4fvARB", 852, crate::Address(glUniform4fvARB as *const ())),
+    (b"glUniform4i", 853, crate::Address(glUniform4i as *const ())),
+    (b"glUniform4iARB", 854, crate::Address(glUniform4iARB as *const ())),
+    (b"glUniform4iv", 855, crate::Address(glUniform4iv as *const ())),
+    (b"glUniform4ivARB", 856, crate::Address(glUniform4ivARB as *const ())),
+    (b"glUniform4ui", 857, crate::Address(glUniform4ui as *const ())),
+    (b"glUniform4uiEXT", 858, crate::Address(glUniform4uiEXT as *const ())),
+    (b"glUniform4uiv", 859, crate::Address(glUniform4uiv as *const ())),
+    (b"glUniform4uivEXT", 860, crate::Address(glUniform4uivEXT as *const ())),
+    (b"glUniformBlockBinding", 971, crate::Address(glUniformBlockBinding as *const ())),
+    (b"glUniformMatrix2dv", 861, crate::Address(glUniformMatrix2dv as *const ())),
+    (b"glUniformMatrix2fv", 862, crate::Address(glUniformMatrix2fv as *const ())),
+    (b"glUniformMatrix2fvARB", 863, crate::Address(glUniformMatrix2fvARB as *const ())),
+    (b"glUniformMatrix2x3dv", 864, crate::Address(glUniformMatrix2x3dv as *const ())),
+    (b"glUniformMatrix2x3fv", 865, crate::Address(glUniformMatrix2x3fv as *const ())),
+    (b"glUniformMatrix2x3fvNV", 866, crate::Address(glUniformMatrix2x3fvNV as *const ())),
+    (b"glUniformMatrix2x4dv", 867, crate::Address(glUniformMatrix2x4dv as *const ())),
+    (b"glUniformMatrix2x4fv", 868, crate::Address(glUniformMatrix2x4fv as *const ())),
+    (b"glUniformMatrix2x4fvNV", 869, crate::Address(glUniformMatrix2x4fvNV as *const ())),
+    (b"glUniformMatrix3dv", 870, crate::Address(glUniformMatrix3dv as *const ())),
+    (b"glUniformMatrix3fv", 871, crate::Address(glUniformMatrix3fv as *const ())),
+    (b"glUniformMatrix3fvARB", 872, crate::Address(glUniformMatrix3fvARB as *const ())),
+    (b"glUniformMatrix3x2dv", 873, crate::Address(glUniformMatrix3x2dv as *const ())),
+    (b"glUniformMatrix3x2fv", 874, crate::Address(glUniformMatrix3x2fv as *const ())),
+    (b"glUniformMatrix3x2fvNV", 875, crate::Address(glUniformMatrix3x2fvNV as *const ())),
+    (b"glUniformMatrix3x4dv", 876, crate::Address(glUniformMatrix3x4dv as *const ())),
+    (b"glUniformMatrix3x4fv", 877, crate::Address(glUniformMatrix3x4fv as *const ())),
+    (b"glUniformMatrix3x4fvNV", 878, crate::Address(glUniformMatrix3x4fvNV as *const ())),
+    (b"glUniformMatrix4dv", 879, crate::Address(glUniformMatrix4dv as *const ())),
+    (b"glUniformMatrix4fv", 880, crate::Address(glUniformMatrix4fv as *const ())),
+    (b"glUniformMatrix4fvARB", 881, crate::Address(glUniformMatrix4fvARB as *const ())),
+    (b"glUniformMatrix4x2dv", 882, crate::Address(glUniformMatrix4x2dv as *const ())),
+    (b"glUniformMatrix4x2fv", 883, crate::Address(glUniformMatrix4x2fv as *const ())),
+    (b"glUniformMatrix4x2fvNV", 884, crate::Address(glUniformMatrix4x2fvNV as *const ())),
+    (b"glUniformMatrix4x3dv", 885, crate::Address(glUniformMatrix4x3dv as *const ())),
+    (b"glUniformMatrix4x3fv", 886, crate::Address(glUniformMatrix4x3fv as *const ())),
+    (b"glUniformMatrix4x3fvNV", 887, crate::Address(glUniformMatrix4x3fvNV as *const ())),
+    (b"glUseProgram", 976, crate::Address(glUseProgram as *const ())),
+    (b"glUseProgramObjectARB", 977, crate::Address(glUseProgramObjectARB as *const ())),
     (b"glUseProgramStages", 589, crate::Address(glUseProgramStages as *const ())),
     (b"glVertex2d", 0, crate::Address(glVertex2d as *const ())),
     (b"glVertex2dv", 1, crate::Address(glVertex2dv as *const ())),
@@ -3952,15 +3953,15 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1306] = [
     (b"glVertexAttribP3uiv", 451, crate::Address(glVertexAttribP3uiv as *const ())),
     (b"glVertexAttribP4ui", 452, crate::Address(glVertexAttribP4ui as *const ())),
     (b"glVertexAttribP4uiv", 453, crate::Address(glVertexAttribP4uiv as *const ())),
-    (b"glVertexAttribPointer", 1262, crate::Address(glVertexAttribPointer as *const ())),
-    (b"glVertexAttribPointerARB", 1263, crate::Address(glVertexAttribPointerARB as *const ())),
+    (b"glVertexAttribPointer", 1263, crate::Address(glVertexAttribPointer as *const ())),
+    (b"glVertexAttribPointerARB", 1264, crate::Address(glVertexAttribPointerARB as *const ())),
     (b"glVertexP2ui", 432, crate::Address(glVertexP2ui as *const ())),
     (b"glVertexP2uiv", 433, crate::Address(glVertexP2uiv as *const ())),
     (b"glVertexP3ui", 434, crate::Address(glVertexP3ui as *const ())),
     (b"glVertexP3uiv", 435, crate::Address(glVertexP3uiv as *const ())),
     (b"glVertexP4ui", 436, crate::Address(glVertexP4ui as *const ())),
     (b"glVertexP4uiv", 437, crate::Address(glVertexP4uiv as *const ())),
-    (b"glVertexPointer", 1256, crate::Address(glVertexPointer as *const ())),
+    (b"glVertexPointer", 1257, crate::Address(glVertexPointer as *const ())),
     (b"glViewport", 498, crate::Address(glViewport as *const ())),
     (b"glViewportArrayv", 509, crate::Address(glViewportArrayv as *const ())),
     (b"glViewportArrayvNV", 510, crate::Address(glViewportArrayvNV as *const ())),
@@ -3971,71 +3972,71 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1306] = [
     (b"glViewportIndexedfv", 515, crate::Address(glViewportIndexedfv as *const ())),
     (b"glViewportIndexedfvNV", 516, crate::Address(glViewportIndexedfvNV as *const ())),
     (b"glViewportIndexedfvOES", 517, crate::Address(glViewportIndexedfvOES as *const ())),
-    (b"glWindowPos2d", 621, crate::Address(glWindowPos2d as *const ())),
-    (b"glWindowPos2dARB", 622, crate::Address(glWindowPos2dARB as *const ())),
-    (b"glWindowPos2dMESA", 623, crate::Address(glWindowPos2dMESA as *const ())),
-    (b"glWindowPos2dv", 624, crate::Address(glWindowPos2dv as *const ())),
-    (b"glWindowPos2dvARB", 625, crate::Address(glWindowPos2dvARB as *const ())),
-    (b"glWindowPos2dvMESA", 626, crate::Address(glWindowPos2dvMESA as *const ())),
-    (b"glWindowPos2f", 627, crate::Address(glWindowPos2f as *const ())),
-    (b"glWindowPos2fARB", 628, crate::Address(glWindowPos2fARB as *const ())),
-    (b"glWindowPos2fMESA", 629, crate::Address(glWindowPos2fMESA as *const ())),
-    (b"glWindowPos2fv", 630, crate::Address(glWindowPos2fv as *const ())),
-    (b"glWindowPos2fvARB", 631, crate::Address(glWindowPos2fvARB as *const ())),
-    (b"glWindowPos2fvMESA", 632, crate::Address(glWindowPos2fvMESA as *const ())),
-    (b"glWindowPos2i", 633, crate::Address(glWindowPos2i as *const ())),
-    (b"glWindowPos2iARB", 634, crate::Address(glWindowPos2iARB as *const ())),
-    (b"glWindowPos2iMESA", 635, crate::Address(glWindowPos2iMESA as *const ())),
-    (b"glWindowPos2iv", 636, crate::Address(glWindowPos2iv as *const ())),
-    (b"glWindowPos2ivARB", 637, crate::Address(glWindowPos2ivARB as *const ())),
-    (b"glWindowPos2ivMESA", 638, crate::Address(glWindowPos2ivMESA as *const ())),
-    (b"glWindowPos2s", 639, crate::Address(glWindowPos2s as *const ())),
-    (b"glWindowPos2sARB", 640, crate::Address(glWindowPos2sARB as *const ())),
-    (b"glWindowPos2sMESA", 641, crate::Address(glWindowPos2sMESA as *const ())),
-    (b"glWindowPos2sv", 642, crate::Address(glWindowPos2sv as *const ())),
-    (b"glWindowPos2svARB", 643, crate::Address(glWindowPos2svARB as *const ())),
-    (b"glWindowPos2svMESA", 644, crate::Address(glWindowPos2svMESA as *const ())),
-    (b"glWindowPos3d", 645, crate::Address(glWindowPos3d as *const ())),
-    (b"glWindowPos3dARB", 646, crate::Address(glWindowPos3dARB as *const ())),
-    (b"glWindowPos3dMESA", 647, crate::Address(glWindowPos3dMESA as *const ())),
-    (b"glWindowPos3dv", 648, crate::Address(glWindowPos3dv as *const ())),
-    (b"glWindowPos3dvARB", 649, crate::Address(glWindowPos3dvARB as *const ())),
-    (b"glWindowPos3dvMESA", 650, crate::Address(glWindowPos3dvMESA as *const ())),
-    (b"glWindowPos3f", 651, crate::Address(glWindowPos3f as *const ())),
-    (b"glWindowPos3fARB", 652, crate::Address(glWindowPos3fARB as *const ())),
-    (b"glWindowPos3fMESA", 653, crate::Address(glWindowPos3fMESA as *const ())),
-    (b"glWindowPos3fv", 654, crate::Address(glWindowPos3fv as *const ())),
-    (b"glWindowPos3fvARB", 655, crate::Address(glWindowPos3fvARB as *const ())),
-    (b"glWindowPos3fvMESA", 656, crate::Address(glWindowPos3fvMESA as *const ())),
-    (b"glWindowPos3i", 657, crate::Address(glWindowPos3i as *const ())),
-    (b"glWindowPos3iARB", 658, crate::Address(glWindowPos3iARB as *const ())),
-    (b"glWindowPos3iMESA", 659, crate::Address(glWindowPos3iMESA as *const ())),
-    (b"glWindowPos3iv", 660, crate::Address(glWindowPos3iv as *const ())),
-    (b"glWindowPos3ivARB", 661, crate::Address(glWindowPos3ivARB as *const ())),
-    (b"glWindowPos3ivMESA", 662, crate::Address(glWindowPos3ivMESA as *const ())),
-    (b"glWindowPos3s", 663, crate::Address(glWindowPos3s as *const ())),
-    (b"glWindowPos3sARB", 664, crate::Address(glWindowPos3sARB as *const ())),
-    (b"glWindowPos3sMESA", 665, crate::Address(glWindowPos3sMESA as *const ())),
-    (b"glWindowPos3sv", 666, crate::Address(glWindowPos3sv as *const ())),
-    (b"glWindowPos3svARB", 667, crate::Address(glWindowPos3svARB as *const ())),
-    (b"glWindowPos3svMESA", 668, crate::Address(glWindowPos3svMESA as *const ())),
-    (b"glXChooseFBConfig", 1269, crate::Address(glXChooseFBConfig as *const ())),
-    (b"glXChooseFBConfigSGIX", 1270, crate::Address(glXChooseFBConfigSGIX as *const ())),
-    (b"glXChooseVisual", 1268, crate::Address(glXChooseVisual as *const ())),
-    (b"glXCreateContext", 1276, crate::Address(glXCreateContext as *const ())),
-    (b"glXCreateContextAttribsARB", 1278, crate::Address(glXCreateContextAttribsARB as *const ())),
-    (b"glXCreateContextWithConfigSGIX", 1279, crate::Address(glXCreateContextWithConfigSGIX as *const ())),
-    (b"glXCreateNewContext", 1277, crate::Address(glXCreateNewContext as *const ())),
-    (b"glXCreateWindow", 1281, crate::Address(glXCreateWindow as *const ())),
-    (b"glXDestroyContext", 1280, crate::Address(glXDestroyContext as *const ())),
-    (b"glXDestroyWindow", 1282, crate::Address(glXDestroyWindow as *const ())),
-    (b"glXGetProcAddress", 1283, crate::Address(glXGetProcAddress as *const ())),
-    (b"glXGetProcAddressARB", 1284, crate::Address(glXGetProcAddressARB as *const ())),
-    (b"glXMakeContextCurrent", 1274, crate::Address(glXMakeContextCurrent as *const ())),
-    (b"glXMakeCurrent", 1273, crate::Address(glXMakeCurrent as *const ())),
-    (b"glXMakeCurrentReadSGI", 1275, crate::Address(glXMakeCurrentReadSGI as *const ())),
-    (b"glXSwapBuffers", 1271, crate::Address(glXSwapBuffers as *const ())),
-    (b"glXSwapBuffersMscOML", 1272, crate::Address(glXSwapBuffersMscOML as *const ())),
+    (b"glWindowPos2d", 619, crate::Address(glWindowPos2d as *const ())),
+    (b"glWindowPos2dARB", 620, crate::Address(glWindowPos2dARB as *const ())),
+    (b"glWindowPos2dMESA", 621, crate::Address(glWindowPos2dMESA as *const ())),
+    (b"glWindowPos2dv", 622, crate::Address(glWindowPos2dv as *const ())),
+    (b"glWindowPos2dvARB", 623, crate::Address(glWindowPos2dvARB as *const ())),
+    (b"glWindowPos2dvMESA", 624, crate::Address(glWindowPos2dvMESA as *const ())),
+    (b"glWindowPos2f", 625, crate::Address(glWindowPos2f as *const ())),
+    (b"glWindowPos2fARB", 626, crate::Address(glWindowPos2fARB as *const ())),
+    (b"glWindowPos2fMESA", 627, crate::Address(glWindowPos2fMESA as *const ())),
+    (b"glWindowPos2fv", 628, crate::Address(glWindowPos2fv as *const ())),
+    (b"glWindowPos2fvARB", 629, crate::Address(glWindowPos2fvARB as *const ())),
+    (b"glWindowPos2fvMESA", 630, crate::Address(glWindowPos2fvMESA as *const ())),
+    (b"glWindowPos2i", 631, crate::Address(glWindowPos2i as *const ())),
+    (b"glWindowPos2iARB", 632, crate::Address(glWindowPos2iARB as *const ())),
+    (b"glWindowPos2iMESA", 633, crate::Address(glWindowPos2iMESA as *const ())),
+    (b"glWindowPos2iv", 634, crate::Address(glWindowPos2iv as *const ())),
+    (b"glWindowPos2ivARB", 635, crate::Address(glWindowPos2ivARB as *const ())),
+    (b"glWindowPos2ivMESA", 636, crate::Address(glWindowPos2ivMESA as *const ())),
+    (b"glWindowPos2s", 637, crate::Address(glWindowPos2s as *const ())),
+    (b"glWindowPos2sARB", 638, crate::Address(glWindowPos2sARB as *const ())),
+    (b"glWindowPos2sMESA", 639, crate::Address(glWindowPos2sMESA as *const ())),
+    (b"glWindowPos2sv", 640, crate::Address(glWindowPos2sv as *const ())),
+    (b"glWindowPos2svARB", 641, crate::Address(glWindowPos2svARB as *const ())),
+    (b"glWindowPos2svMESA", 642, crate::Address(glWindowPos2svMESA as *const ())),
+    (b"glWindowPos3d", 643, crate::Address(glWindowPos3d as *const ())),
+    (b"glWindowPos3dARB", 644, crate::Address(glWindowPos3dARB as *const ())),
+    (b"glWindowPos3dMESA", 645, crate::Address(glWindowPos3dMESA as *const ())),
+    (b"glWindowPos3dv", 646, crate::Address(glWindowPos3dv as *const ())),
+    (b"glWindowPos3dvARB", 647, crate::Address(glWindowPos3dvARB as *const ())),
+    (b"glWindowPos3dvMESA", 648, crate::Address(glWindowPos3dvMESA as *const ())),
+    (b"glWindowPos3f", 649, crate::Address(glWindowPos3f as *const ())),
+    (b"glWindowPos3fARB", 650, crate::Address(glWindowPos3fARB as *const ())),
+    (b"glWindowPos3fMESA", 651, crate::Address(glWindowPos3fMESA as *const ())),
+    (b"glWindowPos3fv", 652, crate::Address(glWindowPos3fv as *const ())),
+    (b"glWindowPos3fvARB", 653, crate::Address(glWindowPos3fvARB as *const ())),
+    (b"glWindowPos3fvMESA", 654, crate::Address(glWindowPos3fvMESA as *const ())),
+    (b"glWindowPos3i", 655, crate::Address(glWindowPos3i as *const ())),
+    (b"glWindowPos3iARB", 656, crate::Address(glWindowPos3iARB as *const ())),
+    (b"glWindowPos3iMESA", 657, crate::Address(glWindowPos3iMESA as *const ())),
+    (b"glWindowPos3iv", 658, crate::Address(glWindowPos3iv as *const ())),
+    (b"glWindowPos3ivARB", 659, crate::Address(glWindowPos3ivARB as *const ())),
+    (b"glWindowPos3ivMESA", 660, crate::Address(glWindowPos3ivMESA as *const ())),
+    (b"glWindowPos3s", 661, crate::Address(glWindowPos3s as *const ())),
+    (b"glWindowPos3sARB", 662, crate::Address(glWindowPos3sARB as *const ())),
+    (b"glWindowPos3sMESA", 663, crate::Address(glWindowPos3sMESA as *const ())),
+    (b"glWindowPos3sv", 664, crate::Address(glWindowPos3sv as *const ())),
+    (b"glWindowPos3svARB", 665, crate::Address(glWindowPos3svARB as *const ())),
+    (b"glWindowPos3svMESA", 666, crate::Address(glWindowPos3svMESA as *const ())),
+    (b"glXChooseFBConfig", 1270, crate::Address(glXChooseFBConfig as *const ())),
+    (b"glXChooseFBConfigSGIX", 1271, crate::Address(glXChooseFBConfigSGIX as *const ())),
+    (b"glXChooseVisual", 1269, crate::Address(glXChooseVisual as *const ())),
+    (b"glXCreateContext", 1277, crate::Address(glXCreateContext as *const ())),
+    (b"glXCreateContextAttribsARB", 1279, crate::Address(glXCreateContextAttribsARB as *const ())),
+    (b"glXCreateContextWithConfigSGIX", 1280, crate::Address(glXCreateContextWithConfigSGIX as *const ())),
+    (b"glXCreateNewContext", 1278, crate::Address(glXCreateNewContext as *const ())),
+    (b"glXCreateWindow", 1282, crate::Address(glXCreateWindow as *const ())),
+    (b"glXDestroyContext", 1281, crate::Address(glXDestroyContext as *const ())),
+    (b"glXDestroyWindow", 1283, crate::Address(glXDestroyWindow as *const ())),
+    (b"glXGetProcAddress", 1284, crate::Address(glXGetProcAddress as *const ())),
+    (b"glXGetProcAddressARB", 1285, crate::Address(glXGetProcAddressARB as *const ())),
+    (b"glXMakeContextCurrent", 1275, crate::Address(glXMakeContextCurrent as *const ())),
+    (b"glXMakeCurrent", 1274, crate::Address(glXMakeCurrent as *const ())),
+    (b"glXMakeCurrentReadSGI", 1276, crate::Address(glXMakeCurrentReadSGI as *const ())),
+    (b"glXSwapBuffers", 1272, crate::Address(glXSwapBuffers as *const ())),
+    (b"glXSwapBuffersMscOML", 1273, crate::Address(glXSwapBuffersMscOML as *const ())),
 ];
 
 export! { 0, glVertex2d, first_glVertex2d, hook_glVertex2d, (x: f64, y: f64) -> (), {
@@ -10244,3657 +10245,3657 @@ export! { 591, glClampColorARB, first_glClampColorARB, hook_glClampColorARB, (ta
     // SAFETY: the program's own call.
     unsafe { gl.glClampColorARB(target, clamp) };
 } }
-export! { 592, glUseProgram, first_glUseProgram, hook_glUseProgram, (program: u32) -> (), {
-    hooks::touch(Touch::OBJECTS | Touch::FIXED | Touch::TEXTURE);
-    let gl = hooks::real();
-    // SAFETY: the program's own call.
-    unsafe { gl.glUseProgram(program) };
-} }
-export! { 593, glUseProgramObjectARB, first_glUseProgramObjectARB, hook_glUseProgramObjectARB, (programObj: u32) -> (), {
-    hooks::touch(Touch::OBJECTS | Touch::FIXED | Touch::TEXTURE);
-    let gl = hooks::real();
-    // SAFETY: the program's own call.
-    unsafe { gl.glUseProgramObjectARB(programObj) };
-} }
-export! { 594, glBindProgramPipeline, first_glBindProgramPipeline, hook_glBindProgramPipeline, (pipeline: u32) -> (), {
+export! { 592, glBindProgramPipeline, first_glBindProgramPipeline, hook_glBindProgramPipeline, (pipeline: u32) -> (), {
     hooks::touch(Touch::OBJECTS | Touch::FIXED | Touch::TEXTURE);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBindProgramPipeline(pipeline) };
 } }
-export! { 595, glPushAttrib, first_glPushAttrib, hook_glPushAttrib, (mask: u32) -> (), {
+export! { 593, glPushAttrib, first_glPushAttrib, hook_glPushAttrib, (mask: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glPushAttrib(mask) }
 } }
-export! { 596, glPopAttrib, first_glPopAttrib, hook_glPopAttrib, () -> (), {
+export! { 594, glPopAttrib, first_glPopAttrib, hook_glPopAttrib, () -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glPopAttrib() }
 } }
-export! { 597, glRasterPos2d, first_glRasterPos2d, hook_glRasterPos2d, (x: f64, y: f64) -> (), {
+export! { 595, glRasterPos2d, first_glRasterPos2d, hook_glRasterPos2d, (x: f64, y: f64) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Scene, &mut |gl| unsafe { gl.glRasterPos2d(x, y) })
 } }
-export! { 598, glRasterPos2dv, first_glRasterPos2dv, hook_glRasterPos2dv, (v: Ptr) -> (), {
+export! { 596, glRasterPos2dv, first_glRasterPos2dv, hook_glRasterPos2dv, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Scene, &mut |gl| unsafe { gl.glRasterPos2dv(v) })
 } }
-export! { 599, glRasterPos2f, first_glRasterPos2f, hook_glRasterPos2f, (x: f32, y: f32) -> (), {
+export! { 597, glRasterPos2f, first_glRasterPos2f, hook_glRasterPos2f, (x: f32, y: f32) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Scene, &mut |gl| unsafe { gl.glRasterPos2f(x, y) })
 } }
-export! { 600, glRasterPos2fv, first_glRasterPos2fv, hook_glRasterPos2fv, (v: Ptr) -> (), {
+export! { 598, glRasterPos2fv, first_glRasterPos2fv, hook_glRasterPos2fv, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Scene, &mut |gl| unsafe { gl.glRasterPos2fv(v) })
 } }
-export! { 601, glRasterPos2i, first_glRasterPos2i, hook_glRasterPos2i, (x: i32, y: i32) -> (), {
+export! { 599, glRasterPos2i, first_glRasterPos2i, hook_glRasterPos2i, (x: i32, y: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Scene, &mut |gl| unsafe { gl.glRasterPos2i(x, y) })
 } }
-export! { 602, glRasterPos2iv, first_glRasterPos2iv, hook_glRasterPos2iv, (v: Ptr) -> (), {
+export! { 600, glRasterPos2iv, first_glRasterPos2iv, hook_glRasterPos2iv, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Scene, &mut |gl| unsafe { gl.glRasterPos2iv(v) })
 } }
-export! { 603, glRasterPos2s, first_glRasterPos2s, hook_glRasterPos2s, (x: i16, y: i16) -> (), {
+export! { 601, glRasterPos2s, first_glRasterPos2s, hook_glRasterPos2s, (x: i16, y: i16) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Scene, &mut |gl| unsafe { gl.glRasterPos2s(x, y) })
 } }
-export! { 604, glRasterPos2sv, first_glRasterPos2sv, hook_glRasterPos2sv, (v: Ptr) -> (), {
+export! { 602, glRasterPos2sv, first_glRasterPos2sv, hook_glRasterPos2sv, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Scene, &mut |gl| unsafe { gl.glRasterPos2sv(v) })
 } }
-export! { 605, glRasterPos3d, first_glRasterPos3d, hook_glRasterPos3d, (x: f64, y: f64, z: f64) -> (), {
+export! { 603, glRasterPos3d, first_glRasterPos3d, hook_glRasterPos3d, (x: f64, y: f64, z: f64) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Scene, &mut |gl| unsafe { gl.glRasterPos3d(x, y, z) })
 } }
-export! { 606, glRasterPos3dv, first_glRasterPos3dv, hook_glRasterPos3dv, (v: Ptr) -> (), {
+export! { 604, glRasterPos3dv, first_glRasterPos3dv, hook_glRasterPos3dv, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Scene, &mut |gl| unsafe { gl.glRasterPos3dv(v) })
 } }
-export! { 607, glRasterPos3f, first_glRasterPos3f, hook_glRasterPos3f, (x: f32, y: f32, z: f32) -> (), {
+export! { 605, glRasterPos3f, first_glRasterPos3f, hook_glRasterPos3f, (x: f32, y: f32, z: f32) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Scene, &mut |gl| unsafe { gl.glRasterPos3f(x, y, z) })
 } }
-export! { 608, glRasterPos3fv, first_glRasterPos3fv, hook_glRasterPos3fv, (v: Ptr) -> (), {
+export! { 606, glRasterPos3fv, first_glRasterPos3fv, hook_glRasterPos3fv, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Scene, &mut |gl| unsafe { gl.glRasterPos3fv(v) })
 } }
-export! { 609, glRasterPos3i, first_glRasterPos3i, hook_glRasterPos3i, (x: i32, y: i32, z: i32) -> (), {
+export! { 607, glRasterPos3i, first_glRasterPos3i, hook_glRasterPos3i, (x: i32, y: i32, z: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Scene, &mut |gl| unsafe { gl.glRasterPos3i(x, y, z) })
 } }
-export! { 610, glRasterPos3iv, first_glRasterPos3iv, hook_glRasterPos3iv, (v: Ptr) -> (), {
+export! { 608, glRasterPos3iv, first_glRasterPos3iv, hook_glRasterPos3iv, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Scene, &mut |gl| unsafe { gl.glRasterPos3iv(v) })
 } }
-export! { 611, glRasterPos3s, first_glRasterPos3s, hook_glRasterPos3s, (x: i16, y: i16, z: i16) -> (), {
+export! { 609, glRasterPos3s, first_glRasterPos3s, hook_glRasterPos3s, (x: i16, y: i16, z: i16) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Scene, &mut |gl| unsafe { gl.glRasterPos3s(x, y, z) })
 } }
-export! { 612, glRasterPos3sv, first_glRasterPos3sv, hook_glRasterPos3sv, (v: Ptr) -> (), {
+export! { 610, glRasterPos3sv, first_glRasterPos3sv, hook_glRasterPos3sv, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Scene, &mut |gl| unsafe { gl.glRasterPos3sv(v) })
 } }
-export! { 613, glRasterPos4d, first_glRasterPos4d, hook_glRasterPos4d, (x: f64, y: f64, z: f64, w: f64) -> (), {
+export! { 611, glRasterPos4d, first_glRasterPos4d, hook_glRasterPos4d, (x: f64, y: f64, z: f64, w: f64) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Scene, &mut |gl| unsafe { gl.glRasterPos4d(x, y, z, w) })
 } }
-export! { 614, glRasterPos4dv, first_glRasterPos4dv, hook_glRasterPos4dv, (v: Ptr) -> (), {
+export! { 612, glRasterPos4dv, first_glRasterPos4dv, hook_glRasterPos4dv, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Scene, &mut |gl| unsafe { gl.glRasterPos4dv(v) })
 } }
-export! { 615, glRasterPos4f, first_glRasterPos4f, hook_glRasterPos4f, (x: f32, y: f32, z: f32, w: f32) -> (), {
+export! { 613, glRasterPos4f, first_glRasterPos4f, hook_glRasterPos4f, (x: f32, y: f32, z: f32, w: f32) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Scene, &mut |gl| unsafe { gl.glRasterPos4f(x, y, z, w) })
 } }
-export! { 616, glRasterPos4fv, first_glRasterPos4fv, hook_glRasterPos4fv, (v: Ptr) -> (), {
+export! { 614, glRasterPos4fv, first_glRasterPos4fv, hook_glRasterPos4fv, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Scene, &mut |gl| unsafe { gl.glRasterPos4fv(v) })
 } }
-export! { 617, glRasterPos4i, first_glRasterPos4i, hook_glRasterPos4i, (x: i32, y: i32, z: i32, w: i32) -> (), {
+export! { 615, glRasterPos4i, first_glRasterPos4i, hook_glRasterPos4i, (x: i32, y: i32, z: i32, w: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Scene, &mut |gl| unsafe { gl.glRasterPos4i(x, y, z, w) })
 } }
-export! { 618, glRasterPos4iv, first_glRasterPos4iv, hook_glRasterPos4iv, (v: Ptr) -> (), {
+export! { 616, glRasterPos4iv, first_glRasterPos4iv, hook_glRasterPos4iv, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Scene, &mut |gl| unsafe { gl.glRasterPos4iv(v) })
 } }
-export! { 619, glRasterPos4s, first_glRasterPos4s, hook_glRasterPos4s, (x: i16, y: i16, z: i16, w: i16) -> (), {
+export! { 617, glRasterPos4s, first_glRasterPos4s, hook_glRasterPos4s, (x: i16, y: i16, z: i16, w: i16) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Scene, &mut |gl| unsafe { gl.glRasterPos4s(x, y, z, w) })
 } }
-export! { 620, glRasterPos4sv, first_glRasterPos4sv, hook_glRasterPos4sv, (v: Ptr) -> (), {
+export! { 618, glRasterPos4sv, first_glRasterPos4sv, hook_glRasterPos4sv, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Scene, &mut |gl| unsafe { gl.glRasterPos4sv(v) })
 } }
-export! { 621, glWindowPos2d, first_glWindowPos2d, hook_glWindowPos2d, (x: f64, y: f64) -> (), {
+export! { 619, glWindowPos2d, first_glWindowPos2d, hook_glWindowPos2d, (x: f64, y: f64) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos2d(x, y) })
 } }
-export! { 622, glWindowPos2dARB, first_glWindowPos2dARB, hook_glWindowPos2dARB, (x: f64, y: f64) -> (), {
+export! { 620, glWindowPos2dARB, first_glWindowPos2dARB, hook_glWindowPos2dARB, (x: f64, y: f64) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos2dARB(x, y) })
 } }
-export! { 623, glWindowPos2dMESA, first_glWindowPos2dMESA, hook_glWindowPos2dMESA, (x: f64, y: f64) -> (), {
+export! { 621, glWindowPos2dMESA, first_glWindowPos2dMESA, hook_glWindowPos2dMESA, (x: f64, y: f64) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos2dMESA(x, y) })
 } }
-export! { 624, glWindowPos2dv, first_glWindowPos2dv, hook_glWindowPos2dv, (v: Ptr) -> (), {
+export! { 622, glWindowPos2dv, first_glWindowPos2dv, hook_glWindowPos2dv, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos2dv(v) })
 } }
-export! { 625, glWindowPos2dvARB, first_glWindowPos2dvARB, hook_glWindowPos2dvARB, (v: Ptr) -> (), {
+export! { 623, glWindowPos2dvARB, first_glWindowPos2dvARB, hook_glWindowPos2dvARB, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos2dvARB(v) })
 } }
-export! { 626, glWindowPos2dvMESA, first_glWindowPos2dvMESA, hook_glWindowPos2dvMESA, (v: Ptr) -> (), {
+export! { 624, glWindowPos2dvMESA, first_glWindowPos2dvMESA, hook_glWindowPos2dvMESA, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos2dvMESA(v) })
 } }
-export! { 627, glWindowPos2f, first_glWindowPos2f, hook_glWindowPos2f, (x: f32, y: f32) -> (), {
+export! { 625, glWindowPos2f, first_glWindowPos2f, hook_glWindowPos2f, (x: f32, y: f32) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos2f(x, y) })
 } }
-export! { 628, glWindowPos2fARB, first_glWindowPos2fARB, hook_glWindowPos2fARB, (x: f32, y: f32) -> (), {
+export! { 626, glWindowPos2fARB, first_glWindowPos2fARB, hook_glWindowPos2fARB, (x: f32, y: f32) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos2fARB(x, y) })
 } }
-export! { 629, glWindowPos2fMESA, first_glWindowPos2fMESA, hook_glWindowPos2fMESA, (x: f32, y: f32) -> (), {
+export! { 627, glWindowPos2fMESA, first_glWindowPos2fMESA, hook_glWindowPos2fMESA, (x: f32, y: f32) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos2fMESA(x, y) })
 } }
-export! { 630, glWindowPos2fv, first_glWindowPos2fv, hook_glWindowPos2fv, (v: Ptr) -> (), {
+export! { 628, glWindowPos2fv, first_glWindowPos2fv, hook_glWindowPos2fv, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos2fv(v) })
 } }
-export! { 631, glWindowPos2fvARB, first_glWindowPos2fvARB, hook_glWindowPos2fvARB, (v: Ptr) -> (), {
+export! { 629, glWindowPos2fvARB, first_glWindowPos2fvARB, hook_glWindowPos2fvARB, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos2fvARB(v) })
 } }
-export! { 632, glWindowPos2fvMESA, first_glWindowPos2fvMESA, hook_glWindowPos2fvMESA, (v: Ptr) -> (), {
+export! { 630, glWindowPos2fvMESA, first_glWindowPos2fvMESA, hook_glWindowPos2fvMESA, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos2fvMESA(v) })
 } }
-export! { 633, glWindowPos2i, first_glWindowPos2i, hook_glWindowPos2i, (x: i32, y: i32) -> (), {
+export! { 631, glWindowPos2i, first_glWindowPos2i, hook_glWindowPos2i, (x: i32, y: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos2i(x, y) })
 } }
-export! { 634, glWindowPos2iARB, first_glWindowPos2iARB, hook_glWindowPos2iARB, (x: i32, y: i32) -> (), {
+export! { 632, glWindowPos2iARB, first_glWindowPos2iARB, hook_glWindowPos2iARB, (x: i32, y: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos2iARB(x, y) })
 } }
-export! { 635, glWindowPos2iMESA, first_glWindowPos2iMESA, hook_glWindowPos2iMESA, (x: i32, y: i32) -> (), {
+export! { 633, glWindowPos2iMESA, first_glWindowPos2iMESA, hook_glWindowPos2iMESA, (x: i32, y: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos2iMESA(x, y) })
 } }
-export! { 636, glWindowPos2iv, first_glWindowPos2iv, hook_glWindowPos2iv, (v: Ptr) -> (), {
+export! { 634, glWindowPos2iv, first_glWindowPos2iv, hook_glWindowPos2iv, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos2iv(v) })
 } }
-export! { 637, glWindowPos2ivARB, first_glWindowPos2ivARB, hook_glWindowPos2ivARB, (v: Ptr) -> (), {
+export! { 635, glWindowPos2ivARB, first_glWindowPos2ivARB, hook_glWindowPos2ivARB, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos2ivARB(v) })
 } }
-export! { 638, glWindowPos2ivMESA, first_glWindowPos2ivMESA, hook_glWindowPos2ivMESA, (v: Ptr) -> (), {
+export! { 636, glWindowPos2ivMESA, first_glWindowPos2ivMESA, hook_glWindowPos2ivMESA, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos2ivMESA(v) })
 } }
-export! { 639, glWindowPos2s, first_glWindowPos2s, hook_glWindowPos2s, (x: i16, y: i16) -> (), {
+export! { 637, glWindowPos2s, first_glWindowPos2s, hook_glWindowPos2s, (x: i16, y: i16) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos2s(x, y) })
 } }
-export! { 640, glWindowPos2sARB, first_glWindowPos2sARB, hook_glWindowPos2sARB, (x: i16, y: i16) -> (), {
+export! { 638, glWindowPos2sARB, first_glWindowPos2sARB, hook_glWindowPos2sARB, (x: i16, y: i16) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos2sARB(x, y) })
 } }
-export! { 641, glWindowPos2sMESA, first_glWindowPos2sMESA, hook_glWindowPos2sMESA, (x: i16, y: i16) -> (), {
+export! { 639, glWindowPos2sMESA, first_glWindowPos2sMESA, hook_glWindowPos2sMESA, (x: i16, y: i16) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos2sMESA(x, y) })
 } }
-export! { 642, glWindowPos2sv, first_glWindowPos2sv, hook_glWindowPos2sv, (v: Ptr) -> (), {
+export! { 640, glWindowPos2sv, first_glWindowPos2sv, hook_glWindowPos2sv, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos2sv(v) })
 } }
-export! { 643, glWindowPos2svARB, first_glWindowPos2svARB, hook_glWindowPos2svARB, (v: Ptr) -> (), {
+export! { 641, glWindowPos2svARB, first_glWindowPos2svARB, hook_glWindowPos2svARB, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos2svARB(v) })
 } }
-export! { 644, glWindowPos2svMESA, first_glWindowPos2svMESA, hook_glWindowPos2svMESA, (v: Ptr) -> (), {
+export! { 642, glWindowPos2svMESA, first_glWindowPos2svMESA, hook_glWindowPos2svMESA, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos2svMESA(v) })
 } }
-export! { 645, glWindowPos3d, first_glWindowPos3d, hook_glWindowPos3d, (x: f64, y: f64, z: f64) -> (), {
+export! { 643, glWindowPos3d, first_glWindowPos3d, hook_glWindowPos3d, (x: f64, y: f64, z: f64) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos3d(x, y, z) })
 } }
-export! { 646, glWindowPos3dARB, first_glWindowPos3dARB, hook_glWindowPos3dARB, (x: f64, y: f64, z: f64) -> (), {
+export! { 644, glWindowPos3dARB, first_glWindowPos3dARB, hook_glWindowPos3dARB, (x: f64, y: f64, z: f64) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos3dARB(x, y, z) })
 } }
-export! { 647, glWindowPos3dMESA, first_glWindowPos3dMESA, hook_glWindowPos3dMESA, (x: f64, y: f64, z: f64) -> (), {
+export! { 645, glWindowPos3dMESA, first_glWindowPos3dMESA, hook_glWindowPos3dMESA, (x: f64, y: f64, z: f64) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos3dMESA(x, y, z) })
 } }
-export! { 648, glWindowPos3dv, first_glWindowPos3dv, hook_glWindowPos3dv, (v: Ptr) -> (), {
+export! { 646, glWindowPos3dv, first_glWindowPos3dv, hook_glWindowPos3dv, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos3dv(v) })
 } }
-export! { 649, glWindowPos3dvARB, first_glWindowPos3dvARB, hook_glWindowPos3dvARB, (v: Ptr) -> (), {
+export! { 647, glWindowPos3dvARB, first_glWindowPos3dvARB, hook_glWindowPos3dvARB, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos3dvARB(v) })
 } }
-export! { 650, glWindowPos3dvMESA, first_glWindowPos3dvMESA, hook_glWindowPos3dvMESA, (v: Ptr) -> (), {
+export! { 648, glWindowPos3dvMESA, first_glWindowPos3dvMESA, hook_glWindowPos3dvMESA, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos3dvMESA(v) })
 } }
-export! { 651, glWindowPos3f, first_glWindowPos3f, hook_glWindowPos3f, (x: f32, y: f32, z: f32) -> (), {
+export! { 649, glWindowPos3f, first_glWindowPos3f, hook_glWindowPos3f, (x: f32, y: f32, z: f32) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos3f(x, y, z) })
 } }
-export! { 652, glWindowPos3fARB, first_glWindowPos3fARB, hook_glWindowPos3fARB, (x: f32, y: f32, z: f32) -> (), {
+export! { 650, glWindowPos3fARB, first_glWindowPos3fARB, hook_glWindowPos3fARB, (x: f32, y: f32, z: f32) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos3fARB(x, y, z) })
 } }
-export! { 653, glWindowPos3fMESA, first_glWindowPos3fMESA, hook_glWindowPos3fMESA, (x: f32, y: f32, z: f32) -> (), {
+export! { 651, glWindowPos3fMESA, first_glWindowPos3fMESA, hook_glWindowPos3fMESA, (x: f32, y: f32, z: f32) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos3fMESA(x, y, z) })
 } }
-export! { 654, glWindowPos3fv, first_glWindowPos3fv, hook_glWindowPos3fv, (v: Ptr) -> (), {
+export! { 652, glWindowPos3fv, first_glWindowPos3fv, hook_glWindowPos3fv, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos3fv(v) })
 } }
-export! { 655, glWindowPos3fvARB, first_glWindowPos3fvARB, hook_glWindowPos3fvARB, (v: Ptr) -> (), {
+export! { 653, glWindowPos3fvARB, first_glWindowPos3fvARB, hook_glWindowPos3fvARB, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos3fvARB(v) })
 } }
-export! { 656, glWindowPos3fvMESA, first_glWindowPos3fvMESA, hook_glWindowPos3fvMESA, (v: Ptr) -> (), {
+export! { 654, glWindowPos3fvMESA, first_glWindowPos3fvMESA, hook_glWindowPos3fvMESA, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos3fvMESA(v) })
 } }
-export! { 657, glWindowPos3i, first_glWindowPos3i, hook_glWindowPos3i, (x: i32, y: i32, z: i32) -> (), {
+export! { 655, glWindowPos3i, first_glWindowPos3i, hook_glWindowPos3i, (x: i32, y: i32, z: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos3i(x, y, z) })
 } }
-export! { 658, glWindowPos3iARB, first_glWindowPos3iARB, hook_glWindowPos3iARB, (x: i32, y: i32, z: i32) -> (), {
+export! { 656, glWindowPos3iARB, first_glWindowPos3iARB, hook_glWindowPos3iARB, (x: i32, y: i32, z: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos3iARB(x, y, z) })
 } }
-export! { 659, glWindowPos3iMESA, first_glWindowPos3iMESA, hook_glWindowPos3iMESA, (x: i32, y: i32, z: i32) -> (), {
+export! { 657, glWindowPos3iMESA, first_glWindowPos3iMESA, hook_glWindowPos3iMESA, (x: i32, y: i32, z: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos3iMESA(x, y, z) })
 } }
-export! { 660, glWindowPos3iv, first_glWindowPos3iv, hook_glWindowPos3iv, (v: Ptr) -> (), {
+export! { 658, glWindowPos3iv, first_glWindowPos3iv, hook_glWindowPos3iv, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos3iv(v) })
 } }
-export! { 661, glWindowPos3ivARB, first_glWindowPos3ivARB, hook_glWindowPos3ivARB, (v: Ptr) -> (), {
+export! { 659, glWindowPos3ivARB, first_glWindowPos3ivARB, hook_glWindowPos3ivARB, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos3ivARB(v) })
 } }
-export! { 662, glWindowPos3ivMESA, first_glWindowPos3ivMESA, hook_glWindowPos3ivMESA, (v: Ptr) -> (), {
+export! { 660, glWindowPos3ivMESA, first_glWindowPos3ivMESA, hook_glWindowPos3ivMESA, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos3ivMESA(v) })
 } }
-export! { 663, glWindowPos3s, first_glWindowPos3s, hook_glWindowPos3s, (x: i16, y: i16, z: i16) -> (), {
+export! { 661, glWindowPos3s, first_glWindowPos3s, hook_glWindowPos3s, (x: i16, y: i16, z: i16) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos3s(x, y, z) })
 } }
-export! { 664, glWindowPos3sARB, first_glWindowPos3sARB, hook_glWindowPos3sARB, (x: i16, y: i16, z: i16) -> (), {
+export! { 662, glWindowPos3sARB, first_glWindowPos3sARB, hook_glWindowPos3sARB, (x: i16, y: i16, z: i16) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos3sARB(x, y, z) })
 } }
-export! { 665, glWindowPos3sMESA, first_glWindowPos3sMESA, hook_glWindowPos3sMESA, (x: i16, y: i16, z: i16) -> (), {
+export! { 663, glWindowPos3sMESA, first_glWindowPos3sMESA, hook_glWindowPos3sMESA, (x: i16, y: i16, z: i16) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos3sMESA(x, y, z) })
 } }
-export! { 666, glWindowPos3sv, first_glWindowPos3sv, hook_glWindowPos3sv, (v: Ptr) -> (), {
+export! { 664, glWindowPos3sv, first_glWindowPos3sv, hook_glWindowPos3sv, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos3sv(v) })
 } }
-export! { 667, glWindowPos3svARB, first_glWindowPos3svARB, hook_glWindowPos3svARB, (v: Ptr) -> (), {
+export! { 665, glWindowPos3svARB, first_glWindowPos3svARB, hook_glWindowPos3svARB, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos3svARB(v) })
 } }
-export! { 668, glWindowPos3svMESA, first_glWindowPos3svMESA, hook_glWindowPos3svMESA, (v: Ptr) -> (), {
+export! { 666, glWindowPos3svMESA, first_glWindowPos3svMESA, hook_glWindowPos3svMESA, (v: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos3svMESA(v) })
 } }
-export! { 669, glRenderMode, first_glRenderMode, hook_glRenderMode, (mode: u32) -> i32, {
+export! { 667, glRenderMode, first_glRenderMode, hook_glRenderMode, (mode: u32) -> i32, {
     // SAFETY: the program's own arguments.
     unsafe { special::glRenderMode(mode) }
 } }
-export! { 670, glBeginTransformFeedback, first_glBeginTransformFeedback, hook_glBeginTransformFeedback, (primitiveMode: u32) -> (), {
+export! { 668, glBeginTransformFeedback, first_glBeginTransformFeedback, hook_glBeginTransformFeedback, (primitiveMode: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBeginTransformFeedback(primitiveMode) }
 } }
-export! { 671, glBeginTransformFeedbackEXT, first_glBeginTransformFeedbackEXT, hook_glBeginTransformFeedbackEXT, (primitiveMode: u32) -> (), {
+export! { 669, glBeginTransformFeedbackEXT, first_glBeginTransformFeedbackEXT, hook_glBeginTransformFeedbackEXT, (primitiveMode: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBeginTransformFeedback(primitiveMode) }
 } }
-export! { 672, glBeginTransformFeedbackNV, first_glBeginTransformFeedbackNV, hook_glBeginTransformFeedbackNV, (primitiveMode: u32) -> (), {
+export! { 670, glBeginTransformFeedbackNV, first_glBeginTransformFeedbackNV, hook_glBeginTransformFeedbackNV, (primitiveMode: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBeginTransformFeedback(primitiveMode) }
 } }
-export! { 673, glEndTransformFeedback, first_glEndTransformFeedback, hook_glEndTransformFeedback, () -> (), {
+export! { 671, glEndTransformFeedback, first_glEndTransformFeedback, hook_glEndTransformFeedback, () -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glEndTransformFeedback() }
 } }
-export! { 674, glEndTransformFeedbackEXT, first_glEndTransformFeedbackEXT, hook_glEndTransformFeedbackEXT, () -> (), {
+export! { 672, glEndTransformFeedbackEXT, first_glEndTransformFeedbackEXT, hook_glEndTransformFeedbackEXT, () -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glEndTransformFeedback() }
 } }
-export! { 675, glEndTransformFeedbackNV, first_glEndTransformFeedbackNV, hook_glEndTransformFeedbackNV, () -> (), {
+export! { 673, glEndTransformFeedbackNV, first_glEndTransformFeedbackNV, hook_glEndTransformFeedbackNV, () -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glEndTransformFeedback() }
 } }
-export! { 676, glAlphaFunc, first_glAlphaFunc, hook_glAlphaFunc, (func: u32, ref_: f32) -> (), {
+export! { 674, glAlphaFunc, first_glAlphaFunc, hook_glAlphaFunc, (func: u32, ref_: f32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glAlphaFunc(func, ref_) };
 } }
-export! { 677, glBlendFunc, first_glBlendFunc, hook_glBlendFunc, (sfactor: u32, dfactor: u32) -> (), {
+export! { 675, glBlendFunc, first_glBlendFunc, hook_glBlendFunc, (sfactor: u32, dfactor: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendFunc(sfactor, dfactor) };
 } }
-export! { 678, glBlendFuncSeparate, first_glBlendFuncSeparate, hook_glBlendFuncSeparate, (sfactorRGB: u32, dfactorRGB: u32, sfactorAlpha: u32, dfactorAlpha: u32) -> (), {
+export! { 676, glBlendFuncSeparate, first_glBlendFuncSeparate, hook_glBlendFuncSeparate, (sfactorRGB: u32, dfactorRGB: u32, sfactorAlpha: u32, dfactorAlpha: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendFuncSeparate(sfactorRGB, dfactorRGB, sfactorAlpha, dfactorAlpha) };
 } }
-export! { 679, glBlendFuncSeparateEXT, first_glBlendFuncSeparateEXT, hook_glBlendFuncSeparateEXT, (sfactorRGB: u32, dfactorRGB: u32, sfactorAlpha: u32, dfactorAlpha: u32) -> (), {
+export! { 677, glBlendFuncSeparateEXT, first_glBlendFuncSeparateEXT, hook_glBlendFuncSeparateEXT, (sfactorRGB: u32, dfactorRGB: u32, sfactorAlpha: u32, dfactorAlpha: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendFuncSeparateEXT(sfactorRGB, dfactorRGB, sfactorAlpha, dfactorAlpha) };
 } }
-export! { 680, glBlendFuncSeparateINGR, first_glBlendFuncSeparateINGR, hook_glBlendFuncSeparateINGR, (sfactorRGB: u32, dfactorRGB: u32, sfactorAlpha: u32, dfactorAlpha: u32) -> (), {
+export! { 678, glBlendFuncSeparateINGR, first_glBlendFuncSeparateINGR, hook_glBlendFuncSeparateINGR, (sfactorRGB: u32, dfactorRGB: u32, sfactorAlpha: u32, dfactorAlpha: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendFuncSeparateINGR(sfactorRGB, dfactorRGB, sfactorAlpha, dfactorAlpha) };
 } }
-export! { 681, glBlendFuncSeparatei, first_glBlendFuncSeparatei, hook_glBlendFuncSeparatei, (buf: u32, srcRGB: u32, dstRGB: u32, srcAlpha: u32, dstAlpha: u32) -> (), {
+export! { 679, glBlendFuncSeparatei, first_glBlendFuncSeparatei, hook_glBlendFuncSeparatei, (buf: u32, srcRGB: u32, dstRGB: u32, srcAlpha: u32, dstAlpha: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendFuncSeparatei(buf, srcRGB, dstRGB, srcAlpha, dstAlpha) };
 } }
-export! { 682, glBlendFuncSeparateIndexedAMD, first_glBlendFuncSeparateIndexedAMD, hook_glBlendFuncSeparateIndexedAMD, (buf: u32, srcRGB: u32, dstRGB: u32, srcAlpha: u32, dstAlpha: u32) -> (), {
+export! { 680, glBlendFuncSeparateIndexedAMD, first_glBlendFuncSeparateIndexedAMD, hook_glBlendFuncSeparateIndexedAMD, (buf: u32, srcRGB: u32, dstRGB: u32, srcAlpha: u32, dstAlpha: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendFuncSeparateIndexedAMD(buf, srcRGB, dstRGB, srcAlpha, dstAlpha) };
 } }
-export! { 683, glBlendFuncSeparateiARB, first_glBlendFuncSeparateiARB, hook_glBlendFuncSeparateiARB, (buf: u32, srcRGB: u32, dstRGB: u32, srcAlpha: u32, dstAlpha: u32) -> (), {
+export! { 681, glBlendFuncSeparateiARB, first_glBlendFuncSeparateiARB, hook_glBlendFuncSeparateiARB, (buf: u32, srcRGB: u32, dstRGB: u32, srcAlpha: u32, dstAlpha: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendFuncSeparateiARB(buf, srcRGB, dstRGB, srcAlpha, dstAlpha) };
 } }
-export! { 684, glBlendFuncSeparateiEXT, first_glBlendFuncSeparateiEXT, hook_glBlendFuncSeparateiEXT, (buf: u32, srcRGB: u32, dstRGB: u32, srcAlpha: u32, dstAlpha: u32) -> (), {
+export! { 682, glBlendFuncSeparateiEXT, first_glBlendFuncSeparateiEXT, hook_glBlendFuncSeparateiEXT, (buf: u32, srcRGB: u32, dstRGB: u32, srcAlpha: u32, dstAlpha: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendFuncSeparateiEXT(buf, srcRGB, dstRGB, srcAlpha, dstAlpha) };
 } }
-export! { 685, glBlendFuncSeparateiOES, first_glBlendFuncSeparateiOES, hook_glBlendFuncSeparateiOES, (buf: u32, srcRGB: u32, dstRGB: u32, srcAlpha: u32, dstAlpha: u32) -> (), {
+export! { 683, glBlendFuncSeparateiOES, first_glBlendFuncSeparateiOES, hook_glBlendFuncSeparateiOES, (buf: u32, srcRGB: u32, dstRGB: u32, srcAlpha: u32, dstAlpha: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendFuncSeparateiOES(buf, srcRGB, dstRGB, srcAlpha, dstAlpha) };
 } }
-export! { 686, glBlendFunci, first_glBlendFunci, hook_glBlendFunci, (buf: u32, src: u32, dst: u32) -> (), {
+export! { 684, glBlendFunci, first_glBlendFunci, hook_glBlendFunci, (buf: u32, src: u32, dst: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendFunci(buf, src, dst) };
 } }
-export! { 687, glBlendFuncIndexedAMD, first_glBlendFuncIndexedAMD, hook_glBlendFuncIndexedAMD, (buf: u32, src: u32, dst: u32) -> (), {
+export! { 685, glBlendFuncIndexedAMD, first_glBlendFuncIndexedAMD, hook_glBlendFuncIndexedAMD, (buf: u32, src: u32, dst: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendFuncIndexedAMD(buf, src, dst) };
 } }
-export! { 688, glBlendFunciARB, first_glBlendFunciARB, hook_glBlendFunciARB, (buf: u32, src: u32, dst: u32) -> (), {
+export! { 686, glBlendFunciARB, first_glBlendFunciARB, hook_glBlendFunciARB, (buf: u32, src: u32, dst: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendFunciARB(buf, src, dst) };
 } }
-export! { 689, glBlendFunciEXT, first_glBlendFunciEXT, hook_glBlendFunciEXT, (buf: u32, src: u32, dst: u32) -> (), {
+export! { 687, glBlendFunciEXT, first_glBlendFunciEXT, hook_glBlendFunciEXT, (buf: u32, src: u32, dst: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendFunciEXT(buf, src, dst) };
 } }
-export! { 690, glBlendFunciOES, first_glBlendFunciOES, hook_glBlendFunciOES, (buf: u32, src: u32, dst: u32) -> (), {
+export! { 688, glBlendFunciOES, first_glBlendFunciOES, hook_glBlendFunciOES, (buf: u32, src: u32, dst: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendFunciOES(buf, src, dst) };
 } }
-export! { 691, glBlendEquation, first_glBlendEquation, hook_glBlendEquation, (mode: u32) -> (), {
+export! { 689, glBlendEquation, first_glBlendEquation, hook_glBlendEquation, (mode: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendEquation(mode) };
 } }
-export! { 692, glBlendEquationEXT, first_glBlendEquationEXT, hook_glBlendEquationEXT, (mode: u32) -> (), {
+export! { 690, glBlendEquationEXT, first_glBlendEquationEXT, hook_glBlendEquationEXT, (mode: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendEquationEXT(mode) };
 } }
-export! { 693, glBlendEquationSeparate, first_glBlendEquationSeparate, hook_glBlendEquationSeparate, (modeRGB: u32, modeAlpha: u32) -> (), {
+export! { 691, glBlendEquationSeparate, first_glBlendEquationSeparate, hook_glBlendEquationSeparate, (modeRGB: u32, modeAlpha: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendEquationSeparate(modeRGB, modeAlpha) };
 } }
-export! { 694, glBlendEquationSeparateEXT, first_glBlendEquationSeparateEXT, hook_glBlendEquationSeparateEXT, (modeRGB: u32, modeAlpha: u32) -> (), {
+export! { 692, glBlendEquationSeparateEXT, first_glBlendEquationSeparateEXT, hook_glBlendEquationSeparateEXT, (modeRGB: u32, modeAlpha: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendEquationSeparateEXT(modeRGB, modeAlpha) };
 } }
-export! { 695, glBlendEquationSeparatei, first_glBlendEquationSeparatei, hook_glBlendEquationSeparatei, (buf: u32, modeRGB: u32, modeAlpha: u32) -> (), {
+export! { 693, glBlendEquationSeparatei, first_glBlendEquationSeparatei, hook_glBlendEquationSeparatei, (buf: u32, modeRGB: u32, modeAlpha: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendEquationSeparatei(buf, modeRGB, modeAlpha) };
 } }
-export! { 696, glBlendEquationSeparateIndexedAMD, first_glBlendEquationSeparateIndexedAMD, hook_glBlendEquationSeparateIndexedAMD, (buf: u32, modeRGB: u32, modeAlpha: u32) -> (), {
+export! { 694, glBlendEquationSeparateIndexedAMD, first_glBlendEquationSeparateIndexedAMD, hook_glBlendEquationSeparateIndexedAMD, (buf: u32, modeRGB: u32, modeAlpha: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendEquationSeparateIndexedAMD(buf, modeRGB, modeAlpha) };
 } }
-export! { 697, glBlendEquationSeparateiARB, first_glBlendEquationSeparateiARB, hook_glBlendEquationSeparateiARB, (buf: u32, modeRGB: u32, modeAlpha: u32) -> (), {
+export! { 695, glBlendEquationSeparateiARB, first_glBlendEquationSeparateiARB, hook_glBlendEquationSeparateiARB, (buf: u32, modeRGB: u32, modeAlpha: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendEquationSeparateiARB(buf, modeRGB, modeAlpha) };
 } }
-export! { 698, glBlendEquationSeparateiEXT, first_glBlendEquationSeparateiEXT, hook_glBlendEquationSeparateiEXT, (buf: u32, modeRGB: u32, modeAlpha: u32) -> (), {
+export! { 696, glBlendEquationSeparateiEXT, first_glBlendEquationSeparateiEXT, hook_glBlendEquationSeparateiEXT, (buf: u32, modeRGB: u32, modeAlpha: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendEquationSeparateiEXT(buf, modeRGB, modeAlpha) };
 } }
-export! { 699, glBlendEquationSeparateiOES, first_glBlendEquationSeparateiOES, hook_glBlendEquationSeparateiOES, (buf: u32, modeRGB: u32, modeAlpha: u32) -> (), {
+export! { 697, glBlendEquationSeparateiOES, first_glBlendEquationSeparateiOES, hook_glBlendEquationSeparateiOES, (buf: u32, modeRGB: u32, modeAlpha: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendEquationSeparateiOES(buf, modeRGB, modeAlpha) };
 } }
-export! { 700, glBlendEquationi, first_glBlendEquationi, hook_glBlendEquationi, (buf: u32, mode: u32) -> (), {
+export! { 698, glBlendEquationi, first_glBlendEquationi, hook_glBlendEquationi, (buf: u32, mode: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendEquationi(buf, mode) };
 } }
-export! { 701, glBlendEquationIndexedAMD, first_glBlendEquationIndexedAMD, hook_glBlendEquationIndexedAMD, (buf: u32, mode: u32) -> (), {
+export! { 699, glBlendEquationIndexedAMD, first_glBlendEquationIndexedAMD, hook_glBlendEquationIndexedAMD, (buf: u32, mode: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendEquationIndexedAMD(buf, mode) };
 } }
-export! { 702, glBlendEquationiARB, first_glBlendEquationiARB, hook_glBlendEquationiARB, (buf: u32, mode: u32) -> (), {
+export! { 700, glBlendEquationiARB, first_glBlendEquationiARB, hook_glBlendEquationiARB, (buf: u32, mode: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendEquationiARB(buf, mode) };
 } }
-export! { 703, glBlendEquationiEXT, first_glBlendEquationiEXT, hook_glBlendEquationiEXT, (buf: u32, mode: u32) -> (), {
+export! { 701, glBlendEquationiEXT, first_glBlendEquationiEXT, hook_glBlendEquationiEXT, (buf: u32, mode: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendEquationiEXT(buf, mode) };
 } }
-export! { 704, glBlendEquationiOES, first_glBlendEquationiOES, hook_glBlendEquationiOES, (buf: u32, mode: u32) -> (), {
+export! { 702, glBlendEquationiOES, first_glBlendEquationiOES, hook_glBlendEquationiOES, (buf: u32, mode: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendEquationiOES(buf, mode) };
 } }
-export! { 705, glBlendColor, first_glBlendColor, hook_glBlendColor, (red: f32, green: f32, blue: f32, alpha: f32) -> (), {
+export! { 703, glBlendColor, first_glBlendColor, hook_glBlendColor, (red: f32, green: f32, blue: f32, alpha: f32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendColor(red, green, blue, alpha) };
 } }
-export! { 706, glBlendColorEXT, first_glBlendColorEXT, hook_glBlendColorEXT, (red: f32, green: f32, blue: f32, alpha: f32) -> (), {
+export! { 704, glBlendColorEXT, first_glBlendColorEXT, hook_glBlendColorEXT, (red: f32, green: f32, blue: f32, alpha: f32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendColorEXT(red, green, blue, alpha) };
 } }
-export! { 707, glClearAccum, first_glClearAccum, hook_glClearAccum, (red: f32, green: f32, blue: f32, alpha: f32) -> (), {
+export! { 705, glClearAccum, first_glClearAccum, hook_glClearAccum, (red: f32, green: f32, blue: f32, alpha: f32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glClearAccum(red, green, blue, alpha) };
 } }
-export! { 708, glClearColor, first_glClearColor, hook_glClearColor, (red: f32, green: f32, blue: f32, alpha: f32) -> (), {
+export! { 706, glClearColor, first_glClearColor, hook_glClearColor, (red: f32, green: f32, blue: f32, alpha: f32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glClearColor(red, green, blue, alpha) };
 } }
-export! { 709, glClearDepth, first_glClearDepth, hook_glClearDepth, (depth: f64) -> (), {
+export! { 707, glClearDepth, first_glClearDepth, hook_glClearDepth, (depth: f64) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glClearDepth(depth) };
 } }
-export! { 710, glClearDepthf, first_glClearDepthf, hook_glClearDepthf, (d: f32) -> (), {
+export! { 708, glClearDepthf, first_glClearDepthf, hook_glClearDepthf, (d: f32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glClearDepthf(d) };
 } }
-export! { 711, glClearDepthfOES, first_glClearDepthfOES, hook_glClearDepthfOES, (depth: f32) -> (), {
+export! { 709, glClearDepthfOES, first_glClearDepthfOES, hook_glClearDepthfOES, (depth: f32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glClearDepthfOES(depth) };
 } }
-export! { 712, glClearIndex, first_glClearIndex, hook_glClearIndex, (c: f32) -> (), {
+export! { 710, glClearIndex, first_glClearIndex, hook_glClearIndex, (c: f32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glClearIndex(c) };
 } }
-export! { 713, glClearStencil, first_glClearStencil, hook_glClearStencil, (s: i32) -> (), {
+export! { 711, glClearStencil, first_glClearStencil, hook_glClearStencil, (s: i32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glClearStencil(s) };
 } }
-export! { 714, glClipPlane, first_glClipPlane, hook_glClipPlane, (plane: u32, equation: Ptr) -> (), {
+export! { 712, glClipPlane, first_glClipPlane, hook_glClipPlane, (plane: u32, equation: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glClipPlane(plane, equation) };
 } }
-export! { 715, glColorMask, first_glColorMask, hook_glColorMask, (red: u8, green: u8, blue: u8, alpha: u8) -> (), {
+export! { 713, glColorMask, first_glColorMask, hook_glColorMask, (red: u8, green: u8, blue: u8, alpha: u8) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glColorMask(red, green, blue, alpha) };
 } }
-export! { 716, glColorMaski, first_glColorMaski, hook_glColorMaski, (index: u32, r: u8, g: u8, b: u8, a: u8) -> (), {
+export! { 714, glColorMaski, first_glColorMaski, hook_glColorMaski, (index: u32, r: u8, g: u8, b: u8, a: u8) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glColorMaski(index, r, g, b, a) };
 } }
-export! { 717, glColorMaskIndexedEXT, first_glColorMaskIndexedEXT, hook_glColorMaskIndexedEXT, (index: u32, r: u8, g: u8, b: u8, a: u8) -> (), {
+export! { 715, glColorMaskIndexedEXT, first_glColorMaskIndexedEXT, hook_glColorMaskIndexedEXT, (index: u32, r: u8, g: u8, b: u8, a: u8) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glColorMaskIndexedEXT(index, r, g, b, a) };
 } }
-export! { 718, glColorMaskiEXT, first_glColorMaskiEXT, hook_glColorMaskiEXT, (index: u32, r: u8, g: u8, b: u8, a: u8) -> (), {
+export! { 716, glColorMaskiEXT, first_glColorMaskiEXT, hook_glColorMaskiEXT, (index: u32, r: u8, g: u8, b: u8, a: u8) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glColorMaskiEXT(index, r, g, b, a) };
 } }
-export! { 719, glColorMaskiOES, first_glColorMaskiOES, hook_glColorMaskiOES, (index: u32, r: u8, g: u8, b: u8, a: u8) -> (), {
+export! { 717, glColorMaskiOES, first_glColorMaskiOES, hook_glColorMaskiOES, (index: u32, r: u8, g: u8, b: u8, a: u8) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glColorMaskiOES(index, r, g, b, a) };
 } }
-export! { 720, glCullFace, first_glCullFace, hook_glCullFace, (mode: u32) -> (), {
+export! { 718, glCullFace, first_glCullFace, hook_glCullFace, (mode: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glCullFace(mode) };
 } }
-export! { 721, glDepthBoundsEXT, first_glDepthBoundsEXT, hook_glDepthBoundsEXT, (zmin: f64, zmax: f64) -> (), {
+export! { 719, glDepthBoundsEXT, first_glDepthBoundsEXT, hook_glDepthBoundsEXT, (zmin: f64, zmax: f64) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glDepthBoundsEXT(zmin, zmax) };
 } }
-export! { 722, glFrontFace, first_glFrontFace, hook_glFrontFace, (mode: u32) -> (), {
+export! { 720, glFrontFace, first_glFrontFace, hook_glFrontFace, (mode: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glFrontFace(mode) };
 } }
-export! { 723, glIndexMask, first_glIndexMask, hook_glIndexMask, (mask: u32) -> (), {
+export! { 721, glIndexMask, first_glIndexMask, hook_glIndexMask, (mask: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glIndexMask(mask) };
 } }
-export! { 724, glInitNames, first_glInitNames, hook_glInitNames, () -> (), {
+export! { 722, glInitNames, first_glInitNames, hook_glInitNames, () -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glInitNames() };
 } }
-export! { 725, glLoadName, first_glLoadName, hook_glLoadName, (name: u32) -> (), {
+export! { 723, glLoadName, first_glLoadName, hook_glLoadName, (name: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glLoadName(name) };
 } }
-export! { 726, glPushName, first_glPushName, hook_glPushName, (name: u32) -> (), {
+export! { 724, glPushName, first_glPushName, hook_glPushName, (name: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPushName(name) };
 } }
-export! { 727, glPopName, first_glPopName, hook_glPopName, () -> (), {
+export! { 725, glPopName, first_glPopName, hook_glPopName, () -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPopName() };
 } }
-export! { 728, glPassThrough, first_glPassThrough, hook_glPassThrough, (token: f32) -> (), {
+export! { 726, glPassThrough, first_glPassThrough, hook_glPassThrough, (token: f32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPassThrough(token) };
 } }
-export! { 729, glLineStipple, first_glLineStipple, hook_glLineStipple, (factor: i32, pattern: u16) -> (), {
+export! { 727, glLineStipple, first_glLineStipple, hook_glLineStipple, (factor: i32, pattern: u16) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glLineStipple(factor, pattern) };
 } }
-export! { 730, glListBase, first_glListBase, hook_glListBase, (base: u32) -> (), {
+export! { 728, glListBase, first_glListBase, hook_glListBase, (base: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glListBase(base) };
 } }
-export! { 731, glLogicOp, first_glLogicOp, hook_glLogicOp, (opcode: u32) -> (), {
+export! { 729, glLogicOp, first_glLogicOp, hook_glLogicOp, (opcode: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glLogicOp(opcode) };
 } }
-export! { 732, glMap1d, first_glMap1d, hook_glMap1d, (target: u32, u1: f64, u2: f64, stride: i32, order: i32, points: Ptr) -> (), {
+export! { 730, glMap1d, first_glMap1d, hook_glMap1d, (target: u32, u1: f64, u2: f64, stride: i32, order: i32, points: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glMap1d(target, u1, u2, stride, order, points) };
 } }
-export! { 733, glMap1f, first_glMap1f, hook_glMap1f, (target: u32, u1: f32, u2: f32, stride: i32, order: i32, points: Ptr) -> (), {
+export! { 731, glMap1f, first_glMap1f, hook_glMap1f, (target: u32, u1: f32, u2: f32, stride: i32, order: i32, points: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glMap1f(target, u1, u2, stride, order, points) };
 } }
-export! { 734, glMap2d, first_glMap2d, hook_glMap2d, (target: u32, u1: f64, u2: f64, ustride: i32, uorder: i32, v1: f64, v2: f64, vstride: i32, vorder: i32, points: Ptr) -> (), {
+export! { 732, glMap2d, first_glMap2d, hook_glMap2d, (target: u32, u1: f64, u2: f64, ustride: i32, uorder: i32, v1: f64, v2: f64, vstride: i32, vorder: i32, points: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glMap2d(target, u1, u2, ustride, uorder, v1, v2, vstride, vorder, points) };
 } }
-export! { 735, glMap2f, first_glMap2f, hook_glMap2f, (target: u32, u1: f32, u2: f32, ustride: i32, uorder: i32, v1: f32, v2: f32, vstride: i32, vorder: i32, points: Ptr) -> (), {
+export! { 733, glMap2f, first_glMap2f, hook_glMap2f, (target: u32, u1: f32, u2: f32, ustride: i32, uorder: i32, v1: f32, v2: f32, vstride: i32, vorder: i32, points: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glMap2f(target, u1, u2, ustride, uorder, v1, v2, vstride, vorder, points) };
 } }
-export! { 736, glMapGrid1d, first_glMapGrid1d, hook_glMapGrid1d, (un: i32, u1: f64, u2: f64) -> (), {
+export! { 734, glMapGrid1d, first_glMapGrid1d, hook_glMapGrid1d, (un: i32, u1: f64, u2: f64) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glMapGrid1d(un, u1, u2) };
 } }
-export! { 737, glMapGrid1f, first_glMapGrid1f, hook_glMapGrid1f, (un: i32, u1: f32, u2: f32) -> (), {
+export! { 735, glMapGrid1f, first_glMapGrid1f, hook_glMapGrid1f, (un: i32, u1: f32, u2: f32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glMapGrid1f(un, u1, u2) };
 } }
-export! { 738, glMapGrid2d, first_glMapGrid2d, hook_glMapGrid2d, (un: i32, u1: f64, u2: f64, vn: i32, v1: f64, v2: f64) -> (), {
+export! { 736, glMapGrid2d, first_glMapGrid2d, hook_glMapGrid2d, (un: i32, u1: f64, u2: f64, vn: i32, v1: f64, v2: f64) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glMapGrid2d(un, u1, u2, vn, v1, v2) };
 } }
-export! { 739, glMapGrid2f, first_glMapGrid2f, hook_glMapGrid2f, (un: i32, u1: f32, u2: f32, vn: i32, v1: f32, v2: f32) -> (), {
+export! { 737, glMapGrid2f, first_glMapGrid2f, hook_glMapGrid2f, (un: i32, u1: f32, u2: f32, vn: i32, v1: f32, v2: f32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glMapGrid2f(un, u1, u2, vn, v1, v2) };
 } }
-export! { 740, glPixelMapfv, first_glPixelMapfv, hook_glPixelMapfv, (map: u32, mapsize: i32, values: Ptr) -> (), {
+export! { 738, glPixelMapfv, first_glPixelMapfv, hook_glPixelMapfv, (map: u32, mapsize: i32, values: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPixelMapfv(map, mapsize, values) };
 } }
-export! { 741, glPixelMapuiv, first_glPixelMapuiv, hook_glPixelMapuiv, (map: u32, mapsize: i32, values: Ptr) -> (), {
+export! { 739, glPixelMapuiv, first_glPixelMapuiv, hook_glPixelMapuiv, (map: u32, mapsize: i32, values: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPixelMapuiv(map, mapsize, values) };
 } }
-export! { 742, glPixelMapusv, first_glPixelMapusv, hook_glPixelMapusv, (map: u32, mapsize: i32, values: Ptr) -> (), {
+export! { 740, glPixelMapusv, first_glPixelMapusv, hook_glPixelMapusv, (map: u32, mapsize: i32, values: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPixelMapusv(map, mapsize, values) };
 } }
-export! { 743, glPixelTransferf, first_glPixelTransferf, hook_glPixelTransferf, (pname: u32, param: f32) -> (), {
+export! { 741, glPixelTransferf, first_glPixelTransferf, hook_glPixelTransferf, (pname: u32, param: f32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPixelTransferf(pname, param) };
 } }
-export! { 744, glPixelTransferi, first_glPixelTransferi, hook_glPixelTransferi, (pname: u32, param: i32) -> (), {
+export! { 742, glPixelTransferi, first_glPixelTransferi, hook_glPixelTransferi, (pname: u32, param: i32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPixelTransferi(pname, param) };
 } }
-export! { 745, glPixelZoom, first_glPixelZoom, hook_glPixelZoom, (xfactor: f32, yfactor: f32) -> (), {
+export! { 743, glPixelZoom, first_glPixelZoom, hook_glPixelZoom, (xfactor: f32, yfactor: f32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPixelZoom(xfactor, yfactor) };
 } }
-export! { 746, glPolygonOffset, first_glPolygonOffset, hook_glPolygonOffset, (factor: f32, units: f32) -> (), {
+export! { 744, glPolygonOffset, first_glPolygonOffset, hook_glPolygonOffset, (factor: f32, units: f32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPolygonOffset(factor, units) };
 } }
-export! { 747, glPolygonOffsetClamp, first_glPolygonOffsetClamp, hook_glPolygonOffsetClamp, (factor: f32, units: f32, clamp: f32) -> (), {
+export! { 745, glPolygonOffsetClamp, first_glPolygonOffsetClamp, hook_glPolygonOffsetClamp, (factor: f32, units: f32, clamp: f32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPolygonOffsetClamp(factor, units, clamp) };
 } }
-export! { 748, glPolygonOffsetClampEXT, first_glPolygonOffsetClampEXT, hook_glPolygonOffsetClampEXT, (factor: f32, units: f32, clamp: f32) -> (), {
+export! { 746, glPolygonOffsetClampEXT, first_glPolygonOffsetClampEXT, hook_glPolygonOffsetClampEXT, (factor: f32, units: f32, clamp: f32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPolygonOffsetClampEXT(factor, units, clamp) };
 } }
-export! { 749, glPolygonStipple, first_glPolygonStipple, hook_glPolygonStipple, (mask: Ptr) -> (), {
+export! { 747, glPolygonStipple, first_glPolygonStipple, hook_glPolygonStipple, (mask: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPolygonStipple(mask) };
 } }
-export! { 750, glPrioritizeTextures, first_glPrioritizeTextures, hook_glPrioritizeTextures, (n: i32, textures: Ptr, priorities: Ptr) -> (), {
+export! { 748, glPrioritizeTextures, first_glPrioritizeTextures, hook_glPrioritizeTextures, (n: i32, textures: Ptr, priorities: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPrioritizeTextures(n, textures, priorities) };
 } }
-export! { 751, glPrioritizeTexturesEXT, first_glPrioritizeTexturesEXT, hook_glPrioritizeTexturesEXT, (n: i32, textures: Ptr, priorities: Ptr) -> (), {
+export! { 749, glPrioritizeTexturesEXT, first_glPrioritizeTexturesEXT, hook_glPrioritizeTexturesEXT, (n: i32, textures: Ptr, priorities: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPrioritizeTexturesEXT(n, textures, priorities) };
 } }
-export! { 752, glSampleCoverage, first_glSampleCoverage, hook_glSampleCoverage, (value: f32, invert: u8) -> (), {
+export! { 750, glSampleCoverage, first_glSampleCoverage, hook_glSampleCoverage, (value: f32, invert: u8) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glSampleCoverage(value, invert) };
 } }
-export! { 753, glSampleCoverageARB, first_glSampleCoverageARB, hook_glSampleCoverageARB, (value: f32, invert: u8) -> (), {
+export! { 751, glSampleCoverageARB, first_glSampleCoverageARB, hook_glSampleCoverageARB, (value: f32, invert: u8) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glSampleCoverageARB(value, invert) };
 } }
-export! { 754, glMinSampleShading, first_glMinSampleShading, hook_glMinSampleShading, (value: f32) -> (), {
+export! { 752, glMinSampleShading, first_glMinSampleShading, hook_glMinSampleShading, (value: f32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glMinSampleShading(value) };
 } }
-export! { 755, glMinSampleShadingARB, first_glMinSampleShadingARB, hook_glMinSampleShadingARB, (value: f32) -> (), {
+export! { 753, glMinSampleShadingARB, first_glMinSampleShadingARB, hook_glMinSampleShadingARB, (value: f32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glMinSampleShadingARB(value) };
 } }
-export! { 756, glMinSampleShadingOES, first_glMinSampleShadingOES, hook_glMinSampleShadingOES, (value: f32) -> (), {
+export! { 754, glMinSampleShadingOES, first_glMinSampleShadingOES, hook_glMinSampleShadingOES, (value: f32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glMinSampleShadingOES(value) };
 } }
-export! { 757, glStencilFunc, first_glStencilFunc, hook_glStencilFunc, (func: u32, ref_: i32, mask: u32) -> (), {
+export! { 755, glStencilFunc, first_glStencilFunc, hook_glStencilFunc, (func: u32, ref_: i32, mask: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glStencilFunc(func, ref_, mask) };
 } }
-export! { 758, glStencilFuncSeparate, first_glStencilFuncSeparate, hook_glStencilFuncSeparate, (face: u32, func: u32, ref_: i32, mask: u32) -> (), {
+export! { 756, glStencilFuncSeparate, first_glStencilFuncSeparate, hook_glStencilFuncSeparate, (face: u32, func: u32, ref_: i32, mask: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glStencilFuncSeparate(face, func, ref_, mask) };
 } }
-export! { 759, glStencilMask, first_glStencilMask, hook_glStencilMask, (mask: u32) -> (), {
+export! { 757, glStencilMask, first_glStencilMask, hook_glStencilMask, (mask: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glStencilMask(mask) };
 } }
-export! { 760, glStencilMaskSeparate, first_glStencilMaskSeparate, hook_glStencilMaskSeparate, (face: u32, mask: u32) -> (), {
+export! { 758, glStencilMaskSeparate, first_glStencilMaskSeparate, hook_glStencilMaskSeparate, (face: u32, mask: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glStencilMaskSeparate(face, mask) };
 } }
-export! { 761, glStencilOp, first_glStencilOp, hook_glStencilOp, (fail: u32, zfail: u32, zpass: u32) -> (), {
+export! { 759, glStencilOp, first_glStencilOp, hook_glStencilOp, (fail: u32, zfail: u32, zpass: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glStencilOp(fail, zfail, zpass) };
 } }
-export! { 762, glStencilOpSeparate, first_glStencilOpSeparate, hook_glStencilOpSeparate, (face: u32, sfail: u32, dpfail: u32, dppass: u32) -> (), {
+export! { 760, glStencilOpSeparate, first_glStencilOpSeparate, hook_glStencilOpSeparate, (face: u32, sfail: u32, dpfail: u32, dppass: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glStencilOpSeparate(face, sfail, dpfail, dppass) };
 } }
-export! { 763, glStencilOpSeparateATI, first_glStencilOpSeparateATI, hook_glStencilOpSeparateATI, (face: u32, sfail: u32, dpfail: u32, dppass: u32) -> (), {
+export! { 761, glStencilOpSeparateATI, first_glStencilOpSeparateATI, hook_glStencilOpSeparateATI, (face: u32, sfail: u32, dpfail: u32, dppass: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glStencilOpSeparateATI(face, sfail, dpfail, dppass) };
 } }
-export! { 764, glPrimitiveRestartIndex, first_glPrimitiveRestartIndex, hook_glPrimitiveRestartIndex, (index: u32) -> (), {
+export! { 762, glPrimitiveRestartIndex, first_glPrimitiveRestartIndex, hook_glPrimitiveRestartIndex, (index: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPrimitiveRestartIndex(index) };
 } }
-export! { 765, glTexImage1D, first_glTexImage1D, hook_glTexImage1D, (target: u32, level: i32, internalformat: i32, width: i32, border: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
+export! { 763, glTexImage1D, first_glTexImage1D, hook_glTexImage1D, (target: u32, level: i32, internalformat: i32, width: i32, border: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
     hooks::texture(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexImage1D(target, level, internalformat, width, border, format, type_, pixels) };
 } }
-export! { 766, glTexImage2D, first_glTexImage2D, hook_glTexImage2D, (target: u32, level: i32, internalformat: i32, width: i32, height: i32, border: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
+export! { 764, glTexImage2D, first_glTexImage2D, hook_glTexImage2D, (target: u32, level: i32, internalformat: i32, width: i32, height: i32, border: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
     hooks::texture(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexImage2D(target, level, internalformat, width, height, border, format, type_, pixels) };
 } }
-export! { 767, glTexImage3D, first_glTexImage3D, hook_glTexImage3D, (target: u32, level: i32, internalformat: i32, width: i32, height: i32, depth: i32, border: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
+export! { 765, glTexImage3D, first_glTexImage3D, hook_glTexImage3D, (target: u32, level: i32, internalformat: i32, width: i32, height: i32, depth: i32, border: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
     hooks::texture(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexImage3D(target, level, internalformat, width, height, depth, border, format, type_, pixels) };
 } }
-export! { 768, glTexImage3DEXT, first_glTexImage3DEXT, hook_glTexImage3DEXT, (target: u32, level: i32, internalformat: u32, width: i32, height: i32, depth: i32, border: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
+export! { 766, glTexImage3DEXT, first_glTexImage3DEXT, hook_glTexImage3DEXT, (target: u32, level: i32, internalformat: u32, width: i32, height: i32, depth: i32, border: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
     hooks::texture(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexImage3DEXT(target, level, internalformat, width, height, depth, border, format, type_, pixels) };
 } }
-export! { 769, glTexSubImage1D, first_glTexSubImage1D, hook_glTexSubImage1D, (target: u32, level: i32, xoffset: i32, width: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
+export! { 767, glTexSubImage1D, first_glTexSubImage1D, hook_glTexSubImage1D, (target: u32, level: i32, xoffset: i32, width: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
     hooks::texture(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexSubImage1D(target, level, xoffset, width, format, type_, pixels) };
 } }
-export! { 770, glTexSubImage1DEXT, first_glTexSubImage1DEXT, hook_glTexSubImage1DEXT, (target: u32, level: i32, xoffset: i32, width: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
+export! { 768, glTexSubImage1DEXT, first_glTexSubImage1DEXT, hook_glTexSubImage1DEXT, (target: u32, level: i32, xoffset: i32, width: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
     hooks::texture(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexSubImage1DEXT(target, level, xoffset, width, format, type_, pixels) };
 } }
-export! { 771, glTexSubImage2D, first_glTexSubImage2D, hook_glTexSubImage2D, (target: u32, level: i32, xoffset: i32, yoffset: i32, width: i32, height: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
+export! { 769, glTexSubImage2D, first_glTexSubImage2D, hook_glTexSubImage2D, (target: u32, level: i32, xoffset: i32, yoffset: i32, width: i32, height: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
     hooks::texture(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexSubImage2D(target, level, xoffset, yoffset, width, height, format, type_, pixels) };
 } }
-export! { 772, glTexSubImage2DEXT, first_glTexSubImage2DEXT, hook_glTexSubImage2DEXT, (target: u32, level: i32, xoffset: i32, yoffset: i32, width: i32, height: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
+export! { 770, glTexSubImage2DEXT, first_glTexSubImage2DEXT, hook_glTexSubImage2DEXT, (target: u32, level: i32, xoffset: i32, yoffset: i32, width: i32, height: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
     hooks::texture(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexSubImage2DEXT(target, level, xoffset, yoffset, width, height, format, type_, pixels) };
 } }
-export! { 773, glTexSubImage3D, first_glTexSubImage3D, hook_glTexSubImage3D, (target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
+export! { 771, glTexSubImage3D, first_glTexSubImage3D, hook_glTexSubImage3D, (target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
     hooks::texture(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexSubImage3D(target, level, xoffset, yoffset, zoffset, width, height, depth, format, type_, pixels) };
 } }
-export! { 774, glTexSubImage3DEXT, first_glTexSubImage3DEXT, hook_glTexSubImage3DEXT, (target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
+export! { 772, glTexSubImage3DEXT, first_glTexSubImage3DEXT, hook_glTexSubImage3DEXT, (target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
     hooks::texture(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexSubImage3DEXT(target, level, xoffset, yoffset, zoffset, width, height, depth, format, type_, pixels) };
 } }
-export! { 775, glCompressedTexImage1D, first_glCompressedTexImage1D, hook_glCompressedTexImage1D, (target: u32, level: i32, internalformat: u32, width: i32, border: i32, imageSize: i32, data: Ptr) -> (), {
+export! { 773, glCompressedTexImage1D, first_glCompressedTexImage1D, hook_glCompressedTexImage1D, (target: u32, level: i32, internalformat: u32, width: i32, border: i32, imageSize: i32, data: Ptr) -> (), {
     hooks::texture(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glCompressedTexImage1D(target, level, internalformat, width, border, imageSize, data) };
 } }
-export! { 776, glCompressedTexImage1DARB, first_glCompressedTexImage1DARB, hook_glCompressedTexImage1DARB, (target: u32, level: i32, internalformat: u32, width: i32, border: i32, imageSize: i32, data: Ptr) -> (), {
+export! { 774, glCompressedTexImage1DARB, first_glCompressedTexImage1DARB, hook_glCompressedTexImage1DARB, (target: u32, level: i32, internalformat: u32, width: i32, border: i32, imageSize: i32, data: Ptr) -> (), {
     hooks::texture(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glCompressedTexImage1DARB(target, level, internalformat, width, border, imageSize, data) };
 } }
-export! { 777, glCompressedTexImage2D, first_glCompressedTexImage2D, hook_glCompressedTexImage2D, (target: u32, level: i32, internalformat: u32, width: i32, height: i32, border: i32, imageSize: i32, data: Ptr) -> (), {
+export! { 775, glCompressedTexImage2D, first_glCompressedTexImage2D, hook_glCompressedTexImage2D, (target: u32, level: i32, internalformat: u32, width: i32, height: i32, border: i32, imageSize: i32, data: Ptr) -> (), {
     hooks::texture(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glCompressedTexImage2D(target, level, internalformat, width, height, border, imageSize, data) };
 } }
-export! { 778, glCompressedTexImage2DARB, first_glCompressedTexImage2DARB, hook_glCompressedTexImage2DARB, (target: u32, level: i32, internalformat: u32, width: i32, height: i32, border: i32, imageSize: i32, data: Ptr) -> (), {
+export! { 776, glCompressedTexImage2DARB, first_glCompressedTexImage2DARB, hook_glCompressedTexImage2DARB, (target: u32, level: i32, internalformat: u32, width: i32, height: i32, border: i32, imageSize: i32, data: Ptr) -> (), {
     hooks::texture(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glCompressedTexImage2DARB(target, level, internalformat, width, height, border, imageSize, data) };
 } }
-export! { 779, glCompressedTexImage3D, first_glCompressedTexImage3D, hook_glCompressedTexImage3D, (target: u32, level: i32, internalformat: u32, width: i32, height: i32, depth: i32, border: i32, imageSize: i32, data: Ptr) -> (), {
+export! { 777, glCompressedTexImage3D, first_glCompressedTexImage3D, hook_glCompressedTexImage3D, (target: u32, level: i32, internalformat: u32, width: i32, height: i32, depth: i32, border: i32, imageSize: i32, data: Ptr) -> (), {
     hooks::texture(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glCompressedTexImage3D(target, level, internalformat, width, height, depth, border, imageSize, data) };
 } }
-export! { 780, glCompressedTexImage3DARB, first_glCompressedTexImage3DARB, hook_glCompressedTexImage3DARB, (target: u32, level: i32, internalformat: u32, width: i32, height: i32, depth: i32, border: i32, imageSize: i32, data: Ptr) -> (), {
+export! { 778, glCompressedTexImage3DARB, first_glCompressedTexImage3DARB, hook_glCompressedTexImage3DARB, (target: u32, level: i32, internalformat: u32, width: i32, height: i32, depth: i32, border: i32, imageSize: i32, data: Ptr) -> (), {
     hooks::texture(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glCompressedTexImage3DARB(target, level, internalformat, width, height, depth, border, imageSize, data) };
 } }
-export! { 781, glCompressedTexSubImage1D, first_glCompressedTexSubImage1D, hook_glCompressedTexSubImage1D, (target: u32, level: i32, xoffset: i32, width: i32, format: u32, imageSize: i32, data: Ptr) -> (), {
+export! { 779, glCompressedTexSubImage1D, first_glCompressedTexSubImage1D, hook_glCompressedTexSubImage1D, (target: u32, level: i32, xoffset: i32, width: i32, format: u32, imageSize: i32, data: Ptr) -> (), {
     hooks::texture(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glCompressedTexSubImage1D(target, level, xoffset, width, format, imageSize, data) };
 } }
-export! { 782, glCompressedTexSubImage1DARB, first_glCompressedTexSubImage1DARB, hook_glCompressedTexSubImage1DARB, (target: u32, level: i32, xoffset: i32, width: i32, format: u32, imageSize: i32, data: Ptr) -> (), {
+export! { 780, glCompressedTexSubImage1DARB, first_glCompressedTexSubImage1DARB, hook_glCompressedTexSubImage1DARB, (target: u32, level: i32, xoffset: i32, width: i32, format: u32, imageSize: i32, data: Ptr) -> (), {
     hooks::texture(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glCompressedTexSubImage1DARB(target, level, xoffset, width, format, imageSize, data) };
 } }
-export! { 783, glCompressedTexSubImage2D, first_glCompressedTexSubImage2D, hook_glCompressedTexSubImage2D, (target: u32, level: i32, xoffset: i32, yoffset: i32, width: i32, height: i32, format: u32, imageSize: i32, data: Ptr) -> (), {
+export! { 781, glCompressedTexSubImage2D, first_glCompressedTexSubImage2D, hook_glCompressedTexSubImage2D, (target: u32, level: i32, xoffset: i32, yoffset: i32, width: i32, height: i32, format: u32, imageSize: i32, data: Ptr) -> (), {
     hooks::texture(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glCompressedTexSubImage2D(target, level, xoffset, yoffset, width, height, format, imageSize, data) };
 } }
-export! { 784, glCompressedTexSubImage2DARB, first_glCompressedTexSubImage2DARB, hook_glCompressedTexSubImage2DARB, (target: u32, level: i32, xoffset: i32, yoffset: i32, width: i32, height: i32, format: u32, imageSize: i32, data: Ptr) -> (), {
+export! { 782, glCompressedTexSubImage2DARB, first_glCompressedTexSubImage2DARB, hook_glCompressedTexSubImage2DARB, (target: u32, level: i32, xoffset: i32, yoffset: i32, width: i32, height: i32, format: u32, imageSize: i32, data: Ptr) -> (), {
     hooks::texture(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glCompressedTexSubImage2DARB(target, level, xoffset, yoffset, width, height, format, imageSize, data) };
 } }
-export! { 785, glCompressedTexSubImage3D, first_glCompressedTexSubImage3D, hook_glCompressedTexSubImage3D, (target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, format: u32, imageSize: i32, data: Ptr) -> (), {
+export! { 783, glCompressedTexSubImage3D, first_glCompressedTexSubImage3D, hook_glCompressedTexSubImage3D, (target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, format: u32, imageSize: i32, data: Ptr) -> (), {
     hooks::texture(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glCompressedTexSubImage3D(target, level, xoffset, yoffset, zoffset, width, height, depth, format, imageSize, data) };
 } }
-export! { 786, glCompressedTexSubImage3DARB, first_glCompressedTexSubImage3DARB, hook_glCompressedTexSubImage3DARB, (target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, format: u32, imageSize: i32, data: Ptr) -> (), {
+export! { 784, glCompressedTexSubImage3DARB, first_glCompressedTexSubImage3DARB, hook_glCompressedTexSubImage3DARB, (target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, format: u32, imageSize: i32, data: Ptr) -> (), {
     hooks::texture(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glCompressedTexSubImage3DARB(target, level, xoffset, yoffset, zoffset, width, height, depth, format, imageSize, data) };
 } }
-export! { 787, glTexParameterf, first_glTexParameterf, hook_glTexParameterf, (target: u32, pname: u32, param: f32) -> (), {
+export! { 785, glTexParameterf, first_glTexParameterf, hook_glTexParameterf, (target: u32, pname: u32, param: f32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexParameterf(target, pname, param) };
 } }
-export! { 788, glTexParameterfv, first_glTexParameterfv, hook_glTexParameterfv, (target: u32, pname: u32, params: Ptr) -> (), {
+export! { 786, glTexParameterfv, first_glTexParameterfv, hook_glTexParameterfv, (target: u32, pname: u32, params: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexParameterfv(target, pname, params) };
 } }
-export! { 789, glTexParameteri, first_glTexParameteri, hook_glTexParameteri, (target: u32, pname: u32, param: i32) -> (), {
+export! { 787, glTexParameteri, first_glTexParameteri, hook_glTexParameteri, (target: u32, pname: u32, param: i32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexParameteri(target, pname, param) };
 } }
-export! { 790, glTexParameteriv, first_glTexParameteriv, hook_glTexParameteriv, (target: u32, pname: u32, params: Ptr) -> (), {
+export! { 788, glTexParameteriv, first_glTexParameteriv, hook_glTexParameteriv, (target: u32, pname: u32, params: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexParameteriv(target, pname, params) };
 } }
-export! { 791, glTexParameterIiv, first_glTexParameterIiv, hook_glTexParameterIiv, (target: u32, pname: u32, params: Ptr) -> (), {
+export! { 789, glTexParameterIiv, first_glTexParameterIiv, hook_glTexParameterIiv, (target: u32, pname: u32, params: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexParameterIiv(target, pname, params) };
 } }
-export! { 792, glTexParameterIivEXT, first_glTexParameterIivEXT, hook_glTexParameterIivEXT, (target: u32, pname: u32, params: Ptr) -> (), {
+export! { 790, glTexParameterIivEXT, first_glTexParameterIivEXT, hook_glTexParameterIivEXT, (target: u32, pname: u32, params: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexParameterIivEXT(target, pname, params) };
 } }
-export! { 793, glTexParameterIivOES, first_glTexParameterIivOES, hook_glTexParameterIivOES, (target: u32, pname: u32, params: Ptr) -> (), {
+export! { 791, glTexParameterIivOES, first_glTexParameterIivOES, hook_glTexParameterIivOES, (target: u32, pname: u32, params: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexParameterIivOES(target, pname, params) };
 } }
-export! { 794, glTexParameterIuiv, first_glTexParameterIuiv, hook_glTexParameterIuiv, (target: u32, pname: u32, params: Ptr) -> (), {
+export! { 792, glTexParameterIuiv, first_glTexParameterIuiv, hook_glTexParameterIuiv, (target: u32, pname: u32, params: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexParameterIuiv(target, pname, params) };
 } }
-export! { 795, glTexParameterIuivEXT, first_glTexParameterIuivEXT, hook_glTexParameterIuivEXT, (target: u32, pname: u32, params: Ptr) -> (), {
+export! { 793, glTexParameterIuivEXT, first_glTexParameterIuivEXT, hook_glTexParameterIuivEXT, (target: u32, pname: u32, params: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexParameterIuivEXT(target, pname, params) };
 } }
-export! { 796, glTexParameterIuivOES, first_glTexParameterIuivOES, hook_glTexParameterIuivOES, (target: u32, pname: u32, params: Ptr) -> (), {
+export! { 794, glTexParameterIuivOES, first_glTexParameterIuivOES, hook_glTexParameterIuivOES, (target: u32, pname: u32, params: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexParameterIuivOES(target, pname, params) };
 } }
-export! { 797, glProgramEnvParameter4dARB, first_glProgramEnvParameter4dARB, hook_glProgramEnvParameter4dARB, (target: u32, index: u32, x: f64, y: f64, z: f64, w: f64) -> (), {
+export! { 795, glProgramEnvParameter4dARB, first_glProgramEnvParameter4dARB, hook_glProgramEnvParameter4dARB, (target: u32, index: u32, x: f64, y: f64, z: f64, w: f64) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramEnvParameter4dARB(target, index, x, y, z, w) };
 } }
-export! { 798, glProgramEnvParameter4dvARB, first_glProgramEnvParameter4dvARB, hook_glProgramEnvParameter4dvARB, (target: u32, index: u32, params: Ptr) -> (), {
+export! { 796, glProgramEnvParameter4dvARB, first_glProgramEnvParameter4dvARB, hook_glProgramEnvParameter4dvARB, (target: u32, index: u32, params: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramEnvParameter4dvARB(target, index, params) };
 } }
-export! { 799, glProgramEnvParameter4fARB, first_glProgramEnvParameter4fARB, hook_glProgramEnvParameter4fARB, (target: u32, index: u32, x: f32, y: f32, z: f32, w: f32) -> (), {
+export! { 797, glProgramEnvParameter4fARB, first_glProgramEnvParameter4fARB, hook_glProgramEnvParameter4fARB, (target: u32, index: u32, x: f32, y: f32, z: f32, w: f32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramEnvParameter4fARB(target, index, x, y, z, w) };
 } }
-export! { 800, glProgramEnvParameter4fvARB, first_glProgramEnvParameter4fvARB, hook_glProgramEnvParameter4fvARB, (target: u32, index: u32, params: Ptr) -> (), {
+export! { 798, glProgramEnvParameter4fvARB, first_glProgramEnvParameter4fvARB, hook_glProgramEnvParameter4fvARB, (target: u32, index: u32, params: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramEnvParameter4fvARB(target, index, params) };
 } }
-export! { 801, glProgramLocalParameter4dARB, first_glProgramLocalParameter4dARB, hook_glProgramLocalParameter4dARB, (target: u32, index: u32, x: f64, y: f64, z: f64, w: f64) -> (), {
+export! { 799, glProgramLocalParameter4dARB, first_glProgramLocalParameter4dARB, hook_glProgramLocalParameter4dARB, (target: u32, index: u32, x: f64, y: f64, z: f64, w: f64) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramLocalParameter4dARB(target, index, x, y, z, w) };
 } }
-export! { 802, glProgramLocalParameter4dvARB, first_glProgramLocalParameter4dvARB, hook_glProgramLocalParameter4dvARB, (target: u32, index: u32, params: Ptr) -> (), {
+export! { 800, glProgramLocalParameter4dvARB, first_glProgramLocalParameter4dvARB, hook_glProgramLocalParameter4dvARB, (target: u32, index: u32, params: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramLocalParameter4dvARB(target, index, params) };
 } }
-export! { 803, glProgramLocalParameter4fARB, first_glProgramLocalParameter4fARB, hook_glProgramLocalParameter4fARB, (target: u32, index: u32, x: f32, y: f32, z: f32, w: f32) -> (), {
+export! { 801, glProgramLocalParameter4fARB, first_glProgramLocalParameter4fARB, hook_glProgramLocalParameter4fARB, (target: u32, index: u32, x: f32, y: f32, z: f32, w: f32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramLocalParameter4fARB(target, index, x, y, z, w) };
 } }
-export! { 804, glProgramLocalParameter4fvARB, first_glProgramLocalParameter4fvARB, hook_glProgramLocalParameter4fvARB, (target: u32, index: u32, params: Ptr) -> (), {
+export! { 802, glProgramLocalParameter4fvARB, first_glProgramLocalParameter4fvARB, hook_glProgramLocalParameter4fvARB, (target: u32, index: u32, params: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramLocalParameter4fvARB(target, index, params) };
 } }
-export! { 805, glGenerateMipmap, first_glGenerateMipmap, hook_glGenerateMipmap, (target: u32) -> (), {
+export! { 803, glGenerateMipmap, first_glGenerateMipmap, hook_glGenerateMipmap, (target: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGenerateMipmap(target) };
 } }
-export! { 806, glGenerateMipmapEXT, first_glGenerateMipmapEXT, hook_glGenerateMipmapEXT, (target: u32) -> (), {
+export! { 804, glGenerateMipmapEXT, first_glGenerateMipmapEXT, hook_glGenerateMipmapEXT, (target: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGenerateMipmapEXT(target) };
 } }
-export! { 807, glUniform1d, first_glUniform1d, hook_glUniform1d, (location: i32, x: f64) -> (), {
+export! { 805, glUniform1d, first_glUniform1d, hook_glUniform1d, (location: i32, x: f64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1d(location, x) };
 } }
-export! { 808, glUniform1dv, first_glUniform1dv, hook_glUniform1dv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 806, glUniform1dv, first_glUniform1dv, hook_glUniform1dv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1dv(location, count, value) };
 } }
-export! { 809, glUniform1f, first_glUniform1f, hook_glUniform1f, (location: i32, v0: f32) -> (), {
+export! { 807, glUniform1f, first_glUniform1f, hook_glUniform1f, (location: i32, v0: f32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1f(location, v0) };
 } }
-export! { 810, glUniform1fARB, first_glUniform1fARB, hook_glUniform1fARB, (location: i32, v0: f32) -> (), {
+export! { 808, glUniform1fARB, first_glUniform1fARB, hook_glUniform1fARB, (location: i32, v0: f32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1fARB(location, v0) };
 } }
-export! { 811, glUniform1fv, first_glUniform1fv, hook_glUniform1fv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 809, glUniform1fv, first_glUniform1fv, hook_glUniform1fv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1fv(location, count, value) };
 } }
-export! { 812, glUniform1fvARB, first_glUniform1fvARB, hook_glUniform1fvARB, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 810, glUniform1fvARB, first_glUniform1fvARB, hook_glUniform1fvARB, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1fvARB(location, count, value) };
 } }
-export! { 813, glUniform1i, first_glUniform1i, hook_glUniform1i, (location: i32, v0: i32) -> (), {
+export! { 811, glUniform1i, first_glUniform1i, hook_glUniform1i, (location: i32, v0: i32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1i(location, v0) };
 } }
-export! { 814, glUniform1iARB, first_glUniform1iARB, hook_glUniform1iARB, (location: i32, v0: i32) -> (), {
+export! { 812, glUniform1iARB, first_glUniform1iARB, hook_glUniform1iARB, (location: i32, v0: i32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1iARB(location, v0) };
 } }
-export! { 815, glUniform1iv, first_glUniform1iv, hook_glUniform1iv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 813, glUniform1iv, first_glUniform1iv, hook_glUniform1iv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1iv(location, count, value) };
 } }
-export! { 816, glUniform1ivARB, first_glUniform1ivARB, hook_glUniform1ivARB, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 814, glUniform1ivARB, first_glUniform1ivARB, hook_glUniform1ivARB, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1ivARB(location, count, value) };
 } }
-export! { 817, glUniform1ui, first_glUniform1ui, hook_glUniform1ui, (location: i32, v0: u32) -> (), {
+export! { 815, glUniform1ui, first_glUniform1ui, hook_glUniform1ui, (location: i32, v0: u32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1ui(location, v0) };
 } }
-export! { 818, glUniform1uiEXT, first_glUniform1uiEXT, hook_glUniform1uiEXT, (location: i32, v0: u32) -> (), {
+export! { 816, glUniform1uiEXT, first_glUniform1uiEXT, hook_glUniform1uiEXT, (location: i32, v0: u32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1uiEXT(location, v0) };
 } }
-export! { 819, glUniform1uiv, first_glUniform1uiv, hook_glUniform1uiv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 817, glUniform1uiv, first_glUniform1uiv, hook_glUniform1uiv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1uiv(location, count, value) };
 } }
-export! { 820, glUniform1uivEXT, first_glUniform1uivEXT, hook_glUniform1uivEXT, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 818, glUniform1uivEXT, first_glUniform1uivEXT, hook_glUniform1uivEXT, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1uivEXT(location, count, value) };
 } }
-export! { 821, glUniform2d, first_glUniform2d, hook_glUniform2d, (location: i32, x: f64, y: f64) -> (), {
+export! { 819, glUniform2d, first_glUniform2d, hook_glUniform2d, (location: i32, x: f64, y: f64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2d(location, x, y) };
 } }
-export! { 822, glUniform2dv, first_glUniform2dv, hook_glUniform2dv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 820, glUniform2dv, first_glUniform2dv, hook_glUniform2dv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2dv(location, count, value) };
 } }
-export! { 823, glUniform2f, first_glUniform2f, hook_glUniform2f, (location: i32, v0: f32, v1: f32) -> (), {
+export! { 821, glUniform2f, first_glUniform2f, hook_glUniform2f, (location: i32, v0: f32, v1: f32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2f(location, v0, v1) };
 } }
-export! { 824, glUniform2fARB, first_glUniform2fARB, hook_glUniform2fARB, (location: i32, v0: f32, v1: f32) -> (), {
+export! { 822, glUniform2fARB, first_glUniform2fARB, hook_glUniform2fARB, (location: i32, v0: f32, v1: f32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2fARB(location, v0, v1) };
 } }
-export! { 825, glUniform2fv, first_glUniform2fv, hook_glUniform2fv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 823, glUniform2fv, first_glUniform2fv, hook_glUniform2fv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2fv(location, count, value) };
 } }
-export! { 826, glUniform2fvARB, first_glUniform2fvARB, hook_glUniform2fvARB, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 824, glUniform2fvARB, first_glUniform2fvARB, hook_glUniform2fvARB, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2fvARB(location, count, value) };
 } }
-export! { 827, glUniform2i, first_glUniform2i, hook_glUniform2i, (location: i32, v0: i32, v1: i32) -> (), {
+export! { 825, glUniform2i, first_glUniform2i, hook_glUniform2i, (location: i32, v0: i32, v1: i32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2i(location, v0, v1) };
 } }
-export! { 828, glUniform2iARB, first_glUniform2iARB, hook_glUniform2iARB, (location: i32, v0: i32, v1: i32) -> (), {
+export! { 826, glUniform2iARB, first_glUniform2iARB, hook_glUniform2iARB, (location: i32, v0: i32, v1: i32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2iARB(location, v0, v1) };
 } }
-export! { 829, glUniform2iv, first_glUniform2iv, hook_glUniform2iv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 827, glUniform2iv, first_glUniform2iv, hook_glUniform2iv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2iv(location, count, value) };
 } }
-export! { 830, glUniform2ivARB, first_glUniform2ivARB, hook_glUniform2ivARB, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 828, glUniform2ivARB, first_glUniform2ivARB, hook_glUniform2ivARB, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2ivARB(location, count, value) };
 } }
-export! { 831, glUniform2ui, first_glUniform2ui, hook_glUniform2ui, (location: i32, v0: u32, v1: u32) -> (), {
+export! { 829, glUniform2ui, first_glUniform2ui, hook_glUniform2ui, (location: i32, v0: u32, v1: u32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2ui(location, v0, v1) };
 } }
-export! { 832, glUniform2uiEXT, first_glUniform2uiEXT, hook_glUniform2uiEXT, (location: i32, v0: u32, v1: u32) -> (), {
+export! { 830, glUniform2uiEXT, first_glUniform2uiEXT, hook_glUniform2uiEXT, (location: i32, v0: u32, v1: u32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2uiEXT(location, v0, v1) };
 } }
-export! { 833, glUniform2uiv, first_glUniform2uiv, hook_glUniform2uiv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 831, glUniform2uiv, first_glUniform2uiv, hook_glUniform2uiv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2uiv(location, count, value) };
 } }
-export! { 834, glUniform2uivEXT, first_glUniform2uivEXT, hook_glUniform2uivEXT, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 832, glUniform2uivEXT, first_glUniform2uivEXT, hook_glUniform2uivEXT, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2uivEXT(location, count, value) };
 } }
-export! { 835, glUniform3d, first_glUniform3d, hook_glUniform3d, (location: i32, x: f64, y: f64, z: f64) -> (), {
+export! { 833, glUniform3d, first_glUniform3d, hook_glUniform3d, (location: i32, x: f64, y: f64, z: f64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3d(location, x, y, z) };
 } }
-export! { 836, glUniform3dv, first_glUniform3dv, hook_glUniform3dv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 834, glUniform3dv, first_glUniform3dv, hook_glUniform3dv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3dv(location, count, value) };
 } }
-export! { 837, glUniform3f, first_glUniform3f, hook_glUniform3f, (location: i32, v0: f32, v1: f32, v2: f32) -> (), {
+export! { 835, glUniform3f, first_glUniform3f, hook_glUniform3f, (location: i32, v0: f32, v1: f32, v2: f32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3f(location, v0, v1, v2) };
 } }
-export! { 838, glUniform3fARB, first_glUniform3fARB, hook_glUniform3fARB, (location: i32, v0: f32, v1: f32, v2: f32) -> (), {
+export! { 836, glUniform3fARB, first_glUniform3fARB, hook_glUniform3fARB, (location: i32, v0: f32, v1: f32, v2: f32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3fARB(location, v0, v1, v2) };
 } }
-export! { 839, glUniform3fv, first_glUniform3fv, hook_glUniform3fv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 837, glUniform3fv, first_glUniform3fv, hook_glUniform3fv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3fv(location, count, value) };
 } }
-export! { 840, glUniform3fvARB, first_glUniform3fvARB, hook_glUniform3fvARB, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 838, glUniform3fvARB, first_glUniform3fvARB, hook_glUniform3fvARB, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3fvARB(location, count, value) };
 } }
-export! { 841, glUniform3i, first_glUniform3i, hook_glUniform3i, (location: i32, v0: i32, v1: i32, v2: i32) -> (), {
+export! { 839, glUniform3i, first_glUniform3i, hook_glUniform3i, (location: i32, v0: i32, v1: i32, v2: i32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3i(location, v0, v1, v2) };
 } }
-export! { 842, glUniform3iARB, first_glUniform3iARB, hook_glUniform3iARB, (location: i32, v0: i32, v1: i32, v2: i32) -> (), {
+export! { 840, glUniform3iARB, first_glUniform3iARB, hook_glUniform3iARB, (location: i32, v0: i32, v1: i32, v2: i32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3iARB(location, v0, v1, v2) };
 } }
-export! { 843, glUniform3iv, first_glUniform3iv, hook_glUniform3iv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 841, glUniform3iv, first_glUniform3iv, hook_glUniform3iv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3iv(location, count, value) };
 } }
-export! { 844, glUniform3ivARB, first_glUniform3ivARB, hook_glUniform3ivARB, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 842, glUniform3ivARB, first_glUniform3ivARB, hook_glUniform3ivARB, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3ivARB(location, count, value) };
 } }
-export! { 845, glUniform3ui, first_glUniform3ui, hook_glUniform3ui, (location: i32, v0: u32, v1: u32, v2: u32) -> (), {
+export! { 843, glUniform3ui, first_glUniform3ui, hook_glUniform3ui, (location: i32, v0: u32, v1: u32, v2: u32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3ui(location, v0, v1, v2) };
 } }
-export! { 846, glUniform3uiEXT, first_glUniform3uiEXT, hook_glUniform3uiEXT, (location: i32, v0: u32, v1: u32, v2: u32) -> (), {
+export! { 844, glUniform3uiEXT, first_glUniform3uiEXT, hook_glUniform3uiEXT, (location: i32, v0: u32, v1: u32, v2: u32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3uiEXT(location, v0, v1, v2) };
 } }
-export! { 847, glUniform3uiv, first_glUniform3uiv, hook_glUniform3uiv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 845, glUniform3uiv, first_glUniform3uiv, hook_glUniform3uiv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3uiv(location, count, value) };
 } }
-export! { 848, glUniform3uivEXT, first_glUniform3uivEXT, hook_glUniform3uivEXT, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 846, glUniform3uivEXT, first_glUniform3uivEXT, hook_glUniform3uivEXT, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3uivEXT(location, count, value) };
 } }
-export! { 849, glUniform4d, first_glUniform4d, hook_glUniform4d, (location: i32, x: f64, y: f64, z: f64, w: f64) -> (), {
+export! { 847, glUniform4d, first_glUniform4d, hook_glUniform4d, (location: i32, x: f64, y: f64, z: f64, w: f64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4d(location, x, y, z, w) };
 } }
-export! { 850, glUniform4dv, first_glUniform4dv, hook_glUniform4dv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 848, glUniform4dv, first_glUniform4dv, hook_glUniform4dv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4dv(location, count, value) };
 } }
-export! { 851, glUniform4f, first_glUniform4f, hook_glUniform4f, (location: i32, v0: f32, v1: f32, v2: f32, v3: f32) -> (), {
+export! { 849, glUniform4f, first_glUniform4f, hook_glUniform4f, (location: i32, v0: f32, v1: f32, v2: f32, v3: f32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4f(location, v0, v1, v2, v3) };
 } }
-export! { 852, glUniform4fARB, first_glUniform4fARB, hook_glUniform4fARB, (location: i32, v0: f32, v1: f32, v2: f32, v3: f32) -> (), {
+export! { 850, glUniform4fARB, first_glUniform4fARB, hook_glUniform4fARB, (location: i32, v0: f32, v1: f32, v2: f32, v3: f32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4fARB(location, v0, v1, v2, v3) };
 } }
-export! { 853, glUniform4fv, first_glUniform4fv, hook_glUniform4fv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 851, glUniform4fv, first_glUniform4fv, hook_glUniform4fv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4fv(location, count, value) };
 } }
-export! { 854, glUniform4fvARB, first_glUniform4fvARB, hook_glUniform4fvARB, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 852, glUniform4fvARB, first_glUniform4fvARB, hook_glUniform4fvARB, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4fvARB(location, count, value) };
 } }
-export! { 855, glUniform4i, first_glUniform4i, hook_glUniform4i, (location: i32, v0: i32, v1: i32, v2: i32, v3: i32) -> (), {
+export! { 853, glUniform4i, first_glUniform4i, hook_glUniform4i, (location: i32, v0: i32, v1: i32, v2: i32, v3: i32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4i(location, v0, v1, v2, v3) };
 } }
-export! { 856, glUniform4iARB, first_glUniform4iARB, hook_glUniform4iARB, (location: i32, v0: i32, v1: i32, v2: i32, v3: i32) -> (), {
+export! { 854, glUniform4iARB, first_glUniform4iARB, hook_glUniform4iARB, (location: i32, v0: i32, v1: i32, v2: i32, v3: i32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4iARB(location, v0, v1, v2, v3) };
 } }
-export! { 857, glUniform4iv, first_glUniform4iv, hook_glUniform4iv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 855, glUniform4iv, first_glUniform4iv, hook_glUniform4iv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4iv(location, count, value) };
 } }
-export! { 858, glUniform4ivARB, first_glUniform4ivARB, hook_glUniform4ivARB, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 856, glUniform4ivARB, first_glUniform4ivARB, hook_glUniform4ivARB, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4ivARB(location, count, value) };
 } }
-export! { 859, glUniform4ui, first_glUniform4ui, hook_glUniform4ui, (location: i32, v0: u32, v1: u32, v2: u32, v3: u32) -> (), {
+export! { 857, glUniform4ui, first_glUniform4ui, hook_glUniform4ui, (location: i32, v0: u32, v1: u32, v2: u32, v3: u32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4ui(location, v0, v1, v2, v3) };
 } }
-export! { 860, glUniform4uiEXT, first_glUniform4uiEXT, hook_glUniform4uiEXT, (location: i32, v0: u32, v1: u32, v2: u32, v3: u32) -> (), {
+export! { 858, glUniform4uiEXT, first_glUniform4uiEXT, hook_glUniform4uiEXT, (location: i32, v0: u32, v1: u32, v2: u32, v3: u32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4uiEXT(location, v0, v1, v2, v3) };
 } }
-export! { 861, glUniform4uiv, first_glUniform4uiv, hook_glUniform4uiv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 859, glUniform4uiv, first_glUniform4uiv, hook_glUniform4uiv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4uiv(location, count, value) };
 } }
-export! { 862, glUniform4uivEXT, first_glUniform4uivEXT, hook_glUniform4uivEXT, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 860, glUniform4uivEXT, first_glUniform4uivEXT, hook_glUniform4uivEXT, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4uivEXT(location, count, value) };
 } }
-export! { 863, glUniformMatrix2dv, first_glUniformMatrix2dv, hook_glUniformMatrix2dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 861, glUniformMatrix2dv, first_glUniformMatrix2dv, hook_glUniformMatrix2dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix2dv(location, count, transpose, value) };
 } }
-export! { 864, glUniformMatrix2fv, first_glUniformMatrix2fv, hook_glUniformMatrix2fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 862, glUniformMatrix2fv, first_glUniformMatrix2fv, hook_glUniformMatrix2fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix2fv(location, count, transpose, value) };
 } }
-export! { 865, glUniformMatrix2fvARB, first_glUniformMatrix2fvARB, hook_glUniformMatrix2fvARB, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 863, glUniformMatrix2fvARB, first_glUniformMatrix2fvARB, hook_glUniformMatrix2fvARB, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix2fvARB(location, count, transpose, value) };
 } }
-export! { 866, glUniformMatrix2x3dv, first_glUniformMatrix2x3dv, hook_glUniformMatrix2x3dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 864, glUniformMatrix2x3dv, first_glUniformMatrix2x3dv, hook_glUniformMatrix2x3dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix2x3dv(location, count, transpose, value) };
 } }
-export! { 867, glUniformMatrix2x3fv, first_glUniformMatrix2x3fv, hook_glUniformMatrix2x3fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 865, glUniformMatrix2x3fv, first_glUniformMatrix2x3fv, hook_glUniformMatrix2x3fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix2x3fv(location, count, transpose, value) };
 } }
-export! { 868, glUniformMatrix2x3fvNV, first_glUniformMatrix2x3fvNV, hook_glUniformMatrix2x3fvNV, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 866, glUniformMatrix2x3fvNV, first_glUniformMatrix2x3fvNV, hook_glUniformMatrix2x3fvNV, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix2x3fvNV(location, count, transpose, value) };
 } }
-export! { 869, glUniformMatrix2x4dv, first_glUniformMatrix2x4dv, hook_glUniformMatrix2x4dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 867, glUniformMatrix2x4dv, first_glUniformMatrix2x4dv, hook_glUniformMatrix2x4dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix2x4dv(location, count, transpose, value) };
 } }
-export! { 870, glUniformMatrix2x4fv, first_glUniformMatrix2x4fv, hook_glUniformMatrix2x4fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 868, glUniformMatrix2x4fv, first_glUniformMatrix2x4fv, hook_glUniformMatrix2x4fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix2x4fv(location, count, transpose, value) };
 } }
-export! { 871, glUniformMatrix2x4fvNV, first_glUniformMatrix2x4fvNV, hook_glUniformMatrix2x4fvNV, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 869, glUniformMatrix2x4fvNV, first_glUniformMatrix2x4fvNV, hook_glUniformMatrix2x4fvNV, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix2x4fvNV(location, count, transpose, value) };
 } }
-export! { 872, glUniformMatrix3dv, first_glUniformMatrix3dv, hook_glUniformMatrix3dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 870, glUniformMatrix3dv, first_glUniformMatrix3dv, hook_glUniformMatrix3dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix3dv(location, count, transpose, value) };
 } }
-export! { 873, glUniformMatrix3fv, first_glUniformMatrix3fv, hook_glUniformMatrix3fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 871, glUniformMatrix3fv, first_glUniformMatrix3fv, hook_glUniformMatrix3fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix3fv(location, count, transpose, value) };
 } }
-export! { 874, glUniformMatrix3fvARB, first_glUniformMatrix3fvARB, hook_glUniformMatrix3fvARB, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 872, glUniformMatrix3fvARB, first_glUniformMatrix3fvARB, hook_glUniformMatrix3fvARB, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix3fvARB(location, count, transpose, value) };
 } }
-export! { 875, glUniformMatrix3x2dv, first_glUniformMatrix3x2dv, hook_glUniformMatrix3x2dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 873, glUniformMatrix3x2dv, first_glUniformMatrix3x2dv, hook_glUniformMatrix3x2dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix3x2dv(location, count, transpose, value) };
 } }
-export! { 876, glUniformMatrix3x2fv, first_glUniformMatrix3x2fv, hook_glUniformMatrix3x2fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 874, glUniformMatrix3x2fv, first_glUniformMatrix3x2fv, hook_glUniformMatrix3x2fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix3x2fv(location, count, transpose, value) };
 } }
-export! { 877, glUniformMatrix3x2fvNV, first_glUniformMatrix3x2fvNV, hook_glUniformMatrix3x2fvNV, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 875, glUniformMatrix3x2fvNV, first_glUniformMatrix3x2fvNV, hook_glUniformMatrix3x2fvNV, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix3x2fvNV(location, count, transpose, value) };
 } }
-export! { 878, glUniformMatrix3x4dv, first_glUniformMatrix3x4dv, hook_glUniformMatrix3x4dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 876, glUniformMatrix3x4dv, first_glUniformMatrix3x4dv, hook_glUniformMatrix3x4dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix3x4dv(location, count, transpose, value) };
 } }
-export! { 879, glUniformMatrix3x4fv, first_glUniformMatrix3x4fv, hook_glUniformMatrix3x4fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 877, glUniformMatrix3x4fv, first_glUniformMatrix3x4fv, hook_glUniformMatrix3x4fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix3x4fv(location, count, transpose, value) };
 } }
-export! { 880, glUniformMatrix3x4fvNV, first_glUniformMatrix3x4fvNV, hook_glUniformMatrix3x4fvNV, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 878, glUniformMatrix3x4fvNV, first_glUniformMatrix3x4fvNV, hook_glUniformMatrix3x4fvNV, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix3x4fvNV(location, count, transpose, value) };
 } }
-export! { 881, glUniformMatrix4dv, first_glUniformMatrix4dv, hook_glUniformMatrix4dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 879, glUniformMatrix4dv, first_glUniformMatrix4dv, hook_glUniformMatrix4dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix4dv(location, count, transpose, value) };
 } }
-export! { 882, glUniformMatrix4fv, first_glUniformMatrix4fv, hook_glUniformMatrix4fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 880, glUniformMatrix4fv, first_glUniformMatrix4fv, hook_glUniformMatrix4fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix4fv(location, count, transpose, value) };
 } }
-export! { 883, glUniformMatrix4fvARB, first_glUniformMatrix4fvARB, hook_glUniformMatrix4fvARB, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 881, glUniformMatrix4fvARB, first_glUniformMatrix4fvARB, hook_glUniformMatrix4fvARB, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix4fvARB(location, count, transpose, value) };
 } }
-export! { 884, glUniformMatrix4x2dv, first_glUniformMatrix4x2dv, hook_glUniformMatrix4x2dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 882, glUniformMatrix4x2dv, first_glUniformMatrix4x2dv, hook_glUniformMatrix4x2dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix4x2dv(location, count, transpose, value) };
 } }
-export! { 885, glUniformMatrix4x2fv, first_glUniformMatrix4x2fv, hook_glUniformMatrix4x2fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 883, glUniformMatrix4x2fv, first_glUniformMatrix4x2fv, hook_glUniformMatrix4x2fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix4x2fv(location, count, transpose, value) };
 } }
-export! { 886, glUniformMatrix4x2fvNV, first_glUniformMatrix4x2fvNV, hook_glUniformMatrix4x2fvNV, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 884, glUniformMatrix4x2fvNV, first_glUniformMatrix4x2fvNV, hook_glUniformMatrix4x2fvNV, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix4x2fvNV(location, count, transpose, value) };
 } }
-export! { 887, glUniformMatrix4x3dv, first_glUniformMatrix4x3dv, hook_glUniformMatrix4x3dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 885, glUniformMatrix4x3dv, first_glUniformMatrix4x3dv, hook_glUniformMatrix4x3dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix4x3dv(location, count, transpose, value) };
 } }
-export! { 888, glUniformMatrix4x3fv, first_glUniformMatrix4x3fv, hook_glUniformMatrix4x3fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 886, glUniformMatrix4x3fv, first_glUniformMatrix4x3fv, hook_glUniformMatrix4x3fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix4x3fv(location, count, transpose, value) };
 } }
-export! { 889, glUniformMatrix4x3fvNV, first_glUniformMatrix4x3fvNV, hook_glUniformMatrix4x3fvNV, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 887, glUniformMatrix4x3fvNV, first_glUniformMatrix4x3fvNV, hook_glUniformMatrix4x3fvNV, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix4x3fvNV(location, count, transpose, value) };
 } }
-export! { 890, glProgramUniform1d, first_glProgramUniform1d, hook_glProgramUniform1d, (program: u32, location: i32, v0: f64) -> (), {
+export! { 888, glProgramUniform1d, first_glProgramUniform1d, hook_glProgramUniform1d, (program: u32, location: i32, v0: f64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform1d(program, location, v0) };
 } }
-export! { 891, glProgramUniform1dv, first_glProgramUniform1dv, hook_glProgramUniform1dv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 889, glProgramUniform1dv, first_glProgramUniform1dv, hook_glProgramUniform1dv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform1dv(program, location, count, value) };
 } }
-export! { 892, glProgramUniform1f, first_glProgramUniform1f, hook_glProgramUniform1f, (program: u32, location: i32, v0: f32) -> (), {
+export! { 890, glProgramUniform1f, first_glProgramUniform1f, hook_glProgramUniform1f, (program: u32, location: i32, v0: f32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform1f(program, location, v0) };
 } }
-export! { 893, glProgramUniform1fEXT, first_glProgramUniform1fEXT, hook_glProgramUniform1fEXT, (program: u32, location: i32, v0: f32) -> (), {
+export! { 891, glProgramUniform1fEXT, first_glProgramUniform1fEXT, hook_glProgramUniform1fEXT, (program: u32, location: i32, v0: f32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform1fEXT(program, location, v0) };
 } }
-export! { 894, glProgramUniform1fv, first_glProgramUniform1fv, hook_glProgramUniform1fv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 892, glProgramUniform1fv, first_glProgramUniform1fv, hook_glProgramUniform1fv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform1fv(program, location, count, value) };
 } }
-export! { 895, glProgramUniform1fvEXT, first_glProgramUniform1fvEXT, hook_glProgramUniform1fvEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 893, glProgramUniform1fvEXT, first_glProgramUniform1fvEXT, hook_glProgramUniform1fvEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform1fvEXT(program, location, count, value) };
 } }
-export! { 896, glProgramUniform1i, first_glProgramUniform1i, hook_glProgramUniform1i, (program: u32, location: i32, v0: i32) -> (), {
+export! { 894, glProgramUniform1i, first_glProgramUniform1i, hook_glProgramUniform1i, (program: u32, location: i32, v0: i32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform1i(program, location, v0) };
 } }
-export! { 897, glProgramUniform1iEXT, first_glProgramUniform1iEXT, hook_glProgramUniform1iEXT, (program: u32, location: i32, v0: i32) -> (), {
+export! { 895, glProgramUniform1iEXT, first_glProgramUniform1iEXT, hook_glProgramUniform1iEXT, (program: u32, location: i32, v0: i32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform1iEXT(program, location, v0) };
 } }
-export! { 898, glProgramUniform1iv, first_glProgramUniform1iv, hook_glProgramUniform1iv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 896, glProgramUniform1iv, first_glProgramUniform1iv, hook_glProgramUniform1iv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform1iv(program, location, count, value) };
 } }
-export! { 899, glProgramUniform1ivEXT, first_glProgramUniform1ivEXT, hook_glProgramUniform1ivEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 897, glProgramUniform1ivEXT, first_glProgramUniform1ivEXT, hook_glProgramUniform1ivEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform1ivEXT(program, location, count, value) };
 } }
-export! { 900, glProgramUniform1ui, first_glProgramUniform1ui, hook_glProgramUniform1ui, (program: u32, location: i32, v0: u32) -> (), {
+export! { 898, glProgramUniform1ui, first_glProgramUniform1ui, hook_glProgramUniform1ui, (program: u32, location: i32, v0: u32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform1ui(program, location, v0) };
 } }
-export! { 901, glProgramUniform1uiEXT, first_glProgramUniform1uiEXT, hook_glProgramUniform1uiEXT, (program: u32, location: i32, v0: u32) -> (), {
+export! { 899, glProgramUniform1uiEXT, first_glProgramUniform1uiEXT, hook_glProgramUniform1uiEXT, (program: u32, location: i32, v0: u32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform1uiEXT(program, location, v0) };
 } }
-export! { 902, glProgramUniform1uiv, first_glProgramUniform1uiv, hook_glProgramUniform1uiv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 900, glProgramUniform1uiv, first_glProgramUniform1uiv, hook_glProgramUniform1uiv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform1uiv(program, location, count, value) };
 } }
-export! { 903, glProgramUniform1uivEXT, first_glProgramUniform1uivEXT, hook_glProgramUniform1uivEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 901, glProgramUniform1uivEXT, first_glProgramUniform1uivEXT, hook_glProgramUniform1uivEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform1uivEXT(program, location, count, value) };
 } }
-export! { 904, glProgramUniform2d, first_glProgramUniform2d, hook_glProgramUniform2d, (program: u32, location: i32, v0: f64, v1: f64) -> (), {
+export! { 902, glProgramUniform2d, first_glProgramUniform2d, hook_glProgramUniform2d, (program: u32, location: i32, v0: f64, v1: f64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform2d(program, location, v0, v1) };
 } }
-export! { 905, glProgramUniform2dv, first_glProgramUniform2dv, hook_glProgramUniform2dv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 903, glProgramUniform2dv, first_glProgramUniform2dv, hook_glProgramUniform2dv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform2dv(program, location, count, value) };
 } }
-export! { 906, glProgramUniform2f, first_glProgramUniform2f, hook_glProgramUniform2f, (program: u32, location: i32, v0: f32, v1: f32) -> (), {
+export! { 904, glProgramUniform2f, first_glProgramUniform2f, hook_glProgramUniform2f, (program: u32, location: i32, v0: f32, v1: f32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform2f(program, location, v0, v1) };
 } }
-export! { 907, glProgramUniform2fEXT, first_glProgramUniform2fEXT, hook_glProgramUniform2fEXT, (program: u32, location: i32, v0: f32, v1: f32) -> (), {
+export! { 905, glProgramUniform2fEXT, first_glProgramUniform2fEXT, hook_glProgramUniform2fEXT, (program: u32, location: i32, v0: f32, v1: f32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform2fEXT(program, location, v0, v1) };
 } }
-export! { 908, glProgramUniform2fv, first_glProgramUniform2fv, hook_glProgramUniform2fv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 906, glProgramUniform2fv, first_glProgramUniform2fv, hook_glProgramUniform2fv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform2fv(program, location, count, value) };
 } }
-export! { 909, glProgramUniform2fvEXT, first_glProgramUniform2fvEXT, hook_glProgramUniform2fvEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 907, glProgramUniform2fvEXT, first_glProgramUniform2fvEXT, hook_glProgramUniform2fvEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform2fvEXT(program, location, count, value) };
 } }
-export! { 910, glProgramUniform2i, first_glProgramUniform2i, hook_glProgramUniform2i, (program: u32, location: i32, v0: i32, v1: i32) -> (), {
+export! { 908, glProgramUniform2i, first_glProgramUniform2i, hook_glProgramUniform2i, (program: u32, location: i32, v0: i32, v1: i32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform2i(program, location, v0, v1) };
 } }
-export! { 911, glProgramUniform2iEXT, first_glProgramUniform2iEXT, hook_glProgramUniform2iEXT, (program: u32, location: i32, v0: i32, v1: i32) -> (), {
+export! { 909, glProgramUniform2iEXT, first_glProgramUniform2iEXT, hook_glProgramUniform2iEXT, (program: u32, location: i32, v0: i32, v1: i32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform2iEXT(program, location, v0, v1) };
 } }
-export! { 912, glProgramUniform2iv, first_glProgramUniform2iv, hook_glProgramUniform2iv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 910, glProgramUniform2iv, first_glProgramUniform2iv, hook_glProgramUniform2iv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform2iv(program, location, count, value) };
 } }
-export! { 913, glProgramUniform2ivEXT, first_glProgramUniform2ivEXT, hook_glProgramUniform2ivEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 911, glProgramUniform2ivEXT, first_glProgramUniform2ivEXT, hook_glProgramUniform2ivEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform2ivEXT(program, location, count, value) };
 } }
-export! { 914, glProgramUniform2ui, first_glProgramUniform2ui, hook_glProgramUniform2ui, (program: u32, location: i32, v0: u32, v1: u32) -> (), {
+export! { 912, glProgramUniform2ui, first_glProgramUniform2ui, hook_glProgramUniform2ui, (program: u32, location: i32, v0: u32, v1: u32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform2ui(program, location, v0, v1) };
 } }
-export! { 915, glProgramUniform2uiEXT, first_glProgramUniform2uiEXT, hook_glProgramUniform2uiEXT, (program: u32, location: i32, v0: u32, v1: u32) -> (), {
+export! { 913, glProgramUniform2uiEXT, first_glProgramUniform2uiEXT, hook_glProgramUniform2uiEXT, (program: u32, location: i32, v0: u32, v1: u32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform2uiEXT(program, location, v0, v1) };
 } }
-export! { 916, glProgramUniform2uiv, first_glProgramUniform2uiv, hook_glProgramUniform2uiv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 914, glProgramUniform2uiv, first_glProgramUniform2uiv, hook_glProgramUniform2uiv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform2uiv(program, location, count, value) };
 } }
-export! { 917, glProgramUniform2uivEXT, first_glProgramUniform2uivEXT, hook_glProgramUniform2uivEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 915, glProgramUniform2uivEXT, first_glProgramUniform2uivEXT, hook_glProgramUniform2uivEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform2uivEXT(program, location, count, value) };
 } }
-export! { 918, glProgramUniform3d, first_glProgramUniform3d, hook_glProgramUniform3d, (program: u32, location: i32, v0: f64, v1: f64, v2: f64) -> (), {
+export! { 916, glProgramUniform3d, first_glProgramUniform3d, hook_glProgramUniform3d, (program: u32, location: i32, v0: f64, v1: f64, v2: f64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform3d(program, location, v0, v1, v2) };
 } }
-export! { 919, glProgramUniform3dv, first_glProgramUniform3dv, hook_glProgramUniform3dv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 917, glProgramUniform3dv, first_glProgramUniform3dv, hook_glProgramUniform3dv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform3dv(program, location, count, value) };
 } }
-export! { 920, glProgramUniform3f, first_glProgramUniform3f, hook_glProgramUniform3f, (program: u32, location: i32, v0: f32, v1: f32, v2: f32) -> (), {
+export! { 918, glProgramUniform3f, first_glProgramUniform3f, hook_glProgramUniform3f, (program: u32, location: i32, v0: f32, v1: f32, v2: f32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform3f(program, location, v0, v1, v2) };
 } }
-export! { 921, glProgramUniform3fEXT, first_glProgramUniform3fEXT, hook_glProgramUniform3fEXT, (program: u32, location: i32, v0: f32, v1: f32, v2: f32) -> (), {
+export! { 919, glProgramUniform3fEXT, first_glProgramUniform3fEXT, hook_glProgramUniform3fEXT, (program: u32, location: i32, v0: f32, v1: f32, v2: f32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform3fEXT(program, location, v0, v1, v2) };
 } }
-export! { 922, glProgramUniform3fv, first_glProgramUniform3fv, hook_glProgramUniform3fv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 920, glProgramUniform3fv, first_glProgramUniform3fv, hook_glProgramUniform3fv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform3fv(program, location, count, value) };
 } }
-export! { 923, glProgramUniform3fvEXT, first_glProgramUniform3fvEXT, hook_glProgramUniform3fvEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 921, glProgramUniform3fvEXT, first_glProgramUniform3fvEXT, hook_glProgramUniform3fvEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform3fvEXT(program, location, count, value) };
 } }
-export! { 924, glProgramUniform3i, first_glProgramUniform3i, hook_glProgramUniform3i, (program: u32, location: i32, v0: i32, v1: i32, v2: i32) -> (), {
+export! { 922, glProgramUniform3i, first_glProgramUniform3i, hook_glProgramUniform3i, (program: u32, location: i32, v0: i32, v1: i32, v2: i32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform3i(program, location, v0, v1, v2) };
 } }
-export! { 925, glProgramUniform3iEXT, first_glProgramUniform3iEXT, hook_glProgramUniform3iEXT, (program: u32, location: i32, v0: i32, v1: i32, v2: i32) -> (), {
+export! { 923, glProgramUniform3iEXT, first_glProgramUniform3iEXT, hook_glProgramUniform3iEXT, (program: u32, location: i32, v0: i32, v1: i32, v2: i32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform3iEXT(program, location, v0, v1, v2) };
 } }
-export! { 926, glProgramUniform3iv, first_glProgramUniform3iv, hook_glProgramUniform3iv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 924, glProgramUniform3iv, first_glProgramUniform3iv, hook_glProgramUniform3iv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform3iv(program, location, count, value) };
 } }
-export! { 927, glProgramUniform3ivEXT, first_glProgramUniform3ivEXT, hook_glProgramUniform3ivEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 925, glProgramUniform3ivEXT, first_glProgramUniform3ivEXT, hook_glProgramUniform3ivEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform3ivEXT(program, location, count, value) };
 } }
-export! { 928, glProgramUniform3ui, first_glProgramUniform3ui, hook_glProgramUniform3ui, (program: u32, location: i32, v0: u32, v1: u32, v2: u32) -> (), {
+export! { 926, glProgramUniform3ui, first_glProgramUniform3ui, hook_glProgramUniform3ui, (program: u32, location: i32, v0: u32, v1: u32, v2: u32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform3ui(program, location, v0, v1, v2) };
 } }
-export! { 929, glProgramUniform3uiEXT, first_glProgramUniform3uiEXT, hook_glProgramUniform3uiEXT, (program: u32, location: i32, v0: u32, v1: u32, v2: u32) -> (), {
+export! { 927, glProgramUniform3uiEXT, first_glProgramUniform3uiEXT, hook_glProgramUniform3uiEXT, (program: u32, location: i32, v0: u32, v1: u32, v2: u32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform3uiEXT(program, location, v0, v1, v2) };
 } }
-export! { 930, glProgramUniform3uiv, first_glProgramUniform3uiv, hook_glProgramUniform3uiv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 928, glProgramUniform3uiv, first_glProgramUniform3uiv, hook_glProgramUniform3uiv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform3uiv(program, location, count, value) };
 } }
-export! { 931, glProgramUniform3uivEXT, first_glProgramUniform3uivEXT, hook_glProgramUniform3uivEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 929, glProgramUniform3uivEXT, first_glProgramUniform3uivEXT, hook_glProgramUniform3uivEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform3uivEXT(program, location, count, value) };
 } }
-export! { 932, glProgramUniform4d, first_glProgramUniform4d, hook_glProgramUniform4d, (program: u32, location: i32, v0: f64, v1: f64, v2: f64, v3: f64) -> (), {
+export! { 930, glProgramUniform4d, first_glProgramUniform4d, hook_glProgramUniform4d, (program: u32, location: i32, v0: f64, v1: f64, v2: f64, v3: f64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform4d(program, location, v0, v1, v2, v3) };
 } }
-export! { 933, glProgramUniform4dv, first_glProgramUniform4dv, hook_glProgramUniform4dv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 931, glProgramUniform4dv, first_glProgramUniform4dv, hook_glProgramUniform4dv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform4dv(program, location, count, value) };
 } }
-export! { 934, glProgramUniform4f, first_glProgramUniform4f, hook_glProgramUniform4f, (program: u32, location: i32, v0: f32, v1: f32, v2: f32, v3: f32) -> (), {
+export! { 932, glProgramUniform4f, first_glProgramUniform4f, hook_glProgramUniform4f, (program: u32, location: i32, v0: f32, v1: f32, v2: f32, v3: f32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform4f(program, location, v0, v1, v2, v3) };
 } }
-export! { 935, glProgramUniform4fEXT, first_glProgramUniform4fEXT, hook_glProgramUniform4fEXT, (program: u32, location: i32, v0: f32, v1: f32, v2: f32, v3: f32) -> (), {
+export! { 933, glProgramUniform4fEXT, first_glProgramUniform4fEXT, hook_glProgramUniform4fEXT, (program: u32, location: i32, v0: f32, v1: f32, v2: f32, v3: f32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform4fEXT(program, location, v0, v1, v2, v3) };
 } }
-export! { 936, glProgramUniform4fv, first_glProgramUniform4fv, hook_glProgramUniform4fv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 934, glProgramUniform4fv, first_glProgramUniform4fv, hook_glProgramUniform4fv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform4fv(program, location, count, value) };
 } }
-export! { 937, glProgramUniform4fvEXT, first_glProgramUniform4fvEXT, hook_glProgramUniform4fvEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 935, glProgramUniform4fvEXT, first_glProgramUniform4fvEXT, hook_glProgramUniform4fvEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform4fvEXT(program, location, count, value) };
 } }
-export! { 938, glProgramUniform4i, first_glProgramUniform4i, hook_glProgramUniform4i, (program: u32, location: i32, v0: i32, v1: i32, v2: i32, v3: i32) -> (), {
+export! { 936, glProgramUniform4i, first_glProgramUniform4i, hook_glProgramUniform4i, (program: u32, location: i32, v0: i32, v1: i32, v2: i32, v3: i32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform4i(program, location, v0, v1, v2, v3) };
 } }
-export! { 939, glProgramUniform4iEXT, first_glProgramUniform4iEXT, hook_glProgramUniform4iEXT, (program: u32, location: i32, v0: i32, v1: i32, v2: i32, v3: i32) -> (), {
+export! { 937, glProgramUniform4iEXT, first_glProgramUniform4iEXT, hook_glProgramUniform4iEXT, (program: u32, location: i32, v0: i32, v1: i32, v2: i32, v3: i32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform4iEXT(program, location, v0, v1, v2, v3) };
 } }
-export! { 940, glProgramUniform4iv, first_glProgramUniform4iv, hook_glProgramUniform4iv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 938, glProgramUniform4iv, first_glProgramUniform4iv, hook_glProgramUniform4iv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform4iv(program, location, count, value) };
 } }
-export! { 941, glProgramUniform4ivEXT, first_glProgramUniform4ivEXT, hook_glProgramUniform4ivEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 939, glProgramUniform4ivEXT, first_glProgramUniform4ivEXT, hook_glProgramUniform4ivEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform4ivEXT(program, location, count, value) };
 } }
-export! { 942, glProgramUniform4ui, first_glProgramUniform4ui, hook_glProgramUniform4ui, (program: u32, location: i32, v0: u32, v1: u32, v2: u32, v3: u32) -> (), {
+export! { 940, glProgramUniform4ui, first_glProgramUniform4ui, hook_glProgramUniform4ui, (program: u32, location: i32, v0: u32, v1: u32, v2: u32, v3: u32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform4ui(program, location, v0, v1, v2, v3) };
 } }
-export! { 943, glProgramUniform4uiEXT, first_glProgramUniform4uiEXT, hook_glProgramUniform4uiEXT, (program: u32, location: i32, v0: u32, v1: u32, v2: u32, v3: u32) -> (), {
+export! { 941, glProgramUniform4uiEXT, first_glProgramUniform4uiEXT, hook_glProgramUniform4uiEXT, (program: u32, location: i32, v0: u32, v1: u32, v2: u32, v3: u32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform4uiEXT(program, location, v0, v1, v2, v3) };
 } }
-export! { 944, glProgramUniform4uiv, first_glProgramUniform4uiv, hook_glProgramUniform4uiv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 942, glProgramUniform4uiv, first_glProgramUniform4uiv, hook_glProgramUniform4uiv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform4uiv(program, location, count, value) };
 } }
-export! { 945, glProgramUniform4uivEXT, first_glProgramUniform4uivEXT, hook_glProgramUniform4uivEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 943, glProgramUniform4uivEXT, first_glProgramUniform4uivEXT, hook_glProgramUniform4uivEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform4uivEXT(program, location, count, value) };
 } }
-export! { 946, glProgramUniformMatrix2dv, first_glProgramUniformMatrix2dv, hook_glProgramUniformMatrix2dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 944, glProgramUniformMatrix2dv, first_glProgramUniformMatrix2dv, hook_glProgramUniformMatrix2dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix2dv(program, location, count, transpose, value) };
 } }
-export! { 947, glProgramUniformMatrix2fv, first_glProgramUniformMatrix2fv, hook_glProgramUniformMatrix2fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 945, glProgramUniformMatrix2fv, first_glProgramUniformMatrix2fv, hook_glProgramUniformMatrix2fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix2fv(program, location, count, transpose, value) };
 } }
-export! { 948, glProgramUniformMatrix2fvEXT, first_glProgramUniformMatrix2fvEXT, hook_glProgramUniformMatrix2fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 946, glProgramUniformMatrix2fvEXT, first_glProgramUniformMatrix2fvEXT, hook_glProgramUniformMatrix2fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix2fvEXT(program, location, count, transpose, value) };
 } }
-export! { 949, glProgramUniformMatrix2x3dv, first_glProgramUniformMatrix2x3dv, hook_glProgramUniformMatrix2x3dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 947, glProgramUniformMatrix2x3dv, first_glProgramUniformMatrix2x3dv, hook_glProgramUniformMatrix2x3dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix2x3dv(program, location, count, transpose, value) };
 } }
-export! { 950, glProgramUniformMatrix2x3fv, first_glProgramUniformMatrix2x3fv, hook_glProgramUniformMatrix2x3fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 948, glProgramUniformMatrix2x3fv, first_glProgramUniformMatrix2x3fv, hook_glProgramUniformMatrix2x3fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix2x3fv(program, location, count, transpose, value) };
 } }
-export! { 951, glProgramUniformMatrix2x3fvEXT, first_glProgramUniformMatrix2x3fvEXT, hook_glProgramUniformMatrix2x3fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 949, glProgramUniformMatrix2x3fvEXT, first_glProgramUniformMatrix2x3fvEXT, hook_glProgramUniformMatrix2x3fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix2x3fvEXT(program, location, count, transpose, value) };
 } }
-export! { 952, glProgramUniformMatrix2x4dv, first_glProgramUniformMatrix2x4dv, hook_glProgramUniformMatrix2x4dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 950, glProgramUniformMatrix2x4dv, first_glProgramUniformMatrix2x4dv, hook_glProgramUniformMatrix2x4dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix2x4dv(program, location, count, transpose, value) };
 } }
-export! { 953, glProgramUniformMatrix2x4fv, first_glProgramUniformMatrix2x4fv, hook_glProgramUniformMatrix2x4fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 951, glProgramUniformMatrix2x4fv, first_glProgramUniformMatrix2x4fv, hook_glProgramUniformMatrix2x4fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix2x4fv(program, location, count, transpose, value) };
 } }
-export! { 954, glProgramUniformMatrix2x4fvEXT, first_glProgramUniformMatrix2x4fvEXT, hook_glProgramUniformMatrix2x4fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 952, glProgramUniformMatrix2x4fvEXT, first_glProgramUniformMatrix2x4fvEXT, hook_glProgramUniformMatrix2x4fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix2x4fvEXT(program, location, count, transpose, value) };
 } }
-export! { 955, glProgramUniformMatrix3dv, first_glProgramUniformMatrix3dv, hook_glProgramUniformMatrix3dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 953, glProgramUniformMatrix3dv, first_glProgramUniformMatrix3dv, hook_glProgramUniformMatrix3dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix3dv(program, location, count, transpose, value) };
 } }
-export! { 956, glProgramUniformMatrix3fv, first_glProgramUniformMatrix3fv, hook_glProgramUniformMatrix3fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 954, glProgramUniformMatrix3fv, first_glProgramUniformMatrix3fv, hook_glProgramUniformMatrix3fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix3fv(program, location, count, transpose, value) };
 } }
-export! { 957, glProgramUniformMatrix3fvEXT, first_glProgramUniformMatrix3fvEXT, hook_glProgramUniformMatrix3fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 955, glProgramUniformMatrix3fvEXT, first_glProgramUniformMatrix3fvEXT, hook_glProgramUniformMatrix3fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix3fvEXT(program, location, count, transpose, value) };
 } }
-export! { 958, glProgramUniformMatrix3x2dv, first_glProgramUniformMatrix3x2dv, hook_glProgramUniformMatrix3x2dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 956, glProgramUniformMatrix3x2dv, first_glProgramUniformMatrix3x2dv, hook_glProgramUniformMatrix3x2dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix3x2dv(program, location, count, transpose, value) };
 } }
-export! { 959, glProgramUniformMatrix3x2fv, first_glProgramUniformMatrix3x2fv, hook_glProgramUniformMatrix3x2fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 957, glProgramUniformMatrix3x2fv, first_glProgramUniformMatrix3x2fv, hook_glProgramUniformMatrix3x2fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix3x2fv(program, location, count, transpose, value) };
 } }
-export! { 960, glProgramUniformMatrix3x2fvEXT, first_glProgramUniformMatrix3x2fvEXT, hook_glProgramUniformMatrix3x2fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 958, glProgramUniformMatrix3x2fvEXT, first_glProgramUniformMatrix3x2fvEXT, hook_glProgramUniformMatrix3x2fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix3x2fvEXT(program, location, count, transpose, value) };
 } }
-export! { 961, glProgramUniformMatrix3x4dv, first_glProgramUniformMatrix3x4dv, hook_glProgramUniformMatrix3x4dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 959, glProgramUniformMatrix3x4dv, first_glProgramUniformMatrix3x4dv, hook_glProgramUniformMatrix3x4dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix3x4dv(program, location, count, transpose, value) };
 } }
-export! { 962, glProgramUniformMatrix3x4fv, first_glProgramUniformMatrix3x4fv, hook_glProgramUniformMatrix3x4fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 960, glProgramUniformMatrix3x4fv, first_glProgramUniformMatrix3x4fv, hook_glProgramUniformMatrix3x4fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix3x4fv(program, location, count, transpose, value) };
 } }
-export! { 963, glProgramUniformMatrix3x4fvEXT, first_glProgramUniformMatrix3x4fvEXT, hook_glProgramUniformMatrix3x4fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 961, glProgramUniformMatrix3x4fvEXT, first_glProgramUniformMatrix3x4fvEXT, hook_glProgramUniformMatrix3x4fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix3x4fvEXT(program, location, count, transpose, value) };
 } }
-export! { 964, glProgramUniformMatrix4dv, first_glProgramUniformMatrix4dv, hook_glProgramUniformMatrix4dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 962, glProgramUniformMatrix4dv, first_glProgramUniformMatrix4dv, hook_glProgramUniformMatrix4dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix4dv(program, location, count, transpose, value) };
 } }
-export! { 965, glProgramUniformMatrix4fv, first_glProgramUniformMatrix4fv, hook_glProgramUniformMatrix4fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 963, glProgramUniformMatrix4fv, first_glProgramUniformMatrix4fv, hook_glProgramUniformMatrix4fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix4fv(program, location, count, transpose, value) };
 } }
-export! { 966, glProgramUniformMatrix4fvEXT, first_glProgramUniformMatrix4fvEXT, hook_glProgramUniformMatrix4fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 964, glProgramUniformMatrix4fvEXT, first_glProgramUniformMatrix4fvEXT, hook_glProgramUniformMatrix4fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix4fvEXT(program, location, count, transpose, value) };
 } }
-export! { 967, glProgramUniformMatrix4x2dv, first_glProgramUniformMatrix4x2dv, hook_glProgramUniformMatrix4x2dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 965, glProgramUniformMatrix4x2dv, first_glProgramUniformMatrix4x2dv, hook_glProgramUniformMatrix4x2dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix4x2dv(program, location, count, transpose, value) };
 } }
-export! { 968, glProgramUniformMatrix4x2fv, first_glProgramUniformMatrix4x2fv, hook_glProgramUniformMatrix4x2fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 966, glProgramUniformMatrix4x2fv, first_glProgramUniformMatrix4x2fv, hook_glProgramUniformMatrix4x2fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix4x2fv(program, location, count, transpose, value) };
 } }
-export! { 969, glProgramUniformMatrix4x2fvEXT, first_glProgramUniformMatrix4x2fvEXT, hook_glProgramUniformMatrix4x2fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 967, glProgramUniformMatrix4x2fvEXT, first_glProgramUniformMatrix4x2fvEXT, hook_glProgramUniformMatrix4x2fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix4x2fvEXT(program, location, count, transpose, value) };
 } }
-export! { 970, glProgramUniformMatrix4x3dv, first_glProgramUniformMatrix4x3dv, hook_glProgramUniformMatrix4x3dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 968, glProgramUniformMatrix4x3dv, first_glProgramUniformMatrix4x3dv, hook_glProgramUniformMatrix4x3dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix4x3dv(program, location, count, transpose, value) };
 } }
-export! { 971, glProgramUniformMatrix4x3fv, first_glProgramUniformMatrix4x3fv, hook_glProgramUniformMatrix4x3fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 969, glProgramUniformMatrix4x3fv, first_glProgramUniformMatrix4x3fv, hook_glProgramUniformMatrix4x3fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix4x3fv(program, location, count, transpose, value) };
 } }
-export! { 972, glProgramUniformMatrix4x3fvEXT, first_glProgramUniformMatrix4x3fvEXT, hook_glProgramUniformMatrix4x3fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 970, glProgramUniformMatrix4x3fvEXT, first_glProgramUniformMatrix4x3fvEXT, hook_glProgramUniformMatrix4x3fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix4x3fvEXT(program, location, count, transpose, value) };
 } }
-export! { 973, glUniformBlockBinding, first_glUniformBlockBinding, hook_glUniformBlockBinding, (program: u32, uniformBlockIndex: u32, uniformBlockBinding: u32) -> (), {
+export! { 971, glUniformBlockBinding, first_glUniformBlockBinding, hook_glUniformBlockBinding, (program: u32, uniformBlockIndex: u32, uniformBlockBinding: u32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformBlockBinding(program, uniformBlockIndex, uniformBlockBinding) };
 } }
-export! { 974, glLinkProgram, first_glLinkProgram, hook_glLinkProgram, (program: u32) -> (), {
+export! { 972, glLinkProgram, first_glLinkProgram, hook_glLinkProgram, (program: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glLinkProgram(program) }
 } }
-export! { 975, glLinkProgramARB, first_glLinkProgramARB, hook_glLinkProgramARB, (programObj: u32) -> (), {
+export! { 973, glLinkProgramARB, first_glLinkProgramARB, hook_glLinkProgramARB, (programObj: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glLinkProgram(programObj) }
 } }
-export! { 976, glProgramBinary, first_glProgramBinary, hook_glProgramBinary, (program: u32, binaryFormat: u32, binary: Ptr, length: i32) -> (), {
+export! { 974, glProgramBinary, first_glProgramBinary, hook_glProgramBinary, (program: u32, binaryFormat: u32, binary: Ptr, length: i32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glProgramBinary(program, binaryFormat, binary, length) }
 } }
-export! { 977, glProgramBinaryOES, first_glProgramBinaryOES, hook_glProgramBinaryOES, (program: u32, binaryFormat: u32, binary: Ptr, length: i32) -> (), {
+export! { 975, glProgramBinaryOES, first_glProgramBinaryOES, hook_glProgramBinaryOES, (program: u32, binaryFormat: u32, binary: Ptr, length: i32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glProgramBinary(program, binaryFormat, binary, length) }
+} }
+export! { 976, glUseProgram, first_glUseProgram, hook_glUseProgram, (program: u32) -> (), {
+    // SAFETY: the program's own arguments.
+    unsafe { special::glUseProgram(program) }
+} }
+export! { 977, glUseProgramObjectARB, first_glUseProgramObjectARB, hook_glUseProgramObjectARB, (programObj: u32) -> (), {
+    // SAFETY: the program's own arguments.
+    unsafe { special::glUseProgram(programObj) }
 } }
 export! { 978, glDeleteProgram, first_glDeleteProgram, hook_glDeleteProgram, (program: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDeleteProgram(program) }
 } }
-export! { 979, glClear, first_glClear, hook_glClear, (mask: u32) -> (), {
+export! { 979, glGetProgramiv, first_glGetProgramiv, hook_glGetProgramiv, (program: u32, pname: u32, params: Ptr) -> (), {
+    // SAFETY: the program's own arguments.
+    unsafe { special::glGetProgramiv(program, pname, params) }
+} }
+export! { 980, glClear, first_glClear, hook_glClear, (mask: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glClear(mask) }
 } }
-export! { 980, glClearBufferfi, first_glClearBufferfi, hook_glClearBufferfi, (buffer: u32, drawbuffer: i32, depth: f32, stencil: i32) -> (), {
+export! { 981, glClearBufferfi, first_glClearBufferfi, hook_glClearBufferfi, (buffer: u32, drawbuffer: i32, depth: f32, stencil: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::CLEAR, &mut |gl| unsafe { gl.glClearBufferfi(buffer, drawbuffer, depth, stencil) })
 } }
-export! { 981, glClearBufferfv, first_glClearBufferfv, hook_glClearBufferfv, (buffer: u32, drawbuffer: i32, value: Ptr) -> (), {
+export! { 982, glClearBufferfv, first_glClearBufferfv, hook_glClearBufferfv, (buffer: u32, drawbuffer: i32, value: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::CLEAR, &mut |gl| unsafe { gl.glClearBufferfv(buffer, drawbuffer, value) })
 } }
-export! { 982, glClearBufferiv, first_glClearBufferiv, hook_glClearBufferiv, (buffer: u32, drawbuffer: i32, value: Ptr) -> (), {
+export! { 983, glClearBufferiv, first_glClearBufferiv, hook_glClearBufferiv, (buffer: u32, drawbuffer: i32, value: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::CLEAR, &mut |gl| unsafe { gl.glClearBufferiv(buffer, drawbuffer, value) })
 } }
-export! { 983, glClearBufferuiv, first_glClearBufferuiv, hook_glClearBufferuiv, (buffer: u32, drawbuffer: i32, value: Ptr) -> (), {
+export! { 984, glClearBufferuiv, first_glClearBufferuiv, hook_glClearBufferuiv, (buffer: u32, drawbuffer: i32, value: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::CLEAR, &mut |gl| unsafe { gl.glClearBufferuiv(buffer, drawbuffer, value) })
 } }
-export! { 984, glDrawArrays, first_glDrawArrays, hook_glDrawArrays, (mode: u32, first: i32, count: i32) -> (), {
+export! { 985, glDrawArrays, first_glDrawArrays, hook_glDrawArrays, (mode: u32, first: i32, count: i32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDrawArrays(mode, first, count) }
 } }
-export! { 985, glDrawArraysEXT, first_glDrawArraysEXT, hook_glDrawArraysEXT, (mode: u32, first: i32, count: i32) -> (), {
+export! { 986, glDrawArraysEXT, first_glDrawArraysEXT, hook_glDrawArraysEXT, (mode: u32, first: i32, count: i32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDrawArrays(mode, first, count) }
 } }
-export! { 986, glDrawElements, first_glDrawElements, hook_glDrawElements, (mode: u32, count: i32, type_: u32, indices: Ptr) -> (), {
+export! { 987, glDrawElements, first_glDrawElements, hook_glDrawElements, (mode: u32, count: i32, type_: u32, indices: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDrawElements(mode, count, type_, indices) }
 } }
-export! { 987, glDrawRangeElements, first_glDrawRangeElements, hook_glDrawRangeElements, (mode: u32, start: u32, end: u32, count: i32, type_: u32, indices: Ptr) -> (), {
+export! { 988, glDrawRangeElements, first_glDrawRangeElements, hook_glDrawRangeElements, (mode: u32, start: u32, end: u32, count: i32, type_: u32, indices: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDrawRangeElements(mode, start, end, count, type_, indices) }
 } }
-export! { 988, glDrawRangeElementsEXT, first_glDrawRangeElementsEXT, hook_glDrawRangeElementsEXT, (mode: u32, start: u32, end: u32, count: i32, type_: u32, indices: Ptr) -> (), {
+export! { 989, glDrawRangeElementsEXT, first_glDrawRangeElementsEXT, hook_glDrawRangeElementsEXT, (mode: u32, start: u32, end: u32, count: i32, type_: u32, indices: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDrawRangeElements(mode, start, end, count, type_, indices) }
 } }
-export! { 989, glMultiDrawArrays, first_glMultiDrawArrays, hook_glMultiDrawArrays, (mode: u32, first: Ptr, count: Ptr, drawcount: i32) -> (), {
+export! { 990, glMultiDrawArrays, first_glMultiDrawArrays, hook_glMultiDrawArrays, (mode: u32, first: Ptr, count: Ptr, drawcount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawArrays(mode, first, count, drawcount) })
 } }
-export! { 990, glMultiDrawArraysEXT, first_glMultiDrawArraysEXT, hook_glMultiDrawArraysEXT, (mode: u32, first: Ptr, count: Ptr, primcount: i32) -> (), {
+export! { 991, glMultiDrawArraysEXT, first_glMultiDrawArraysEXT, hook_glMultiDrawArraysEXT, (mode: u32, first: Ptr, count: Ptr, primcount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawArraysEXT(mode, first, count, primcount) })
 } }
-export! { 991, glMultiDrawElements, first_glMultiDrawElements, hook_glMultiDrawElements, (mode: u32, count: Ptr, type_: u32, indices: Ptr, drawcount: i32) -> (), {
+export! { 992, glMultiDrawElements, first_glMultiDrawElements, hook_glMultiDrawElements, (mode: u32, count: Ptr, type_: u32, indices: Ptr, drawcount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawElements(mode, count, type_, indices, drawcount) })
 } }
-export! { 992, glMultiDrawElementsEXT, first_glMultiDrawElementsEXT, hook_glMultiDrawElementsEXT, (mode: u32, count: Ptr, type_: u32, indices: Ptr, primcount: i32) -> (), {
+export! { 993, glMultiDrawElementsEXT, first_glMultiDrawElementsEXT, hook_glMultiDrawElementsEXT, (mode: u32, count: Ptr, type_: u32, indices: Ptr, primcount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawElementsEXT(mode, count, type_, indices, primcount) })
 } }
-export! { 993, glDrawElementsBaseVertex, first_glDrawElementsBaseVertex, hook_glDrawElementsBaseVertex, (mode: u32, count: i32, type_: u32, indices: Ptr, basevertex: i32) -> (), {
+export! { 994, glDrawElementsBaseVertex, first_glDrawElementsBaseVertex, hook_glDrawElementsBaseVertex, (mode: u32, count: i32, type_: u32, indices: Ptr, basevertex: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsBaseVertex(mode, count, type_, indices, basevertex) })
 } }
-export! { 994, glDrawElementsBaseVertexEXT, first_glDrawElementsBaseVertexEXT, hook_glDrawElementsBaseVertexEXT, (mode: u32, count: i32, type_: u32, indices: Ptr, basevertex: i32) -> (), {
+export! { 995, glDrawElementsBaseVertexEXT, first_glDrawElementsBaseVertexEXT, hook_glDrawElementsBaseVertexEXT, (mode: u32, count: i32, type_: u32, indices: Ptr, basevertex: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsBaseVertexEXT(mode, count, type_, indices, basevertex) })
 } }
-export! { 995, glDrawElementsBaseVertexOES, first_glDrawElementsBaseVertexOES, hook_glDrawElementsBaseVertexOES, (mode: u32, count: i32, type_: u32, indices: Ptr, basevertex: i32) -> (), {
+export! { 996, glDrawElementsBaseVertexOES, first_glDrawElementsBaseVertexOES, hook_glDrawElementsBaseVertexOES, (mode: u32, count: i32, type_: u32, indices: Ptr, basevertex: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsBaseVertexOES(mode, count, type_, indices, basevertex) })
 } }
-export! { 996, glDrawRangeElementsBaseVertex, first_glDrawRangeElementsBaseVertex, hook_glDrawRangeElementsBaseVertex, (mode: u32, start: u32, end: u32, count: i32, type_: u32, indices: Ptr, basevertex: i32) -> (), {
+export! { 997, glDrawRangeElementsBaseVertex, first_glDrawRangeElementsBaseVertex, hook_glDrawRangeElementsBaseVertex, (mode: u32, start: u32, end: u32, count: i32, type_: u32, indices: Ptr, basevertex: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawRangeElementsBaseVertex(mode, start, end, count, type_, indices, basevertex) })
 } }
-export! { 997, glDrawRangeElementsBaseVertexEXT, first_glDrawRangeElementsBaseVertexEXT, hook_glDrawRangeElementsBaseVertexEXT, (mode: u32, start: u32, end: u32, count: i32, type_: u32, indices: Ptr, basevertex: i32) -> (), {
+export! { 998, glDrawRangeElementsBaseVertexEXT, first_glDrawRangeElementsBaseVertexEXT, hook_glDrawRangeElementsBaseVertexEXT, (mode: u32, start: u32, end: u32, count: i32, type_: u32, indices: Ptr, basevertex: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawRangeElementsBaseVertexEXT(mode, start, end, count, type_, indices, basevertex) })
 } }
-export! { 998, glDrawRangeElementsBaseVertexOES, first_glDrawRangeElementsBaseVertexOES, hook_glDrawRangeElementsBaseVertexOES, (mode: u32, start: u32, end: u32, count: i32, type_: u32, indices: Ptr, basevertex: i32) -> (), {
+export! { 999, glDrawRangeElementsBaseVertexOES, first_glDrawRangeElementsBaseVertexOES, hook_glDrawRangeElementsBaseVertexOES, (mode: u32, start: u32, end: u32, count: i32, type_: u32, indices: Ptr, basevertex: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawRangeElementsBaseVertexOES(mode, start, end, count, type_, indices, basevertex) })
 } }
-export! { 999, glMultiDrawElementsBaseVertex, first_glMultiDrawElementsBaseVertex, hook_glMultiDrawElementsBaseVertex, (mode: u32, count: Ptr, type_: u32, indices: Ptr, drawcount: i32, basevertex: Ptr) -> (), {
+export! { 1000, glMultiDrawElementsBaseVertex, first_glMultiDrawElementsBaseVertex, hook_glMultiDrawElementsBaseVertex, (mode: u32, count: Ptr, type_: u32, indices: Ptr, drawcount: i32, basevertex: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawElementsBaseVertex(mode, count, type_, indices, drawcount, basevertex) })
 } }
-export! { 1000, glMultiDrawElementsBaseVertexEXT, first_glMultiDrawElementsBaseVertexEXT, hook_glMultiDrawElementsBaseVertexEXT, (mode: u32, count: Ptr, type_: u32, indices: Ptr, drawcount: i32, basevertex: Ptr) -> (), {
+export! { 1001, glMultiDrawElementsBaseVertexEXT, first_glMultiDrawElementsBaseVertexEXT, hook_glMultiDrawElementsBaseVertexEXT, (mode: u32, count: Ptr, type_: u32, indices: Ptr, drawcount: i32, basevertex: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawElementsBaseVertexEXT(mode, count, type_, indices, drawcount, basevertex) })
 } }
-export! { 1001, glDrawArraysInstanced, first_glDrawArraysInstanced, hook_glDrawArraysInstanced, (mode: u32, first: i32, count: i32, instancecount: i32) -> (), {
+export! { 1002, glDrawArraysInstanced, first_glDrawArraysInstanced, hook_glDrawArraysInstanced, (mode: u32, first: i32, count: i32, instancecount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawArraysInstanced(mode, first, count, instancecount) })
 } }
-export! { 1002, glDrawArraysInstancedANGLE, first_glDrawArraysInstancedANGLE, hook_glDrawArraysInstancedANGLE, (mode: u32, first: i32, count: i32, primcount: i32) -> (), {
+export! { 1003, glDrawArraysInstancedANGLE, first_glDrawArraysInstancedANGLE, hook_glDrawArraysInstancedANGLE, (mode: u32, first: i32, count: i32, primcount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawArraysInstancedANGLE(mode, first, count, primcount) })
 } }
-export! { 1003, glDrawArraysInstancedARB, first_glDrawArraysInstancedARB, hook_glDrawArraysInstancedARB, (mode: u32, first: i32, count: i32, primcount: i32) -> (), {
+export! { 1004, glDrawArraysInstancedARB, first_glDrawArraysInstancedARB, hook_glDrawArraysInstancedARB, (mode: u32, first: i32, count: i32, primcount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawArraysInstancedARB(mode, first, count, primcount) })
 } }
-export! { 1004, glDrawArraysInstancedEXT, first_glDrawArraysInstancedEXT, hook_glDrawArraysInstancedEXT, (mode: u32, start: i32, count: i32, primcount: i32) -> (), {
+export! { 1005, glDrawArraysInstancedEXT, first_glDrawArraysInstancedEXT, hook_glDrawArraysInstancedEXT, (mode: u32, start: i32, count: i32, primcount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawArraysInstancedEXT(mode, start, count, primcount) })
 } }
-export! { 1005, glDrawArraysInstancedNV, first_glDrawArraysInstancedNV, hook_glDrawArraysInstancedNV, (mode: u32, first: i32, count: i32, primcount: i32) -> (), {
+export! { 1006, glDrawArraysInstancedNV, first_glDrawArraysInstancedNV, hook_glDrawArraysInstancedNV, (mode: u32, first: i32, count: i32, primcount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawArraysInstancedNV(mode, first, count, primcount) })
 } }
-export! { 1006, glDrawElementsInstanced, first_glDrawElementsInstanced, hook_glDrawElementsInstanced, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32) -> (), {
+export! { 1007, glDrawElementsInstanced, first_glDrawElementsInstanced, hook_glDrawElementsInstanced, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsInstanced(mode, count, type_, indices, instancecount) })
 } }
-export! { 1007, glDrawElementsInstancedANGLE, first_glDrawElementsInstancedANGLE, hook_glDrawElementsInstancedANGLE, (mode: u32, count: i32, type_: u32, indices: Ptr, primcount: i32) -> (), {
+export! { 1008, glDrawElementsInstancedANGLE, first_glDrawElementsInstancedANGLE, hook_glDrawElementsInstancedANGLE, (mode: u32, count: i32, type_: u32, indices: Ptr, primcount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsInstancedANGLE(mode, count, type_, indices, primcount) })
 } }
-export! { 1008, glDrawElementsInstancedARB, first_glDrawElementsInstancedARB, hook_glDrawElementsInstancedARB, (mode: u32, count: i32, type_: u32, indices: Ptr, primcount: i32) -> (), {
+export! { 1009, glDrawElementsInstancedARB, first_glDrawElementsInstancedARB, hook_glDrawElementsInstancedARB, (mode: u32, count: i32, type_: u32, indices: Ptr, primcount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsInstancedARB(mode, count, type_, indices, primcount) })
 } }
-export! { 1009, glDrawElementsInstancedEXT, first_glDrawElementsInstancedEXT, hook_glDrawElementsInstancedEXT, (mode: u32, count: i32, type_: u32, indices: Ptr, primcount: i32) -> (), {
+export! { 1010, glDrawElementsInstancedEXT, first_glDrawElementsInstancedEXT, hook_glDrawElementsInstancedEXT, (mode: u32, count: i32, type_: u32, indices: Ptr, primcount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsInstancedEXT(mode, count, type_, indices, primcount) })
 } }
-export! { 1010, glDrawElementsInstancedNV, first_glDrawElementsInstancedNV, hook_glDrawElementsInstancedNV, (mode: u32, count: i32, type_: u32, indices: Ptr, primcount: i32) -> (), {
+export! { 1011, glDrawElementsInstancedNV, first_glDrawElementsInstancedNV, hook_glDrawElementsInstancedNV, (mode: u32, count: i32, type_: u32, indices: Ptr, primcount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsInstancedNV(mode, count, type_, indices, primcount) })
 } }
-export! { 1011, glDrawElementsInstancedBaseVertex, first_glDrawElementsInstancedBaseVertex, hook_glDrawElementsInstancedBaseVertex, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32, basevertex: i32) -> (), {
+export! { 1012, glDrawElementsInstancedBaseVertex, first_glDrawElementsInstancedBaseVertex, hook_glDrawElementsInstancedBaseVertex, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32, basevertex: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsInstancedBaseVertex(mode, count, type_, indices, instancecount, basevertex) })
 } }
-export! { 1012, glDrawElementsInstancedBaseVertexEXT, first_glDrawElementsInstancedBaseVertexEXT, hook_glDrawElementsInstancedBaseVertexEXT, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32, basevertex: i32) -> (), {
+export! { 1013, glDrawElementsInstancedBaseVertexEXT, first_glDrawElementsInstancedBaseVertexEXT, hook_glDrawElementsInstancedBaseVertexEXT, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32, basevertex: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsInstancedBaseVertexEXT(mode, count, type_, indices, instancecount, basevertex) })
 } }
-export! { 1013, glDrawElementsInstancedBaseVertexOES, first_glDrawElementsInstancedBaseVertexOES, hook_glDrawElementsInstancedBaseVertexOES, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32, basevertex: i32) -> (), {
+export! { 1014, glDrawElementsInstancedBaseVertexOES, first_glDrawElementsInstancedBaseVertexOES, hook_glDrawElementsInstancedBaseVertexOES, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32, basevertex: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsInstancedBaseVertexOES(mode, count, type_, indices, instancecount, basevertex) })
 } }
-export! { 1014, glDrawArraysInstancedBaseInstance, first_glDrawArraysInstancedBaseInstance, hook_glDrawArraysInstancedBaseInstance, (mode: u32, first: i32, count: i32, instancecount: i32, baseinstance: u32) -> (), {
+export! { 1015, glDrawArraysInstancedBaseInstance, first_glDrawArraysInstancedBaseInstance, hook_glDrawArraysInstancedBaseInstance, (mode: u32, first: i32, count: i32, instancecount: i32, baseinstance: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawArraysInstancedBaseInstance(mode, first, count, instancecount, baseinstance) })
 } }
-export! { 1015, glDrawArraysInstancedBaseInstanceEXT, first_glDrawArraysInstancedBaseInstanceEXT, hook_glDrawArraysInstancedBaseInstanceEXT, (mode: u32, first: i32, count: i32, instancecount: i32, baseinstance: u32) -> (), {
+export! { 1016, glDrawArraysInstancedBaseInstanceEXT, first_glDrawArraysInstancedBaseInstanceEXT, hook_glDrawArraysInstancedBaseInstanceEXT, (mode: u32, first: i32, count: i32, instancecount: i32, baseinstance: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawArraysInstancedBaseInstanceEXT(mode, first, count, instancecount, baseinstance) })
 } }
-export! { 1016, glDrawElementsInstancedBaseInstance, first_glDrawElementsInstancedBaseInstance, hook_glDrawElementsInstancedBaseInstance, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32, baseinstance: u32) -> (), {
+export! { 1017, glDrawElementsInstancedBaseInstance, first_glDrawElementsInstancedBaseInstance, hook_glDrawElementsInstancedBaseInstance, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32, baseinstance: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsInstancedBaseInstance(mode, count, type_, indices, instancecount, baseinstance) })
 } }
-export! { 1017, glDrawElementsInstancedBaseInstanceEXT, first_glDrawElementsInstancedBaseInstanceEXT, hook_glDrawElementsInstancedBaseInstanceEXT, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32, baseinstance: u32) -> (), {
+export! { 1018, glDrawElementsInstancedBaseInstanceEXT, first_glDrawElementsInstancedBaseInstanceEXT, hook_glDrawElementsInstancedBaseInstanceEXT, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32, baseinstance: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsInstancedBaseInstanceEXT(mode, count, type_, indices, instancecount, baseinstance) })
 } }
-export! { 1018, glDrawElementsInstancedBaseVertexBaseInstance, first_glDrawElementsInstancedBaseVertexBaseInstance, hook_glDrawElementsInstancedBaseVertexBaseInstance, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32, basevertex: i32, baseinstance: u32) -> (), {
+export! { 1019, glDrawElementsInstancedBaseVertexBaseInstance, first_glDrawElementsInstancedBaseVertexBaseInstance, hook_glDrawElementsInstancedBaseVertexBaseInstance, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32, basevertex: i32, baseinstance: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsInstancedBaseVertexBaseInstance(mode, count, type_, indices, instancecount, basevertex, baseinstance) })
 } }
-export! { 1019, glDrawElementsInstancedBaseVertexBaseInstanceEXT, first_glDrawElementsInstancedBaseVertexBaseInstanceEXT, hook_glDrawElementsInstancedBaseVertexBaseInstanceEXT, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32, basevertex: i32, baseinstance: u32) -> (), {
+export! { 1020, glDrawElementsInstancedBaseVertexBaseInstanceEXT, first_glDrawElementsInstancedBaseVertexBaseInstanceEXT, hook_glDrawElementsInstancedBaseVertexBaseInstanceEXT, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32, basevertex: i32, baseinstance: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsInstancedBaseVertexBaseInstanceEXT(mode, count, type_, indices, instancecount, basevertex, baseinstance) })
 } }
-export! { 1020, glDrawArraysIndirect, first_glDrawArraysIndirect, hook_glDrawArraysIndirect, (mode: u32, indirect: Ptr) -> (), {
+export! { 1021, glDrawArraysIndirect, first_glDrawArraysIndirect, hook_glDrawArraysIndirect, (mode: u32, indirect: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawArraysIndirect(mode, indirect) })
 } }
-export! { 1021, glDrawElementsIndirect, first_glDrawElementsIndirect, hook_glDrawElementsIndirect, (mode: u32, type_: u32, indirect: Ptr) -> (), {
+export! { 1022, glDrawElementsIndirect, first_glDrawElementsIndirect, hook_glDrawElementsIndirect, (mode: u32, type_: u32, indirect: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsIndirect(mode, type_, indirect) })
 } }
-export! { 1022, glMultiDrawArraysIndirect, first_glMultiDrawArraysIndirect, hook_glMultiDrawArraysIndirect, (mode: u32, indirect: Ptr, drawcount: i32, stride: i32) -> (), {
+export! { 1023, glMultiDrawArraysIndirect, first_glMultiDrawArraysIndirect, hook_glMultiDrawArraysIndirect, (mode: u32, indirect: Ptr, drawcount: i32, stride: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawArraysIndirect(mode, indirect, drawcount, stride) })
 } }
-export! { 1023, glMultiDrawArraysIndirectAMD, first_glMultiDrawArraysIndirectAMD, hook_glMultiDrawArraysIndirectAMD, (mode: u32, indirect: Ptr, primcount: i32, stride: i32) -> (), {
+export! { 1024, glMultiDrawArraysIndirectAMD, first_glMultiDrawArraysIndirectAMD, hook_glMultiDrawArraysIndirectAMD, (mode: u32, indirect: Ptr, primcount: i32, stride: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawArraysIndirectAMD(mode, indirect, primcount, stride) })
 } }
-export! { 1024, glMultiDrawArraysIndirectEXT, first_glMultiDrawArraysIndirectEXT, hook_glMultiDrawArraysIndirectEXT, (mode: u32, indirect: Ptr, drawcount: i32, stride: i32) -> (), {
+export! { 1025, glMultiDrawArraysIndirectEXT, first_glMultiDrawArraysIndirectEXT, hook_glMultiDrawArraysIndirectEXT, (mode: u32, indirect: Ptr, drawcount: i32, stride: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawArraysIndirectEXT(mode, indirect, drawcount, stride) })
 } }
-export! { 1025, glMultiDrawElementsIndirect, first_glMultiDrawElementsIndirect, hook_glMultiDrawElementsIndirect, (mode: u32, type_: u32, indirect: Ptr, drawcount: i32, stride: i32) -> (), {
+export! { 1026, glMultiDrawElementsIndirect, first_glMultiDrawElementsIndirect, hook_glMultiDrawElementsIndirect, (mode: u32, type_: u32, indirect: Ptr, drawcount: i32, stride: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawElementsIndirect(mode, type_, indirect, drawcount, stride) })
 } }
-export! { 1026, glMultiDrawElementsIndirectAMD, first_glMultiDrawElementsIndirectAMD, hook_glMultiDrawElementsIndirectAMD, (mode: u32, type_: u32, indirect: Ptr, primcount: i32, stride: i32) -> (), {
+export! { 1027, glMultiDrawElementsIndirectAMD, first_glMultiDrawElementsIndirectAMD, hook_glMultiDrawElementsIndirectAMD, (mode: u32, type_: u32, indirect: Ptr, primcount: i32, stride: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawElementsIndirectAMD(mode, type_, indirect, primcount, stride) })
 } }
-export! { 1027, glMultiDrawElementsIndirectEXT, first_glMultiDrawElementsIndirectEXT, hook_glMultiDrawElementsIndirectEXT, (mode: u32, type_: u32, indirect: Ptr, drawcount: i32, stride: i32) -> (), {
+export! { 1028, glMultiDrawElementsIndirectEXT, first_glMultiDrawElementsIndirectEXT, hook_glMultiDrawElementsIndirectEXT, (mode: u32, type_: u32, indirect: Ptr, drawcount: i32, stride: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawElementsIndirectEXT(mode, type_, indirect, drawcount, stride) })
 } }
-export! { 1028, glDrawTransformFeedback, first_glDrawTransformFeedback, hook_glDrawTransformFeedback, (mode: u32, id: u32) -> (), {
+export! { 1029, glDrawTransformFeedback, first_glDrawTransformFeedback, hook_glDrawTransformFeedback, (mode: u32, id: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawTransformFeedback(mode, id) })
 } }
-export! { 1029, glDrawTransformFeedbackEXT, first_glDrawTransformFeedbackEXT, hook_glDrawTransformFeedbackEXT, (mode: u32, id: u32) -> (), {
+export! { 1030, glDrawTransformFeedbackEXT, first_glDrawTransformFeedbackEXT, hook_glDrawTransformFeedbackEXT, (mode: u32, id: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawTransformFeedbackEXT(mode, id) })
 } }
-export! { 1030, glDrawTransformFeedbackNV, first_glDrawTransformFeedbackNV, hook_glDrawTransformFeedbackNV, (mode: u32, id: u32) -> (), {
+export! { 1031, glDrawTransformFeedbackNV, first_glDrawTransformFeedbackNV, hook_glDrawTransformFeedbackNV, (mode: u32, id: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawTransformFeedbackNV(mode, id) })
 } }
-export! { 1031, glDrawTransformFeedbackInstanced, first_glDrawTransformFeedbackInstanced, hook_glDrawTransformFeedbackInstanced, (mode: u32, id: u32, instancecount: i32) -> (), {
+export! { 1032, glDrawTransformFeedbackInstanced, first_glDrawTransformFeedbackInstanced, hook_glDrawTransformFeedbackInstanced, (mode: u32, id: u32, instancecount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawTransformFeedbackInstanced(mode, id, instancecount) })
 } }
-export! { 1032, glDrawTransformFeedbackInstancedEXT, first_glDrawTransformFeedbackInstancedEXT, hook_glDrawTransformFeedbackInstancedEXT, (mode: u32, id: u32, instancecount: i32) -> (), {
+export! { 1033, glDrawTransformFeedbackInstancedEXT, first_glDrawTransformFeedbackInstancedEXT, hook_glDrawTransformFeedbackInstancedEXT, (mode: u32, id: u32, instancecount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawTransformFeedbackInstancedEXT(mode, id, instancecount) })
 } }
-export! { 1033, glDrawTransformFeedbackStream, first_glDrawTransformFeedbackStream, hook_glDrawTransformFeedbackStream, (mode: u32, id: u32, stream: u32) -> (), {
+export! { 1034, glDrawTransformFeedbackStream, first_glDrawTransformFeedbackStream, hook_glDrawTransformFeedbackStream, (mode: u32, id: u32, stream: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawTransformFeedbackStream(mode, id, stream) })
 } }
-export! { 1034, glDrawTransformFeedbackStreamInstanced, first_glDrawTransformFeedbackStreamInstanced, hook_glDrawTransformFeedbackStreamInstanced, (mode: u32, id: u32, stream: u32, instancecount: i32) -> (), {
+export! { 1035, glDrawTransformFeedbackStreamInstanced, first_glDrawTransformFeedbackStreamInstanced, hook_glDrawTransformFeedbackStreamInstanced, (mode: u32, id: u32, stream: u32, instancecount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawTransformFeedbackStreamInstanced(mode, id, stream, instancecount) })
 } }
-export! { 1035, glRectd, first_glRectd, hook_glRectd, (x1: f64, y1: f64, x2: f64, y2: f64) -> (), {
+export! { 1036, glRectd, first_glRectd, hook_glRectd, (x1: f64, y1: f64, x2: f64, y2: f64) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glRectd(x1, y1, x2, y2) })
 } }
-export! { 1036, glRectdv, first_glRectdv, hook_glRectdv, (v1: Ptr, v2: Ptr) -> (), {
+export! { 1037, glRectdv, first_glRectdv, hook_glRectdv, (v1: Ptr, v2: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glRectdv(v1, v2) })
 } }
-export! { 1037, glRectf, first_glRectf, hook_glRectf, (x1: f32, y1: f32, x2: f32, y2: f32) -> (), {
+export! { 1038, glRectf, first_glRectf, hook_glRectf, (x1: f32, y1: f32, x2: f32, y2: f32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glRectf(x1, y1, x2, y2) })
 } }
-export! { 1038, glRectfv, first_glRectfv, hook_glRectfv, (v1: Ptr, v2: Ptr) -> (), {
+export! { 1039, glRectfv, first_glRectfv, hook_glRectfv, (v1: Ptr, v2: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glRectfv(v1, v2) })
 } }
-export! { 1039, glRecti, first_glRecti, hook_glRecti, (x1: i32, y1: i32, x2: i32, y2: i32) -> (), {
+export! { 1040, glRecti, first_glRecti, hook_glRecti, (x1: i32, y1: i32, x2: i32, y2: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glRecti(x1, y1, x2, y2) })
 } }
-export! { 1040, glRectiv, first_glRectiv, hook_glRectiv, (v1: Ptr, v2: Ptr) -> (), {
+export! { 1041, glRectiv, first_glRectiv, hook_glRectiv, (v1: Ptr, v2: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glRectiv(v1, v2) })
 } }
-export! { 1041, glRects, first_glRects, hook_glRects, (x1: i16, y1: i16, x2: i16, y2: i16) -> (), {
+export! { 1042, glRects, first_glRects, hook_glRects, (x1: i16, y1: i16, x2: i16, y2: i16) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glRects(x1, y1, x2, y2) })
 } }
-export! { 1042, glRectsv, first_glRectsv, hook_glRectsv, (v1: Ptr, v2: Ptr) -> (), {
+export! { 1043, glRectsv, first_glRectsv, hook_glRectsv, (v1: Ptr, v2: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glRectsv(v1, v2) })
 } }
-export! { 1043, glEvalMesh1, first_glEvalMesh1, hook_glEvalMesh1, (mode: u32, i1: i32, i2: i32) -> (), {
+export! { 1044, glEvalMesh1, first_glEvalMesh1, hook_glEvalMesh1, (mode: u32, i1: i32, i2: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glEvalMesh1(mode, i1, i2) })
 } }
-export! { 1044, glEvalMesh2, first_glEvalMesh2, hook_glEvalMesh2, (mode: u32, i1: i32, i2: i32, j1: i32, j2: i32) -> (), {
+export! { 1045, glEvalMesh2, first_glEvalMesh2, hook_glEvalMesh2, (mode: u32, i1: i32, i2: i32, j1: i32, j2: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glEvalMesh2(mode, i1, i2, j1, j2) })
 } }
-export! { 1045, glAccum, first_glAccum, hook_glAccum, (op: u32, value: f32) -> (), {
+export! { 1046, glAccum, first_glAccum, hook_glAccum, (op: u32, value: f32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glAccum(op, value) }
 } }
-export! { 1046, glBitmap, first_glBitmap, hook_glBitmap, (width: i32, height: i32, xorig: f32, yorig: f32, xmove: f32, ymove: f32, bitmap: Ptr) -> (), {
+export! { 1047, glBitmap, first_glBitmap, hook_glBitmap, (width: i32, height: i32, xorig: f32, yorig: f32, xmove: f32, ymove: f32, bitmap: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBitmap(width, height, xorig, yorig, xmove, ymove, bitmap) }
 } }
-export! { 1047, glDrawPixels, first_glDrawPixels, hook_glDrawPixels, (width: i32, height: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
+export! { 1048, glDrawPixels, first_glDrawPixels, hook_glDrawPixels, (width: i32, height: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDrawPixels(width, height, format, type_, pixels) }
 } }
-export! { 1048, glCopyPixels, first_glCopyPixels, hook_glCopyPixels, (x: i32, y: i32, width: i32, height: i32, type_: u32) -> (), {
+export! { 1049, glCopyPixels, first_glCopyPixels, hook_glCopyPixels, (x: i32, y: i32, width: i32, height: i32, type_: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glCopyPixels(x, y, width, height, type_) }
 } }
-export! { 1049, glNewList, first_glNewList, hook_glNewList, (list: u32, mode: u32) -> (), {
+export! { 1050, glNewList, first_glNewList, hook_glNewList, (list: u32, mode: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glNewList(list, mode) }
 } }
-export! { 1050, glEndList, first_glEndList, hook_glEndList, () -> (), {
+export! { 1051, glEndList, first_glEndList, hook_glEndList, () -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glEndList() }
 } }
-export! { 1051, glCallList, first_glCallList, hook_glCallList, (list: u32) -> (), {
+export! { 1052, glCallList, first_glCallList, hook_glCallList, (list: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glCallList(list) }
 } }
-export! { 1052, glCallLists, first_glCallLists, hook_glCallLists, (n: i32, type_: u32, lists: Ptr) -> (), {
+export! { 1053, glCallLists, first_glCallLists, hook_glCallLists, (n: i32, type_: u32, lists: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glCallLists(n, type_, lists) }
 } }
-export! { 1053, glDeleteLists, first_glDeleteLists, hook_glDeleteLists, (list: u32, range: i32) -> (), {
+export! { 1054, glDeleteLists, first_glDeleteLists, hook_glDeleteLists, (list: u32, range: i32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDeleteLists(list, range) }
 } }
-export! { 1054, glGenLists, first_glGenLists, hook_glGenLists, (range: i32) -> u32, {
+export! { 1055, glGenLists, first_glGenLists, hook_glGenLists, (range: i32) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::glGenLists(range) }
 } }
-export! { 1055, glIsList, first_glIsList, hook_glIsList, (list: u32) -> u8, {
+export! { 1056, glIsList, first_glIsList, hook_glIsList, (list: u32) -> u8, {
     // SAFETY: the program's own arguments.
     unsafe { special::glIsList(list) }
 } }
-export! { 1056, glBindTexture, first_glBindTexture, hook_glBindTexture, (target: u32, texture: u32) -> (), {
+export! { 1057, glBindTexture, first_glBindTexture, hook_glBindTexture, (target: u32, texture: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBindTexture(target, texture) }
 } }
-export! { 1057, glBindTextureEXT, first_glBindTextureEXT, hook_glBindTextureEXT, (target: u32, texture: u32) -> (), {
+export! { 1058, glBindTextureEXT, first_glBindTextureEXT, hook_glBindTextureEXT, (target: u32, texture: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBindTexture(target, texture) }
 } }
-export! { 1058, glDeleteTextures, first_glDeleteTextures, hook_glDeleteTextures, (n: i32, textures: Ptr) -> (), {
+export! { 1059, glDeleteTextures, first_glDeleteTextures, hook_glDeleteTextures, (n: i32, textures: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDeleteTextures(n, textures) }
 } }
-export! { 1059, glIsTexture, first_glIsTexture, hook_glIsTexture, (texture: u32) -> u8, {
+export! { 1060, glIsTexture, first_glIsTexture, hook_glIsTexture, (texture: u32) -> u8, {
     // SAFETY: the program's own arguments.
     unsafe { special::glIsTexture(texture) }
 } }
-export! { 1060, glIsFramebuffer, first_glIsFramebuffer, hook_glIsFramebuffer, (framebuffer: u32) -> u8, {
+export! { 1061, glIsFramebuffer, first_glIsFramebuffer, hook_glIsFramebuffer, (framebuffer: u32) -> u8, {
     // SAFETY: the program's own arguments.
     unsafe { special::glIsFramebuffer(framebuffer) }
 } }
-export! { 1061, glIsFramebufferEXT, first_glIsFramebufferEXT, hook_glIsFramebufferEXT, (framebuffer: u32) -> u8, {
+export! { 1062, glIsFramebufferEXT, first_glIsFramebufferEXT, hook_glIsFramebufferEXT, (framebuffer: u32) -> u8, {
     // SAFETY: the program's own arguments.
     unsafe { special::glIsFramebuffer(framebuffer) }
 } }
-export! { 1062, glBindFramebuffer, first_glBindFramebuffer, hook_glBindFramebuffer, (target: u32, framebuffer: u32) -> (), {
+export! { 1063, glBindFramebuffer, first_glBindFramebuffer, hook_glBindFramebuffer, (target: u32, framebuffer: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBindFramebuffer(target, framebuffer) }
 } }
-export! { 1063, glBindFramebufferEXT, first_glBindFramebufferEXT, hook_glBindFramebufferEXT, (target: u32, framebuffer: u32) -> (), {
+export! { 1064, glBindFramebufferEXT, first_glBindFramebufferEXT, hook_glBindFramebufferEXT, (target: u32, framebuffer: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBindFramebufferEXT(target, framebuffer) }
 } }
-export! { 1064, glDeleteFramebuffers, first_glDeleteFramebuffers, hook_glDeleteFramebuffers, (n: i32, framebuffers: Ptr) -> (), {
+export! { 1065, glDeleteFramebuffers, first_glDeleteFramebuffers, hook_glDeleteFramebuffers, (n: i32, framebuffers: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDeleteFramebuffers(n, framebuffers) }
 } }
-export! { 1065, glDeleteFramebuffersEXT, first_glDeleteFramebuffersEXT, hook_glDeleteFramebuffersEXT, (n: i32, framebuffers: Ptr) -> (), {
+export! { 1066, glDeleteFramebuffersEXT, first_glDeleteFramebuffersEXT, hook_glDeleteFramebuffersEXT, (n: i32, framebuffers: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDeleteFramebuffers(n, framebuffers) }
 } }
-export! { 1066, glDrawBuffer, first_glDrawBuffer, hook_glDrawBuffer, (buf: u32) -> (), {
+export! { 1067, glDrawBuffer, first_glDrawBuffer, hook_glDrawBuffer, (buf: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDrawBuffer(buf) }
 } }
-export! { 1067, glDrawBuffers, first_glDrawBuffers, hook_glDrawBuffers, (n: i32, bufs: Ptr) -> (), {
+export! { 1068, glDrawBuffers, first_glDrawBuffers, hook_glDrawBuffers, (n: i32, bufs: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDrawBuffers(n, bufs) }
 } }
-export! { 1068, glDrawBuffersARB, first_glDrawBuffersARB, hook_glDrawBuffersARB, (n: i32, bufs: Ptr) -> (), {
+export! { 1069, glDrawBuffersARB, first_glDrawBuffersARB, hook_glDrawBuffersARB, (n: i32, bufs: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDrawBuffers(n, bufs) }
 } }
-export! { 1069, glDrawBuffersATI, first_glDrawBuffersATI, hook_glDrawBuffersATI, (n: i32, bufs: Ptr) -> (), {
+export! { 1070, glDrawBuffersATI, first_glDrawBuffersATI, hook_glDrawBuffersATI, (n: i32, bufs: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDrawBuffers(n, bufs) }
 } }
-export! { 1070, glDrawBuffersEXT, first_glDrawBuffersEXT, hook_glDrawBuffersEXT, (n: i32, bufs: Ptr) -> (), {
+export! { 1071, glDrawBuffersEXT, first_glDrawBuffersEXT, hook_glDrawBuffersEXT, (n: i32, bufs: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDrawBuffers(n, bufs) }
 } }
-export! { 1071, glReadBuffer, first_glReadBuffer, hook_glReadBuffer, (src: u32) -> (), {
+export! { 1072, glReadBuffer, first_glReadBuffer, hook_glReadBuffer, (src: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glReadBuffer(src) }
 } }
-export! { 1072, glNamedFramebufferDrawBuffer, first_glNamedFramebufferDrawBuffer, hook_glNamedFramebufferDrawBuffer, (framebuffer: u32, buf: u32) -> (), {
+export! { 1073, glNamedFramebufferDrawBuffer, first_glNamedFramebufferDrawBuffer, hook_glNamedFramebufferDrawBuffer, (framebuffer: u32, buf: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glNamedFramebufferDrawBuffer(framebuffer, buf) }
 } }
-export! { 1073, glNamedFramebufferDrawBuffers, first_glNamedFramebufferDrawBuffers, hook_glNamedFramebufferDrawBuffers, (framebuffer: u32, n: i32, bufs: Ptr) -> (), {
+export! { 1074, glNamedFramebufferDrawBuffers, first_glNamedFramebufferDrawBuffers, hook_glNamedFramebufferDrawBuffers, (framebuffer: u32, n: i32, bufs: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glNamedFramebufferDrawBuffers(framebuffer, n, bufs) }
 } }
-export! { 1074, glNamedFramebufferReadBuffer, first_glNamedFramebufferReadBuffer, hook_glNamedFramebufferReadBuffer, (framebuffer: u32, src: u32) -> (), {
+export! { 1075, glNamedFramebufferReadBuffer, first_glNamedFramebufferReadBuffer, hook_glNamedFramebufferReadBuffer, (framebuffer: u32, src: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glNamedFramebufferReadBuffer(framebuffer, src) }
 } }
-export! { 1075, glFramebufferDrawBufferEXT, first_glFramebufferDrawBufferEXT, hook_glFramebufferDrawBufferEXT, (framebuffer: u32, mode: u32) -> (), {
+export! { 1076, glFramebufferDrawBufferEXT, first_glFramebufferDrawBufferEXT, hook_glFramebufferDrawBufferEXT, (framebuffer: u32, mode: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glFramebufferDrawBufferEXT(framebuffer, mode) }
 } }
-export! { 1076, glFramebufferDrawBuffersEXT, first_glFramebufferDrawBuffersEXT, hook_glFramebufferDrawBuffersEXT, (framebuffer: u32, n: i32, bufs: Ptr) -> (), {
+export! { 1077, glFramebufferDrawBuffersEXT, first_glFramebufferDrawBuffersEXT, hook_glFramebufferDrawBuffersEXT, (framebuffer: u32, n: i32, bufs: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glFramebufferDrawBuffersEXT(framebuffer, n, bufs) }
 } }
-export! { 1077, glFramebufferReadBufferEXT, first_glFramebufferReadBufferEXT, hook_glFramebufferReadBufferEXT, (framebuffer: u32, mode: u32) -> (), {
+export! { 1078, glFramebufferReadBufferEXT, first_glFramebufferReadBufferEXT, hook_glFramebufferReadBufferEXT, (framebuffer: u32, mode: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glFramebufferReadBufferEXT(framebuffer, mode) }
 } }
-export! { 1078, glBlitFramebuffer, first_glBlitFramebuffer, hook_glBlitFramebuffer, (srcX0: i32, srcY0: i32, srcX1: i32, srcY1: i32, dstX0: i32, dstY0: i32, dstX1: i32, dstY1: i32, mask: u32, filter: u32) -> (), {
+export! { 1079, glBlitFramebuffer, first_glBlitFramebuffer, hook_glBlitFramebuffer, (srcX0: i32, srcY0: i32, srcX1: i32, srcY1: i32, dstX0: i32, dstY0: i32, dstX1: i32, dstY1: i32, mask: u32, filter: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBlitFramebuffer(srcX0, srcY0, srcX1, srcY1, dstX0, dstY0, dstX1, dstY1, mask, filter) }
 } }
-export! { 1079, glBlitFramebufferEXT, first_glBlitFramebufferEXT, hook_glBlitFramebufferEXT, (srcX0: i32, srcY0: i32, srcX1: i32, srcY1: i32, dstX0: i32, dstY0: i32, dstX1: i32, dstY1: i32, mask: u32, filter: u32) -> (), {
+export! { 1080, glBlitFramebufferEXT, first_glBlitFramebufferEXT, hook_glBlitFramebufferEXT, (srcX0: i32, srcY0: i32, srcX1: i32, srcY1: i32, dstX0: i32, dstY0: i32, dstX1: i32, dstY1: i32, mask: u32, filter: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBlitFramebuffer(srcX0, srcY0, srcX1, srcY1, dstX0, dstY0, dstX1, dstY1, mask, filter) }
 } }
-export! { 1080, glBlitFramebufferNV, first_glBlitFramebufferNV, hook_glBlitFramebufferNV, (srcX0: i32, srcY0: i32, srcX1: i32, srcY1: i32, dstX0: i32, dstY0: i32, dstX1: i32, dstY1: i32, mask: u32, filter: u32) -> (), {
+export! { 1081, glBlitFramebufferNV, first_glBlitFramebufferNV, hook_glBlitFramebufferNV, (srcX0: i32, srcY0: i32, srcX1: i32, srcY1: i32, dstX0: i32, dstY0: i32, dstX1: i32, dstY1: i32, mask: u32, filter: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBlitFramebuffer(srcX0, srcY0, srcX1, srcY1, dstX0, dstY0, dstX1, dstY1, mask, filter) }
 } }
-export! { 1081, glBlitNamedFramebuffer, first_glBlitNamedFramebuffer, hook_glBlitNamedFramebuffer, (readFramebuffer: u32, drawFramebuffer: u32, srcX0: i32, srcY0: i32, srcX1: i32, srcY1: i32, dstX0: i32, dstY0: i32, dstX1: i32, dstY1: i32, mask: u32, filter: u32) -> (), {
+export! { 1082, glBlitNamedFramebuffer, first_glBlitNamedFramebuffer, hook_glBlitNamedFramebuffer, (readFramebuffer: u32, drawFramebuffer: u32, srcX0: i32, srcY0: i32, srcX1: i32, srcY1: i32, dstX0: i32, dstY0: i32, dstX1: i32, dstY1: i32, mask: u32, filter: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBlitNamedFramebuffer(readFramebuffer, drawFramebuffer, srcX0, srcY0, srcX1, srcY1, dstX0, dstY0, dstX1, dstY1, mask, filter) }
 } }
-export! { 1082, glClearNamedFramebufferfv, first_glClearNamedFramebufferfv, hook_glClearNamedFramebufferfv, (framebuffer: u32, buffer: u32, drawbuffer: i32, value: Ptr) -> (), {
+export! { 1083, glClearNamedFramebufferfv, first_glClearNamedFramebufferfv, hook_glClearNamedFramebufferfv, (framebuffer: u32, buffer: u32, drawbuffer: i32, value: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glClearNamedFramebufferfv(framebuffer, buffer, drawbuffer, value) }
 } }
-export! { 1083, glClearNamedFramebufferiv, first_glClearNamedFramebufferiv, hook_glClearNamedFramebufferiv, (framebuffer: u32, buffer: u32, drawbuffer: i32, value: Ptr) -> (), {
+export! { 1084, glClearNamedFramebufferiv, first_glClearNamedFramebufferiv, hook_glClearNamedFramebufferiv, (framebuffer: u32, buffer: u32, drawbuffer: i32, value: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glClearNamedFramebufferiv(framebuffer, buffer, drawbuffer, value) }
 } }
-export! { 1084, glClearNamedFramebufferuiv, first_glClearNamedFramebufferuiv, hook_glClearNamedFramebufferuiv, (framebuffer: u32, buffer: u32, drawbuffer: i32, value: Ptr) -> (), {
+export! { 1085, glClearNamedFramebufferuiv, first_glClearNamedFramebufferuiv, hook_glClearNamedFramebufferuiv, (framebuffer: u32, buffer: u32, drawbuffer: i32, value: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glClearNamedFramebufferuiv(framebuffer, buffer, drawbuffer, value) }
 } }
-export! { 1085, glClearNamedFramebufferfi, first_glClearNamedFramebufferfi, hook_glClearNamedFramebufferfi, (framebuffer: u32, buffer: u32, drawbuffer: i32, depth: f32, stencil: i32) -> (), {
+export! { 1086, glClearNamedFramebufferfi, first_glClearNamedFramebufferfi, hook_glClearNamedFramebufferfi, (framebuffer: u32, buffer: u32, drawbuffer: i32, depth: f32, stencil: i32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glClearNamedFramebufferfi(framebuffer, buffer, drawbuffer, depth, stencil) }
 } }
-export! { 1086, glGetIntegerv, first_glGetIntegerv, hook_glGetIntegerv, (pname: u32, data: Ptr) -> (), {
+export! { 1087, glGetIntegerv, first_glGetIntegerv, hook_glGetIntegerv, (pname: u32, data: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetIntegerv(pname, data) }
 } }
-export! { 1087, glGetBooleanv, first_glGetBooleanv, hook_glGetBooleanv, (pname: u32, data: Ptr) -> (), {
+export! { 1088, glGetBooleanv, first_glGetBooleanv, hook_glGetBooleanv, (pname: u32, data: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetBooleanv(pname, data) }
 } }
-export! { 1088, glGetFloatv, first_glGetFloatv, hook_glGetFloatv, (pname: u32, data: Ptr) -> (), {
+export! { 1089, glGetFloatv, first_glGetFloatv, hook_glGetFloatv, (pname: u32, data: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetFloatv(pname, data) }
 } }
-export! { 1089, glGetDoublev, first_glGetDoublev, hook_glGetDoublev, (pname: u32, data: Ptr) -> (), {
+export! { 1090, glGetDoublev, first_glGetDoublev, hook_glGetDoublev, (pname: u32, data: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetDoublev(pname, data) }
 } }
-export! { 1090, glGetInteger64v, first_glGetInteger64v, hook_glGetInteger64v, (pname: u32, data: Ptr) -> (), {
+export! { 1091, glGetInteger64v, first_glGetInteger64v, hook_glGetInteger64v, (pname: u32, data: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetInteger64v(pname, data) }
 } }
-export! { 1091, glGetInteger64vAPPLE, first_glGetInteger64vAPPLE, hook_glGetInteger64vAPPLE, (pname: u32, params: Ptr) -> (), {
+export! { 1092, glGetInteger64vAPPLE, first_glGetInteger64vAPPLE, hook_glGetInteger64vAPPLE, (pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetInteger64v(pname, params) }
 } }
-export! { 1092, glGetInteger64vEXT, first_glGetInteger64vEXT, hook_glGetInteger64vEXT, (pname: u32, data: Ptr) -> (), {
+export! { 1093, glGetInteger64vEXT, first_glGetInteger64vEXT, hook_glGetInteger64vEXT, (pname: u32, data: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetInteger64v(pname, data) }
 } }
-export! { 1093, glFramebufferTexture, first_glFramebufferTexture, hook_glFramebufferTexture, (target: u32, attachment: u32, texture: u32, level: i32) -> (), {
+export! { 1094, glFramebufferTexture, first_glFramebufferTexture, hook_glFramebufferTexture, (target: u32, attachment: u32, texture: u32, level: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glFramebufferTexture(target, attachment, texture, level) })
 } }
-export! { 1094, glFramebufferTextureARB, first_glFramebufferTextureARB, hook_glFramebufferTextureARB, (target: u32, attachment: u32, texture: u32, level: i32) -> (), {
+export! { 1095, glFramebufferTextureARB, first_glFramebufferTextureARB, hook_glFramebufferTextureARB, (target: u32, attachment: u32, texture: u32, level: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glFramebufferTextureARB(target, attachment, texture, level) })
 } }
-export! { 1095, glFramebufferTextureEXT, first_glFramebufferTextureEXT, hook_glFramebufferTextureEXT, (target: u32, attachment: u32, texture: u32, level: i32) -> (), {
+export! { 1096, glFramebufferTextureEXT, first_glFramebufferTextureEXT, hook_glFramebufferTextureEXT, (target: u32, attachment: u32, texture: u32, level: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glFramebufferTextureEXT(target, attachment, texture, level) })
 } }
-export! { 1096, glFramebufferTextureOES, first_glFramebufferTextureOES, hook_glFramebufferTextureOES, (target: u32, attachment: u32, texture: u32, level: i32) -> (), {
+export! { 1097, glFramebufferTextureOES, first_glFramebufferTextureOES, hook_glFramebufferTextureOES, (target: u32, attachment: u32, texture: u32, level: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glFramebufferTextureOES(target, attachment, texture, level) })
 } }
-export! { 1097, glFramebufferTexture1D, first_glFramebufferTexture1D, hook_glFramebufferTexture1D, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32) -> (), {
+export! { 1098, glFramebufferTexture1D, first_glFramebufferTexture1D, hook_glFramebufferTexture1D, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glFramebufferTexture1D(target, attachment, textarget, texture, level) })
 } }
-export! { 1098, glFramebufferTexture1DEXT, first_glFramebufferTexture1DEXT, hook_glFramebufferTexture1DEXT, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32) -> (), {
+export! { 1099, glFramebufferTexture1DEXT, first_glFramebufferTexture1DEXT, hook_glFramebufferTexture1DEXT, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glFramebufferTexture1DEXT(target, attachment, textarget, texture, level) })
 } }
-export! { 1099, glFramebufferTexture2D, first_glFramebufferTexture2D, hook_glFramebufferTexture2D, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32) -> (), {
+export! { 1100, glFramebufferTexture2D, first_glFramebufferTexture2D, hook_glFramebufferTexture2D, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glFramebufferTexture2D(target, attachment, textarget, texture, level) })
 } }
-export! { 1100, glFramebufferTexture2DEXT, first_glFramebufferTexture2DEXT, hook_glFramebufferTexture2DEXT, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32) -> (), {
+export! { 1101, glFramebufferTexture2DEXT, first_glFramebufferTexture2DEXT, hook_glFramebufferTexture2DEXT, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glFramebufferTexture2DEXT(target, attachment, textarget, texture, level) })
 } }
-export! { 1101, glFramebufferTexture3D, first_glFramebufferTexture3D, hook_glFramebufferTexture3D, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32, zoffset: i32) -> (), {
+export! { 1102, glFramebufferTexture3D, first_glFramebufferTexture3D, hook_glFramebufferTexture3D, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32, zoffset: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glFramebufferTexture3D(target, attachment, textarget, texture, level, zoffset) })
 } }
-export! { 1102, glFramebufferTexture3DEXT, first_glFramebufferTexture3DEXT, hook_glFramebufferTexture3DEXT, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32, zoffset: i32) -> (), {
+export! { 1103, glFramebufferTexture3DEXT, first_glFramebufferTexture3DEXT, hook_glFramebufferTexture3DEXT, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32, zoffset: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glFramebufferTexture3DEXT(target, attachment, textarget, texture, level, zoffset) })
 } }
-export! { 1103, glFramebufferTextureLayer, first_glFramebufferTextureLayer, hook_glFramebufferTextureLayer, (target: u32, attachment: u32, texture: u32, level: i32, layer: i32) -> (), {
+export! { 1104, glFramebufferTextureLayer, first_glFramebufferTextureLayer, hook_glFramebufferTextureLayer, (target: u32, attachment: u32, texture: u32, level: i32, layer: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glFramebufferTextureLayer(target, attachment, texture, level, layer) })
 } }
-export! { 1104, glFramebufferTextureLayerARB, first_glFramebufferTextureLayerARB, hook_glFramebufferTextureLayerARB, (target: u32, attachment: u32, texture: u32, level: i32, layer: i32) -> (), {
+export! { 1105, glFramebufferTextureLayerARB, first_glFramebufferTextureLayerARB, hook_glFramebufferTextureLayerARB, (target: u32, attachment: u32, texture: u32, level: i32, layer: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glFramebufferTextureLayerARB(target, attachment, texture, level, layer) })
 } }
-export! { 1105, glFramebufferTextureLayerEXT, first_glFramebufferTextureLayerEXT, hook_glFramebufferTextureLayerEXT, (target: u32, attachment: u32, texture: u32, level: i32, layer: i32) -> (), {
+export! { 1106, glFramebufferTextureLayerEXT, first_glFramebufferTextureLayerEXT, hook_glFramebufferTextureLayerEXT, (target: u32, attachment: u32, texture: u32, level: i32, layer: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glFramebufferTextureLayerEXT(target, attachment, texture, level, layer) })
 } }
-export! { 1106, glFramebufferRenderbuffer, first_glFramebufferRenderbuffer, hook_glFramebufferRenderbuffer, (target: u32, attachment: u32, renderbuffertarget: u32, renderbuffer: u32) -> (), {
+export! { 1107, glFramebufferRenderbuffer, first_glFramebufferRenderbuffer, hook_glFramebufferRenderbuffer, (target: u32, attachment: u32, renderbuffertarget: u32, renderbuffer: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glFramebufferRenderbuffer(target, attachment, renderbuffertarget, renderbuffer) })
 } }
-export! { 1107, glFramebufferRenderbufferEXT, first_glFramebufferRenderbufferEXT, hook_glFramebufferRenderbufferEXT, (target: u32, attachment: u32, renderbuffertarget: u32, renderbuffer: u32) -> (), {
+export! { 1108, glFramebufferRenderbufferEXT, first_glFramebufferRenderbufferEXT, hook_glFramebufferRenderbufferEXT, (target: u32, attachment: u32, renderbuffertarget: u32, renderbuffer: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glFramebufferRenderbufferEXT(target, attachment, renderbuffertarget, renderbuffer) })
 } }
-export! { 1108, glGetFramebufferAttachmentParameteriv, first_glGetFramebufferAttachmentParameteriv, hook_glGetFramebufferAttachmentParameteriv, (target: u32, attachment: u32, pname: u32, params: Ptr) -> (), {
+export! { 1109, glGetFramebufferAttachmentParameteriv, first_glGetFramebufferAttachmentParameteriv, hook_glGetFramebufferAttachmentParameteriv, (target: u32, attachment: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glGetFramebufferAttachmentParameteriv(target, attachment, pname, params) })
 } }
-export! { 1109, glGetFramebufferAttachmentParameterivEXT, first_glGetFramebufferAttachmentParameterivEXT, hook_glGetFramebufferAttachmentParameterivEXT, (target: u32, attachment: u32, pname: u32, params: Ptr) -> (), {
+export! { 1110, glGetFramebufferAttachmentParameterivEXT, first_glGetFramebufferAttachmentParameterivEXT, hook_glGetFramebufferAttachmentParameterivEXT, (target: u32, attachment: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glGetFramebufferAttachmentParameterivEXT(target, attachment, pname, params) })
 } }
-export! { 1110, glCheckFramebufferStatus, first_glCheckFramebufferStatus, hook_glCheckFramebufferStatus, (target: u32) -> u32, {
+export! { 1111, glCheckFramebufferStatus, first_glCheckFramebufferStatus, hook_glCheckFramebufferStatus, (target: u32) -> u32, {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glCheckFramebufferStatus(target) })
 } }
-export! { 1111, glCheckFramebufferStatusEXT, first_glCheckFramebufferStatusEXT, hook_glCheckFramebufferStatusEXT, (target: u32) -> u32, {
+export! { 1112, glCheckFramebufferStatusEXT, first_glCheckFramebufferStatusEXT, hook_glCheckFramebufferStatusEXT, (target: u32) -> u32, {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glCheckFramebufferStatusEXT(target) })
 } }
-export! { 1112, glFramebufferParameteri, first_glFramebufferParameteri, hook_glFramebufferParameteri, (target: u32, pname: u32, param: i32) -> (), {
+export! { 1113, glFramebufferParameteri, first_glFramebufferParameteri, hook_glFramebufferParameteri, (target: u32, pname: u32, param: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glFramebufferParameteri(target, pname, param) })
 } }
-export! { 1113, glGetFramebufferParameteriv, first_glGetFramebufferParameteriv, hook_glGetFramebufferParameteriv, (target: u32, pname: u32, params: Ptr) -> (), {
+export! { 1114, glGetFramebufferParameteriv, first_glGetFramebufferParameteriv, hook_glGetFramebufferParameteriv, (target: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glGetFramebufferParameteriv(target, pname, params) })
 } }
-export! { 1114, glInvalidateFramebuffer, first_glInvalidateFramebuffer, hook_glInvalidateFramebuffer, (target: u32, numAttachments: i32, attachments: Ptr) -> (), {
+export! { 1115, glInvalidateFramebuffer, first_glInvalidateFramebuffer, hook_glInvalidateFramebuffer, (target: u32, numAttachments: i32, attachments: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glInvalidateFramebuffer(target, numAttachments, attachments) })
 } }
-export! { 1115, glInvalidateSubFramebuffer, first_glInvalidateSubFramebuffer, hook_glInvalidateSubFramebuffer, (target: u32, numAttachments: i32, attachments: Ptr, x: i32, y: i32, width: i32, height: i32) -> (), {
+export! { 1116, glInvalidateSubFramebuffer, first_glInvalidateSubFramebuffer, hook_glInvalidateSubFramebuffer, (target: u32, numAttachments: i32, attachments: Ptr, x: i32, y: i32, width: i32, height: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glInvalidateSubFramebuffer(target, numAttachments, attachments, x, y, width, height) })
 } }
-export! { 1116, glDiscardFramebufferEXT, first_glDiscardFramebufferEXT, hook_glDiscardFramebufferEXT, (target: u32, numAttachments: i32, attachments: Ptr) -> (), {
+export! { 1117, glDiscardFramebufferEXT, first_glDiscardFramebufferEXT, hook_glDiscardFramebufferEXT, (target: u32, numAttachments: i32, attachments: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glDiscardFramebufferEXT(target, numAttachments, attachments) })
 } }
-export! { 1117, glCopyTexImage1D, first_glCopyTexImage1D, hook_glCopyTexImage1D, (target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, border: i32) -> (), {
+export! { 1118, glCopyTexImage1D, first_glCopyTexImage1D, hook_glCopyTexImage1D, (target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, border: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::copy(target, x, width, &mut |gl| unsafe { gl.glCopyTexImage1D(target, level, internalformat, x, y, width, border) })
 } }
-export! { 1118, glCopyTexImage1DEXT, first_glCopyTexImage1DEXT, hook_glCopyTexImage1DEXT, (target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, border: i32) -> (), {
+export! { 1119, glCopyTexImage1DEXT, first_glCopyTexImage1DEXT, hook_glCopyTexImage1DEXT, (target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, border: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::copy(target, x, width, &mut |gl| unsafe { gl.glCopyTexImage1DEXT(target, level, internalformat, x, y, width, border) })
 } }
-export! { 1119, glCopyTexImage2D, first_glCopyTexImage2D, hook_glCopyTexImage2D, (target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, height: i32, border: i32) -> (), {
+export! { 1120, glCopyTexImage2D, first_glCopyTexImage2D, hook_glCopyTexImage2D, (target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, height: i32, border: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::copy(target, x, width, &mut |gl| unsafe { gl.glCopyTexImage2D(target, level, internalformat, x, y, width, height, border) })
 } }
-export! { 1120, glCopyTexImage2DEXT, first_glCopyTexImage2DEXT, hook_glCopyTexImage2DEXT, (target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, height: i32, border: i32) -> (), {
+export! { 1121, glCopyTexImage2DEXT, first_glCopyTexImage2DEXT, hook_glCopyTexImage2DEXT, (target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, height: i32, border: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::copy(target, x, width, &mut |gl| unsafe { gl.glCopyTexImage2DEXT(target, level, internalformat, x, y, width, height, border) })
 } }
-export! { 1121, glCopyTexSubImage1D, first_glCopyTexSubImage1D, hook_glCopyTexSubImage1D, (target: u32, level: i32, xoffset: i32, x: i32, y: i32, width: i32) -> (), {
+export! { 1122, glCopyTexSubImage1D, first_glCopyTexSubImage1D, hook_glCopyTexSubImage1D, (target: u32, level: i32, xoffset: i32, x: i32, y: i32, width: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::copy(target, x, width, &mut |gl| unsafe { gl.glCopyTexSubImage1D(target, level, xoffset, x, y, width) })
 } }
-export! { 1122, glCopyTexSubImage1DEXT, first_glCopyTexSubImage1DEXT, hook_glCopyTexSubImage1DEXT, (target: u32, level: i32, xoffset: i32, x: i32, y: i32, width: i32) -> (), {
+export! { 1123, glCopyTexSubImage1DEXT, first_glCopyTexSubImage1DEXT, hook_glCopyTexSubImage1DEXT, (target: u32, level: i32, xoffset: i32, x: i32, y: i32, width: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::copy(target, x, width, &mut |gl| unsafe { gl.glCopyTexSubImage1DEXT(target, level, xoffset, x, y, width) })
 } }
-export! { 1123, glCopyTexSubImage2D, first_glCopyTexSubImage2D, hook_glCopyTexSubImage2D, (target: u32, level: i32, xoffset: i32, yoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
+export! { 1124, glCopyTexSubImage2D, first_glCopyTexSubImage2D, hook_glCopyTexSubImage2D, (target: u32, level: i32, xoffset: i32, yoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::copy(target, x, width, &mut |gl| unsafe { gl.glCopyTexSubImage2D(target, level, xoffset, yoffset, x, y, width, height) })
 } }
-export! { 1124, glCopyTexSubImage2DEXT, first_glCopyTexSubImage2DEXT, hook_glCopyTexSubImage2DEXT, (target: u32, level: i32, xoffset: i32, yoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
+export! { 1125, glCopyTexSubImage2DEXT, first_glCopyTexSubImage2DEXT, hook_glCopyTexSubImage2DEXT, (target: u32, level: i32, xoffset: i32, yoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::copy(target, x, width, &mut |gl| unsafe { gl.glCopyTexSubImage2DEXT(target, level, xoffset, yoffset, x, y, width, height) })
 } }
-export! { 1125, glReadPixels, first_glReadPixels, hook_glReadPixels, (x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
+export! { 1126, glReadPixels, first_glReadPixels, hook_glReadPixels, (x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::read_now(x, width, &mut |gl| unsafe { gl.glReadPixels(x, y, width, height, format, type_, pixels) })
 } }
-export! { 1126, glReadnPixels, first_glReadnPixels, hook_glReadnPixels, (x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, bufSize: i32, data: Ptr) -> (), {
+export! { 1127, glReadnPixels, first_glReadnPixels, hook_glReadnPixels, (x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, bufSize: i32, data: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::read_now(x, width, &mut |gl| unsafe { gl.glReadnPixels(x, y, width, height, format, type_, bufSize, data) })
 } }
-export! { 1127, glReadnPixelsARB, first_glReadnPixelsARB, hook_glReadnPixelsARB, (x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, bufSize: i32, data: Ptr) -> (), {
+export! { 1128, glReadnPixelsARB, first_glReadnPixelsARB, hook_glReadnPixelsARB, (x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, bufSize: i32, data: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::read_now(x, width, &mut |gl| unsafe { gl.glReadnPixelsARB(x, y, width, height, format, type_, bufSize, data) })
 } }
-export! { 1128, glReadnPixelsEXT, first_glReadnPixelsEXT, hook_glReadnPixelsEXT, (x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, bufSize: i32, data: Ptr) -> (), {
+export! { 1129, glReadnPixelsEXT, first_glReadnPixelsEXT, hook_glReadnPixelsEXT, (x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, bufSize: i32, data: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::read_now(x, width, &mut |gl| unsafe { gl.glReadnPixelsEXT(x, y, width, height, format, type_, bufSize, data) })
 } }
-export! { 1129, glReadnPixelsKHR, first_glReadnPixelsKHR, hook_glReadnPixelsKHR, (x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, bufSize: i32, data: Ptr) -> (), {
+export! { 1130, glReadnPixelsKHR, first_glReadnPixelsKHR, hook_glReadnPixelsKHR, (x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, bufSize: i32, data: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::read_now(x, width, &mut |gl| unsafe { gl.glReadnPixelsKHR(x, y, width, height, format, type_, bufSize, data) })
 } }
-export! { 1130, glCopyTexSubImage3D, first_glCopyTexSubImage3D, hook_glCopyTexSubImage3D, (target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
+export! { 1131, glCopyTexSubImage3D, first_glCopyTexSubImage3D, hook_glCopyTexSubImage3D, (target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyTexSubImage3D(target, level, xoffset, yoffset, zoffset, x, y, width, height) })
 } }
-export! { 1131, glCopyTexSubImage3DEXT, first_glCopyTexSubImage3DEXT, hook_glCopyTexSubImage3DEXT, (target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
+export! { 1132, glCopyTexSubImage3DEXT, first_glCopyTexSubImage3DEXT, hook_glCopyTexSubImage3DEXT, (target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyTexSubImage3DEXT(target, level, xoffset, yoffset, zoffset, x, y, width, height) })
 } }
-export! { 1132, glCopyTextureSubImage1D, first_glCopyTextureSubImage1D, hook_glCopyTextureSubImage1D, (texture: u32, level: i32, xoffset: i32, x: i32, y: i32, width: i32) -> (), {
+export! { 1133, glCopyTextureSubImage1D, first_glCopyTextureSubImage1D, hook_glCopyTextureSubImage1D, (texture: u32, level: i32, xoffset: i32, x: i32, y: i32, width: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyTextureSubImage1D(texture, level, xoffset, x, y, width) })
 } }
-export! { 1133, glCopyTextureSubImage2D, first_glCopyTextureSubImage2D, hook_glCopyTextureSubImage2D, (texture: u32, level: i32, xoffset: i32, yoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
+export! { 1134, glCopyTextureSubImage2D, first_glCopyTextureSubImage2D, hook_glCopyTextureSubImage2D, (texture: u32, level: i32, xoffset: i32, yoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyTextureSubImage2D(texture, level, xoffset, yoffset, x, y, width, height) })
 } }
-export! { 1134, glCopyTextureSubImage3D, first_glCopyTextureSubImage3D, hook_glCopyTextureSubImage3D, (texture: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
+export! { 1135, glCopyTextureSubImage3D, first_glCopyTextureSubImage3D, hook_glCopyTextureSubImage3D, (texture: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyTextureSubImage3D(texture, level, xoffset, yoffset, zoffset, x, y, width, height) })
 } }
-export! { 1135, glCopyMultiTexImage1DEXT, first_glCopyMultiTexImage1DEXT, hook_glCopyMultiTexImage1DEXT, (texunit: u32, target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, border: i32) -> (), {
+export! { 1136, glCopyMultiTexImage1DEXT, first_glCopyMultiTexImage1DEXT, hook_glCopyMultiTexImage1DEXT, (texunit: u32, target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, border: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyMultiTexImage1DEXT(texunit, target, level, internalformat, x, y, width, border) })
 } }
-export! { 1136, glCopyMultiTexImage2DEXT, first_glCopyMultiTexImage2DEXT, hook_glCopyMultiTexImage2DEXT, (texunit: u32, target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, height: i32, border: i32) -> (), {
+export! { 1137, glCopyMultiTexImage2DEXT, first_glCopyMultiTexImage2DEXT, hook_glCopyMultiTexImage2DEXT, (texunit: u32, target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, height: i32, border: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyMultiTexImage2DEXT(texunit, target, level, internalformat, x, y, width, height, border) })
 } }
-export! { 1137, glCopyTextureImage1DEXT, first_glCopyTextureImage1DEXT, hook_glCopyTextureImage1DEXT, (texture: u32, target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, border: i32) -> (), {
+export! { 1138, glCopyTextureImage1DEXT, first_glCopyTextureImage1DEXT, hook_glCopyTextureImage1DEXT, (texture: u32, target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, border: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyTextureImage1DEXT(texture, target, level, internalformat, x, y, width, border) })
 } }
-export! { 1138, glCopyTextureImage2DEXT, first_glCopyTextureImage2DEXT, hook_glCopyTextureImage2DEXT, (texture: u32, target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, height: i32, border: i32) -> (), {
+export! { 1139, glCopyTextureImage2DEXT, first_glCopyTextureImage2DEXT, hook_glCopyTextureImage2DEXT, (texture: u32, target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, height: i32, border: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyTextureImage2DEXT(texture, target, level, internalformat, x, y, width, height, border) })
 } }
-export! { 1139, glCopyColorTable, first_glCopyColorTable, hook_glCopyColorTable, (target: u32, internalformat: u32, x: i32, y: i32, width: i32) -> (), {
+export! { 1140, glCopyColorTable, first_glCopyColorTable, hook_glCopyColorTable, (target: u32, internalformat: u32, x: i32, y: i32, width: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyColorTable(target, internalformat, x, y, width) })
 } }
-export! { 1140, glCopyColorTableSGI, first_glCopyColorTableSGI, hook_glCopyColorTableSGI, (target: u32, internalformat: u32, x: i32, y: i32, width: i32) -> (), {
+export! { 1141, glCopyColorTableSGI, first_glCopyColorTableSGI, hook_glCopyColorTableSGI, (target: u32, internalformat: u32, x: i32, y: i32, width: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyColorTableSGI(target, internalformat, x, y, width) })
 } }
-export! { 1141, glCopyConvolutionFilter1D, first_glCopyConvolutionFilter1D, hook_glCopyConvolutionFilter1D, (target: u32, internalformat: u32, x: i32, y: i32, width: i32) -> (), {
+export! { 1142, glCopyConvolutionFilter1D, first_glCopyConvolutionFilter1D, hook_glCopyConvolutionFilter1D, (target: u32, internalformat: u32, x: i32, y: i32, width: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyConvolutionFilter1D(target, internalformat, x, y, width) })
 } }
-export! { 1142, glCopyConvolutionFilter1DEXT, first_glCopyConvolutionFilter1DEXT, hook_glCopyConvolutionFilter1DEXT, (target: u32, internalformat: u32, x: i32, y: i32, width: i32) -> (), {
+export! { 1143, glCopyConvolutionFilter1DEXT, first_glCopyConvolutionFilter1DEXT, hook_glCopyConvolutionFilter1DEXT, (target: u32, internalformat: u32, x: i32, y: i32, width: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyConvolutionFilter1DEXT(target, internalformat, x, y, width) })
 } }
-export! { 1143, glCopyConvolutionFilter2D, first_glCopyConvolutionFilter2D, hook_glCopyConvolutionFilter2D, (target: u32, internalformat: u32, x: i32, y: i32, width: i32, height: i32) -> (), {
+export! { 1144, glCopyConvolutionFilter2D, first_glCopyConvolutionFilter2D, hook_glCopyConvolutionFilter2D, (target: u32, internalformat: u32, x: i32, y: i32, width: i32, height: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyConvolutionFilter2D(target, internalformat, x, y, width, height) })
 } }
-export! { 1144, glCopyConvolutionFilter2DEXT, first_glCopyConvolutionFilter2DEXT, hook_glCopyConvolutionFilter2DEXT, (target: u32, internalformat: u32, x: i32, y: i32, width: i32, height: i32) -> (), {
+export! { 1145, glCopyConvolutionFilter2DEXT, first_glCopyConvolutionFilter2DEXT, hook_glCopyConvolutionFilter2DEXT, (target: u32, internalformat: u32, x: i32, y: i32, width: i32, height: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyConvolutionFilter2DEXT(target, internalformat, x, y, width, height) })
 } }
-export! { 1145, glFinish, first_glFinish, hook_glFinish, () -> (), {
+export! { 1146, glFinish, first_glFinish, hook_glFinish, () -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glFinish() }
 } }
-export! { 1146, glFlush, first_glFlush, hook_glFlush, () -> (), {
+export! { 1147, glFlush, first_glFlush, hook_glFlush, () -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glFlush() }
 } }
-export! { 1147, glGetError, first_glGetError, hook_glGetError, () -> u32, {
+export! { 1148, glGetError, first_glGetError, hook_glGetError, () -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetError() }
 } }
-export! { 1148, glBeginConditionalRender, first_glBeginConditionalRender, hook_glBeginConditionalRender, (id: u32, mode: u32) -> (), {
+export! { 1149, glBeginConditionalRender, first_glBeginConditionalRender, hook_glBeginConditionalRender, (id: u32, mode: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBeginConditionalRender(id, mode) }
 } }
-export! { 1149, glBeginConditionalRenderNV, first_glBeginConditionalRenderNV, hook_glBeginConditionalRenderNV, (id: u32, mode: u32) -> (), {
+export! { 1150, glBeginConditionalRenderNV, first_glBeginConditionalRenderNV, hook_glBeginConditionalRenderNV, (id: u32, mode: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBeginConditionalRender(id, mode) }
 } }
-export! { 1150, glEndConditionalRender, first_glEndConditionalRender, hook_glEndConditionalRender, () -> (), {
+export! { 1151, glEndConditionalRender, first_glEndConditionalRender, hook_glEndConditionalRender, () -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glEndConditionalRender() }
 } }
-export! { 1151, glEndConditionalRenderNV, first_glEndConditionalRenderNV, hook_glEndConditionalRenderNV, () -> (), {
+export! { 1152, glEndConditionalRenderNV, first_glEndConditionalRenderNV, hook_glEndConditionalRenderNV, () -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glEndConditionalRender() }
 } }
-export! { 1152, glEndConditionalRenderNVX, first_glEndConditionalRenderNVX, hook_glEndConditionalRenderNVX, () -> (), {
+export! { 1153, glEndConditionalRenderNVX, first_glEndConditionalRenderNVX, hook_glEndConditionalRenderNVX, () -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glEndConditionalRender() }
 } }
-export! { 1153, glBeginQuery, first_glBeginQuery, hook_glBeginQuery, (target: u32, id: u32) -> (), {
+export! { 1154, glBeginQuery, first_glBeginQuery, hook_glBeginQuery, (target: u32, id: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBeginQuery(target, id) }
 } }
-export! { 1154, glBeginQueryARB, first_glBeginQueryARB, hook_glBeginQueryARB, (target: u32, id: u32) -> (), {
+export! { 1155, glBeginQueryARB, first_glBeginQueryARB, hook_glBeginQueryARB, (target: u32, id: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBeginQuery(target, id) }
 } }
-export! { 1155, glEndQuery, first_glEndQuery, hook_glEndQuery, (target: u32) -> (), {
+export! { 1156, glEndQuery, first_glEndQuery, hook_glEndQuery, (target: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glEndQuery(target) }
 } }
-export! { 1156, glEndQueryARB, first_glEndQueryARB, hook_glEndQueryARB, (target: u32) -> (), {
+export! { 1157, glEndQueryARB, first_glEndQueryARB, hook_glEndQueryARB, (target: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glEndQuery(target) }
 } }
-export! { 1157, glDeleteQueries, first_glDeleteQueries, hook_glDeleteQueries, (n: i32, ids: Ptr) -> (), {
+export! { 1158, glDeleteQueries, first_glDeleteQueries, hook_glDeleteQueries, (n: i32, ids: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDeleteQueries(n, ids) }
 } }
-export! { 1158, glDeleteQueriesARB, first_glDeleteQueriesARB, hook_glDeleteQueriesARB, (n: i32, ids: Ptr) -> (), {
+export! { 1159, glDeleteQueriesARB, first_glDeleteQueriesARB, hook_glDeleteQueriesARB, (n: i32, ids: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDeleteQueries(n, ids) }
 } }
-export! { 1159, glGetQueryiv, first_glGetQueryiv, hook_glGetQueryiv, (target: u32, pname: u32, params: Ptr) -> (), {
+export! { 1160, glGetQueryiv, first_glGetQueryiv, hook_glGetQueryiv, (target: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryiv(target, pname, params) }
 } }
-export! { 1160, glGetQueryivARB, first_glGetQueryivARB, hook_glGetQueryivARB, (target: u32, pname: u32, params: Ptr) -> (), {
+export! { 1161, glGetQueryivARB, first_glGetQueryivARB, hook_glGetQueryivARB, (target: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryiv(target, pname, params) }
 } }
-export! { 1161, glGetQueryObjectiv, first_glGetQueryObjectiv, hook_glGetQueryObjectiv, (id: u32, pname: u32, params: Ptr) -> (), {
+export! { 1162, glGetQueryObjectiv, first_glGetQueryObjectiv, hook_glGetQueryObjectiv, (id: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryObjectiv(id, pname, params) }
 } }
-export! { 1162, glGetQueryObjectivARB, first_glGetQueryObjectivARB, hook_glGetQueryObjectivARB, (id: u32, pname: u32, params: Ptr) -> (), {
+export! { 1163, glGetQueryObjectivARB, first_glGetQueryObjectivARB, hook_glGetQueryObjectivARB, (id: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryObjectiv(id, pname, params) }
 } }
-export! { 1163, glGetQueryObjectivEXT, first_glGetQueryObjectivEXT, hook_glGetQueryObjectivEXT, (id: u32, pname: u32, params: Ptr) -> (), {
+export! { 1164, glGetQueryObjectivEXT, first_glGetQueryObjectivEXT, hook_glGetQueryObjectivEXT, (id: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryObjectiv(id, pname, params) }
 } }
-export! { 1164, glGetQueryObjectuiv, first_glGetQueryObjectuiv, hook_glGetQueryObjectuiv, (id: u32, pname: u32, params: Ptr) -> (), {
+export! { 1165, glGetQueryObjectuiv, first_glGetQueryObjectuiv, hook_glGetQueryObjectuiv, (id: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryObjectuiv(id, pname, params) }
 } }
-export! { 1165, glGetQueryObjectuivARB, first_glGetQueryObjectuivARB, hook_glGetQueryObjectuivARB, (id: u32, pname: u32, params: Ptr) -> (), {
+export! { 1166, glGetQueryObjectuivARB, first_glGetQueryObjectuivARB, hook_glGetQueryObjectuivARB, (id: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryObjectuiv(id, pname, params) }
 } }
-export! { 1166, glGetQueryObjecti64v, first_glGetQueryObjecti64v, hook_glGetQueryObjecti64v, (id: u32, pname: u32, params: Ptr) -> (), {
+export! { 1167, glGetQueryObjecti64v, first_glGetQueryObjecti64v, hook_glGetQueryObjecti64v, (id: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryObjecti64v(id, pname, params) }
 } }
-export! { 1167, glGetQueryObjecti64vEXT, first_glGetQueryObjecti64vEXT, hook_glGetQueryObjecti64vEXT, (id: u32, pname: u32, params: Ptr) -> (), {
+export! { 1168, glGetQueryObjecti64vEXT, first_glGetQueryObjecti64vEXT, hook_glGetQueryObjecti64vEXT, (id: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryObjecti64v(id, pname, params) }
 } }
-export! { 1168, glGetQueryObjectui64v, first_glGetQueryObjectui64v, hook_glGetQueryObjectui64v, (id: u32, pname: u32, params: Ptr) -> (), {
+export! { 1169, glGetQueryObjectui64v, first_glGetQueryObjectui64v, hook_glGetQueryObjectui64v, (id: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryObjectui64v(id, pname, params) }
 } }
-export! { 1169, glGetQueryObjectui64vEXT, first_glGetQueryObjectui64vEXT, hook_glGetQueryObjectui64vEXT, (id: u32, pname: u32, params: Ptr) -> (), {
+export! { 1170, glGetQueryObjectui64vEXT, first_glGetQueryObjectui64vEXT, hook_glGetQueryObjectui64vEXT, (id: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryObjectui64v(id, pname, params) }
 } }
-export! { 1170, glIsEnabled, first_glIsEnabled, hook_glIsEnabled, (cap: u32) -> u8, {
+export! { 1171, glIsEnabled, first_glIsEnabled, hook_glIsEnabled, (cap: u32) -> u8, {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glIsEnabled(cap) }
 } }
-export! { 1171, glIsEnabledi, first_glIsEnabledi, hook_glIsEnabledi, (target: u32, index: u32) -> u8, {
+export! { 1172, glIsEnabledi, first_glIsEnabledi, hook_glIsEnabledi, (target: u32, index: u32) -> u8, {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glIsEnabledi(target, index) }
 } }
-export! { 1172, glIsEnabledIndexedEXT, first_glIsEnabledIndexedEXT, hook_glIsEnabledIndexedEXT, (target: u32, index: u32) -> u8, {
+export! { 1173, glIsEnabledIndexedEXT, first_glIsEnabledIndexedEXT, hook_glIsEnabledIndexedEXT, (target: u32, index: u32) -> u8, {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glIsEnabledIndexedEXT(target, index) }
 } }
-export! { 1173, glIsEnablediEXT, first_glIsEnablediEXT, hook_glIsEnablediEXT, (target: u32, index: u32) -> u8, {
+export! { 1174, glIsEnablediEXT, first_glIsEnablediEXT, hook_glIsEnablediEXT, (target: u32, index: u32) -> u8, {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glIsEnablediEXT(target, index) }
 } }
-export! { 1174, glIsEnablediNV, first_glIsEnablediNV, hook_glIsEnablediNV, (target: u32, index: u32) -> u8, {
+export! { 1175, glIsEnablediNV, first_glIsEnablediNV, hook_glIsEnablediNV, (target: u32, index: u32) -> u8, {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glIsEnablediNV(target, index) }
 } }
-export! { 1175, glIsEnablediOES, first_glIsEnablediOES, hook_glIsEnablediOES, (target: u32, index: u32) -> u8, {
+export! { 1176, glIsEnablediOES, first_glIsEnablediOES, hook_glIsEnablediOES, (target: u32, index: u32) -> u8, {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glIsEnablediOES(target, index) }
 } }
-export! { 1176, glGetTexGendv, first_glGetTexGendv, hook_glGetTexGendv, (coord: u32, pname: u32, params: Ptr) -> (), {
+export! { 1177, glGetTexGendv, first_glGetTexGendv, hook_glGetTexGendv, (coord: u32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetTexGendv(coord, pname, params) };
 } }
-export! { 1177, glGetTexGenfv, first_glGetTexGenfv, hook_glGetTexGenfv, (coord: u32, pname: u32, params: Ptr) -> (), {
+export! { 1178, glGetTexGenfv, first_glGetTexGenfv, hook_glGetTexGenfv, (coord: u32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetTexGenfv(coord, pname, params) };
 } }
-export! { 1178, glGetTexGeniv, first_glGetTexGeniv, hook_glGetTexGeniv, (coord: u32, pname: u32, params: Ptr) -> (), {
+export! { 1179, glGetTexGeniv, first_glGetTexGeniv, hook_glGetTexGeniv, (coord: u32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetTexGeniv(coord, pname, params) };
 } }
-export! { 1179, glGetTexEnvfv, first_glGetTexEnvfv, hook_glGetTexEnvfv, (target: u32, pname: u32, params: Ptr) -> (), {
+export! { 1180, glGetTexEnvfv, first_glGetTexEnvfv, hook_glGetTexEnvfv, (target: u32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetTexEnvfv(target, pname, params) };
 } }
-export! { 1180, glGetTexEnviv, first_glGetTexEnviv, hook_glGetTexEnviv, (target: u32, pname: u32, params: Ptr) -> (), {
+export! { 1181, glGetTexEnviv, first_glGetTexEnviv, hook_glGetTexEnviv, (target: u32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetTexEnviv(target, pname, params) };
 } }
-export! { 1181, glGetLightfv, first_glGetLightfv, hook_glGetLightfv, (light: u32, pname: u32, params: Ptr) -> (), {
+export! { 1182, glGetLightfv, first_glGetLightfv, hook_glGetLightfv, (light: u32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetLightfv(light, pname, params) };
 } }
-export! { 1182, glGetLightiv, first_glGetLightiv, hook_glGetLightiv, (light: u32, pname: u32, params: Ptr) -> (), {
+export! { 1183, glGetLightiv, first_glGetLightiv, hook_glGetLightiv, (light: u32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetLightiv(light, pname, params) };
 } }
-export! { 1183, glGetMaterialfv, first_glGetMaterialfv, hook_glGetMaterialfv, (face: u32, pname: u32, params: Ptr) -> (), {
+export! { 1184, glGetMaterialfv, first_glGetMaterialfv, hook_glGetMaterialfv, (face: u32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetMaterialfv(face, pname, params) };
 } }
-export! { 1184, glGetMaterialiv, first_glGetMaterialiv, hook_glGetMaterialiv, (face: u32, pname: u32, params: Ptr) -> (), {
+export! { 1185, glGetMaterialiv, first_glGetMaterialiv, hook_glGetMaterialiv, (face: u32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetMaterialiv(face, pname, params) };
 } }
-export! { 1185, glGetTexParameterfv, first_glGetTexParameterfv, hook_glGetTexParameterfv, (target: u32, pname: u32, params: Ptr) -> (), {
+export! { 1186, glGetTexParameterfv, first_glGetTexParameterfv, hook_glGetTexParameterfv, (target: u32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetTexParameterfv(target, pname, params) };
 } }
-export! { 1186, glGetTexParameteriv, first_glGetTexParameteriv, hook_glGetTexParameteriv, (target: u32, pname: u32, params: Ptr) -> (), {
+export! { 1187, glGetTexParameteriv, first_glGetTexParameteriv, hook_glGetTexParameteriv, (target: u32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetTexParameteriv(target, pname, params) };
 } }
-export! { 1187, glGetTexLevelParameterfv, first_glGetTexLevelParameterfv, hook_glGetTexLevelParameterfv, (target: u32, level: i32, pname: u32, params: Ptr) -> (), {
+export! { 1188, glGetTexLevelParameterfv, first_glGetTexLevelParameterfv, hook_glGetTexLevelParameterfv, (target: u32, level: i32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetTexLevelParameterfv(target, level, pname, params) };
 } }
-export! { 1188, glGetTexLevelParameteriv, first_glGetTexLevelParameteriv, hook_glGetTexLevelParameteriv, (target: u32, level: i32, pname: u32, params: Ptr) -> (), {
+export! { 1189, glGetTexLevelParameteriv, first_glGetTexLevelParameteriv, hook_glGetTexLevelParameteriv, (target: u32, level: i32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetTexLevelParameteriv(target, level, pname, params) };
 } }
-export! { 1189, glGetClipPlane, first_glGetClipPlane, hook_glGetClipPlane, (plane: u32, equation: Ptr) -> (), {
+export! { 1190, glGetClipPlane, first_glGetClipPlane, hook_glGetClipPlane, (plane: u32, equation: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetClipPlane(plane, equation) };
 } }
-export! { 1190, glGetMapdv, first_glGetMapdv, hook_glGetMapdv, (target: u32, query: u32, v: Ptr) -> (), {
+export! { 1191, glGetMapdv, first_glGetMapdv, hook_glGetMapdv, (target: u32, query: u32, v: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetMapdv(target, query, v) };
 } }
-export! { 1191, glGetMapfv, first_glGetMapfv, hook_glGetMapfv, (target: u32, query: u32, v: Ptr) -> (), {
+export! { 1192, glGetMapfv, first_glGetMapfv, hook_glGetMapfv, (target: u32, query: u32, v: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetMapfv(target, query, v) };
 } }
-export! { 1192, glGetMapiv, first_glGetMapiv, hook_glGetMapiv, (target: u32, query: u32, v: Ptr) -> (), {
+export! { 1193, glGetMapiv, first_glGetMapiv, hook_glGetMapiv, (target: u32, query: u32, v: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetMapiv(target, query, v) };
 } }
-export! { 1193, glGetPixelMapfv, first_glGetPixelMapfv, hook_glGetPixelMapfv, (map: u32, values: Ptr) -> (), {
+export! { 1194, glGetPixelMapfv, first_glGetPixelMapfv, hook_glGetPixelMapfv, (map: u32, values: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetPixelMapfv(map, values) };
 } }
-export! { 1194, glGetPixelMapuiv, first_glGetPixelMapuiv, hook_glGetPixelMapuiv, (map: u32, values: Ptr) -> (), {
+export! { 1195, glGetPixelMapuiv, first_glGetPixelMapuiv, hook_glGetPixelMapuiv, (map: u32, values: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetPixelMapuiv(map, values) };
 } }
-export! { 1195, glGetPixelMapusv, first_glGetPixelMapusv, hook_glGetPixelMapusv, (map: u32, values: Ptr) -> (), {
+export! { 1196, glGetPixelMapusv, first_glGetPixelMapusv, hook_glGetPixelMapusv, (map: u32, values: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetPixelMapusv(map, values) };
 } }
-export! { 1196, glGetPolygonStipple, first_glGetPolygonStipple, hook_glGetPolygonStipple, (mask: Ptr) -> (), {
+export! { 1197, glGetPolygonStipple, first_glGetPolygonStipple, hook_glGetPolygonStipple, (mask: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetPolygonStipple(mask) };
 } }
-export! { 1197, glGetTexImage, first_glGetTexImage, hook_glGetTexImage, (target: u32, level: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
+export! { 1198, glGetTexImage, first_glGetTexImage, hook_glGetTexImage, (target: u32, level: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetTexImage(target, level, format, type_, pixels) };
 } }
-export! { 1198, glGetnTexImage, first_glGetnTexImage, hook_glGetnTexImage, (target: u32, level: i32, format: u32, type_: u32, bufSize: i32, pixels: Ptr) -> (), {
+export! { 1199, glGetnTexImage, first_glGetnTexImage, hook_glGetnTexImage, (target: u32, level: i32, format: u32, type_: u32, bufSize: i32, pixels: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetnTexImage(target, level, format, type_, bufSize, pixels) };
 } }
-export! { 1199, glGetPointerv, first_glGetPointerv, hook_glGetPointerv, (pname: u32, params: Ptr) -> (), {
+export! { 1200, glGetPointerv, first_glGetPointerv, hook_glGetPointerv, (pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetPointerv(pname, params) };
 } }
-export! { 1200, glGetPointervEXT, first_glGetPointervEXT, hook_glGetPointervEXT, (pname: u32, params: Ptr) -> (), {
+export! { 1201, glGetPointervEXT, first_glGetPointervEXT, hook_glGetPointervEXT, (pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetPointervEXT(pname, params) };
 } }
-export! { 1201, glGetPointervKHR, first_glGetPointervKHR, hook_glGetPointervKHR, (pname: u32, params: Ptr) -> (), {
+export! { 1202, glGetPointervKHR, first_glGetPointervKHR, hook_glGetPointervKHR, (pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetPointervKHR(pname, params) };
 } }
-export! { 1202, glGetIntegeri_v, first_glGetIntegeri_v, hook_glGetIntegeri_v, (target: u32, index: u32, data: Ptr) -> (), {
+export! { 1203, glGetIntegeri_v, first_glGetIntegeri_v, hook_glGetIntegeri_v, (target: u32, index: u32, data: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetIntegeri_v(target, index, data) };
 } }
-export! { 1203, glGetIntegerIndexedvEXT, first_glGetIntegerIndexedvEXT, hook_glGetIntegerIndexedvEXT, (target: u32, index: u32, data: Ptr) -> (), {
+export! { 1204, glGetIntegerIndexedvEXT, first_glGetIntegerIndexedvEXT, hook_glGetIntegerIndexedvEXT, (target: u32, index: u32, data: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetIntegerIndexedvEXT(target, index, data) };
 } }
-export! { 1204, glGetUniformfv, first_glGetUniformfv, hook_glGetUniformfv, (program: u32, location: i32, params: Ptr) -> (), {
+export! { 1205, glGetUniformfv, first_glGetUniformfv, hook_glGetUniformfv, (program: u32, location: i32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetUniformfv(program, location, params) };
 } }
-export! { 1205, glGetUniformfvARB, first_glGetUniformfvARB, hook_glGetUniformfvARB, (programObj: u32, location: i32, params: Ptr) -> (), {
+export! { 1206, glGetUniformfvARB, first_glGetUniformfvARB, hook_glGetUniformfvARB, (programObj: u32, location: i32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetUniformfvARB(programObj, location, params) };
 } }
-export! { 1206, glGetUniformiv, first_glGetUniformiv, hook_glGetUniformiv, (program: u32, location: i32, params: Ptr) -> (), {
+export! { 1207, glGetUniformiv, first_glGetUniformiv, hook_glGetUniformiv, (program: u32, location: i32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetUniformiv(program, location, params) };
 } }
-export! { 1207, glGetUniformivARB, first_glGetUniformivARB, hook_glGetUniformivARB, (programObj: u32, location: i32, params: Ptr) -> (), {
+export! { 1208, glGetUniformivARB, first_glGetUniformivARB, hook_glGetUniformivARB, (programObj: u32, location: i32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetUniformivARB(programObj, location, params) };
 } }
-export! { 1208, glGetVertexAttribdv, first_glGetVertexAttribdv, hook_glGetVertexAttribdv, (index: u32, pname: u32, params: Ptr) -> (), {
+export! { 1209, glGetVertexAttribdv, first_glGetVertexAttribdv, hook_glGetVertexAttribdv, (index: u32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribdv(index, pname, params) };
 } }
-export! { 1209, glGetVertexAttribdvARB, first_glGetVertexAttribdvARB, hook_glGetVertexAttribdvARB, (index: u32, pname: u32, params: Ptr) -> (), {
+export! { 1210, glGetVertexAttribdvARB, first_glGetVertexAttribdvARB, hook_glGetVertexAttribdvARB, (index: u32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribdvARB(index, pname, params) };
 } }
-export! { 1210, glGetVertexAttribdvNV, first_glGetVertexAttribdvNV, hook_glGetVertexAttribdvNV, (index: u32, pname: u32, params: Ptr) -> (), {
+export! { 1211, glGetVertexAttribdvNV, first_glGetVertexAttribdvNV, hook_glGetVertexAttribdvNV, (index: u32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribdvNV(index, pname, params) };
 } }
-export! { 1211, glGetVertexAttribfv, first_glGetVertexAttribfv, hook_glGetVertexAttribfv, (index: u32, pname: u32, params: Ptr) -> (), {
+export! { 1212, glGetVertexAttribfv, first_glGetVertexAttribfv, hook_glGetVertexAttribfv, (index: u32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribfv(index, pname, params) };
 } }
-export! { 1212, glGetVertexAttribfvARB, first_glGetVertexAttribfvARB, hook_glGetVertexAttribfvARB, (index: u32, pname: u32, params: Ptr) -> (), {
+export! { 1213, glGetVertexAttribfvARB, first_glGetVertexAttribfvARB, hook_glGetVertexAttribfvARB, (index: u32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribfvARB(index, pname, params) };
 } }
-export! { 1213, glGetVertexAttribfvNV, first_glGetVertexAttribfvNV, hook_glGetVertexAttribfvNV, (index: u32, pname: u32, params: Ptr) -> (), {
+export! { 1214, glGetVertexAttribfvNV, first_glGetVertexAttribfvNV, hook_glGetVertexAttribfvNV, (index: u32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribfvNV(index, pname, params) };
 } }
-export! { 1214, glGetVertexAttribiv, first_glGetVertexAttribiv, hook_glGetVertexAttribiv, (index: u32, pname: u32, params: Ptr) -> (), {
+export! { 1215, glGetVertexAttribiv, first_glGetVertexAttribiv, hook_glGetVertexAttribiv, (index: u32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribiv(index, pname, params) };
 } }
-export! { 1215, glGetVertexAttribivARB, first_glGetVertexAttribivARB, hook_glGetVertexAttribivARB, (index: u32, pname: u32, params: Ptr) -> (), {
+export! { 1216, glGetVertexAttribivARB, first_glGetVertexAttribivARB, hook_glGetVertexAttribivARB, (index: u32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribivARB(index, pname, params) };
 } }
-export! { 1216, glGetVertexAttribivNV, first_glGetVertexAttribivNV, hook_glGetVertexAttribivNV, (index: u32, pname: u32, params: Ptr) -> (), {
+export! { 1217, glGetVertexAttribivNV, first_glGetVertexAttribivNV, hook_glGetVertexAttribivNV, (index: u32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribivNV(index, pname, params) };
 } }
-export! { 1217, glGetVertexAttribPointerv, first_glGetVertexAttribPointerv, hook_glGetVertexAttribPointerv, (index: u32, pname: u32, pointer: Ptr) -> (), {
+export! { 1218, glGetVertexAttribPointerv, first_glGetVertexAttribPointerv, hook_glGetVertexAttribPointerv, (index: u32, pname: u32, pointer: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribPointerv(index, pname, pointer) };
 } }
-export! { 1218, glGetVertexAttribPointervARB, first_glGetVertexAttribPointervARB, hook_glGetVertexAttribPointervARB, (index: u32, pname: u32, pointer: Ptr) -> (), {
+export! { 1219, glGetVertexAttribPointervARB, first_glGetVertexAttribPointervARB, hook_glGetVertexAttribPointervARB, (index: u32, pname: u32, pointer: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribPointervARB(index, pname, pointer) };
 } }
-export! { 1219, glGetVertexAttribPointervNV, first_glGetVertexAttribPointervNV, hook_glGetVertexAttribPointervNV, (index: u32, pname: u32, pointer: Ptr) -> (), {
+export! { 1220, glGetVertexAttribPointervNV, first_glGetVertexAttribPointervNV, hook_glGetVertexAttribPointervNV, (index: u32, pname: u32, pointer: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribPointervNV(index, pname, pointer) };
 } }
-export! { 1220, glFeedbackBuffer, first_glFeedbackBuffer, hook_glFeedbackBuffer, (size: i32, type_: u32, buffer: Ptr) -> (), {
+export! { 1221, glFeedbackBuffer, first_glFeedbackBuffer, hook_glFeedbackBuffer, (size: i32, type_: u32, buffer: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glFeedbackBuffer(size, type_, buffer) };
 } }
-export! { 1221, glSelectBuffer, first_glSelectBuffer, hook_glSelectBuffer, (size: i32, buffer: Ptr) -> (), {
+export! { 1222, glSelectBuffer, first_glSelectBuffer, hook_glSelectBuffer, (size: i32, buffer: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glSelectBuffer(size, buffer) };
 } }
-export! { 1222, glGenTextures, first_glGenTextures, hook_glGenTextures, (n: i32, textures: Ptr) -> (), {
+export! { 1223, glGenTextures, first_glGenTextures, hook_glGenTextures, (n: i32, textures: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGenTextures(n, textures) };
 } }
-export! { 1223, glGenFramebuffers, first_glGenFramebuffers, hook_glGenFramebuffers, (n: i32, framebuffers: Ptr) -> (), {
+export! { 1224, glGenFramebuffers, first_glGenFramebuffers, hook_glGenFramebuffers, (n: i32, framebuffers: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGenFramebuffers(n, framebuffers) };
 } }
-export! { 1224, glGenFramebuffersEXT, first_glGenFramebuffersEXT, hook_glGenFramebuffersEXT, (n: i32, framebuffers: Ptr) -> (), {
+export! { 1225, glGenFramebuffersEXT, first_glGenFramebuffersEXT, hook_glGenFramebuffersEXT, (n: i32, framebuffers: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGenFramebuffersEXT(n, framebuffers) };
 } }
-export! { 1225, glGenRenderbuffers, first_glGenRenderbuffers, hook_glGenRenderbuffers, (n: i32, renderbuffers: Ptr) -> (), {
+export! { 1226, glGenRenderbuffers, first_glGenRenderbuffers, hook_glGenRenderbuffers, (n: i32, renderbuffers: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGenRenderbuffers(n, renderbuffers) };
 } }
-export! { 1226, glGenRenderbuffersEXT, first_glGenRenderbuffersEXT, hook_glGenRenderbuffersEXT, (n: i32, renderbuffers: Ptr) -> (), {
+export! { 1227, glGenRenderbuffersEXT, first_glGenRenderbuffersEXT, hook_glGenRenderbuffersEXT, (n: i32, renderbuffers: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGenRenderbuffersEXT(n, renderbuffers) };
 } }
-export! { 1227, glBindRenderbuffer, first_glBindRenderbuffer, hook_glBindRenderbuffer, (target: u32, renderbuffer: u32) -> (), {
+export! { 1228, glBindRenderbuffer, first_glBindRenderbuffer, hook_glBindRenderbuffer, (target: u32, renderbuffer: u32) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBindRenderbuffer(target, renderbuffer) };
 } }
-export! { 1228, glRenderbufferStorage, first_glRenderbufferStorage, hook_glRenderbufferStorage, (target: u32, internalformat: u32, width: i32, height: i32) -> (), {
+export! { 1229, glRenderbufferStorage, first_glRenderbufferStorage, hook_glRenderbufferStorage, (target: u32, internalformat: u32, width: i32, height: i32) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glRenderbufferStorage(target, internalformat, width, height) };
 } }
-export! { 1229, glRenderbufferStorageEXT, first_glRenderbufferStorageEXT, hook_glRenderbufferStorageEXT, (target: u32, internalformat: u32, width: i32, height: i32) -> (), {
+export! { 1230, glRenderbufferStorageEXT, first_glRenderbufferStorageEXT, hook_glRenderbufferStorageEXT, (target: u32, internalformat: u32, width: i32, height: i32) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glRenderbufferStorageEXT(target, internalformat, width, height) };
 } }
-export! { 1230, glRenderbufferStorageMultisample, first_glRenderbufferStorageMultisample, hook_glRenderbufferStorageMultisample, (target: u32, samples: i32, internalformat: u32, width: i32, height: i32) -> (), {
+export! { 1231, glRenderbufferStorageMultisample, first_glRenderbufferStorageMultisample, hook_glRenderbufferStorageMultisample, (target: u32, samples: i32, internalformat: u32, width: i32, height: i32) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glRenderbufferStorageMultisample(target, samples, internalformat, width, height) };
 } }
-export! { 1231, glRenderbufferStorageMultisampleEXT, first_glRenderbufferStorageMultisampleEXT, hook_glRenderbufferStorageMultisampleEXT, (target: u32, samples: i32, internalformat: u32, width: i32, height: i32) -> (), {
+export! { 1232, glRenderbufferStorageMultisampleEXT, first_glRenderbufferStorageMultisampleEXT, hook_glRenderbufferStorageMultisampleEXT, (target: u32, samples: i32, internalformat: u32, width: i32, height: i32) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glRenderbufferStorageMultisampleEXT(target, samples, internalformat, width, height) };
 } }
-export! { 1232, glRenderbufferStorageMultisampleNV, first_glRenderbufferStorageMultisampleNV, hook_glRenderbufferStorageMultisampleNV, (target: u32, samples: i32, internalformat: u32, width: i32, height: i32) -> (), {
+export! { 1233, glRenderbufferStorageMultisampleNV, first_glRenderbufferStorageMultisampleNV, hook_glRenderbufferStorageMultisampleNV, (target: u32, samples: i32, internalformat: u32, width: i32, height: i32) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glRenderbufferStorageMultisampleNV(target, samples, internalformat, width, height) };
 } }
-export! { 1233, glDeleteRenderbuffers, first_glDeleteRenderbuffers, hook_glDeleteRenderbuffers, (n: i32, renderbuffers: Ptr) -> (), {
+export! { 1234, glDeleteRenderbuffers, first_glDeleteRenderbuffers, hook_glDeleteRenderbuffers, (n: i32, renderbuffers: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glDeleteRenderbuffers(n, renderbuffers) };
 } }
-export! { 1234, glDeleteRenderbuffersEXT, first_glDeleteRenderbuffersEXT, hook_glDeleteRenderbuffersEXT, (n: i32, renderbuffers: Ptr) -> (), {
+export! { 1235, glDeleteRenderbuffersEXT, first_glDeleteRenderbuffersEXT, hook_glDeleteRenderbuffersEXT, (n: i32, renderbuffers: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glDeleteRenderbuffersEXT(n, renderbuffers) };
 } }
-export! { 1235, glBindBuffer, first_glBindBuffer, hook_glBindBuffer, (target: u32, buffer: u32) -> (), {
+export! { 1236, glBindBuffer, first_glBindBuffer, hook_glBindBuffer, (target: u32, buffer: u32) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBindBuffer(target, buffer) };
 } }
-export! { 1236, glBindBufferARB, first_glBindBufferARB, hook_glBindBufferARB, (target: u32, buffer: u32) -> (), {
+export! { 1237, glBindBufferARB, first_glBindBufferARB, hook_glBindBufferARB, (target: u32, buffer: u32) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBindBufferARB(target, buffer) };
 } }
-export! { 1237, glBufferData, first_glBufferData, hook_glBufferData, (target: u32, size: isize, data: Ptr, usage: u32) -> (), {
+export! { 1238, glBufferData, first_glBufferData, hook_glBufferData, (target: u32, size: isize, data: Ptr, usage: u32) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBufferData(target, size, data, usage) };
 } }
-export! { 1238, glBufferDataARB, first_glBufferDataARB, hook_glBufferDataARB, (target: u32, size: isize, data: Ptr, usage: u32) -> (), {
+export! { 1239, glBufferDataARB, first_glBufferDataARB, hook_glBufferDataARB, (target: u32, size: isize, data: Ptr, usage: u32) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBufferDataARB(target, size, data, usage) };
 } }
-export! { 1239, glBufferSubData, first_glBufferSubData, hook_glBufferSubData, (target: u32, offset: isize, size: isize, data: Ptr) -> (), {
+export! { 1240, glBufferSubData, first_glBufferSubData, hook_glBufferSubData, (target: u32, offset: isize, size: isize, data: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBufferSubData(target, offset, size, data) };
 } }
-export! { 1240, glBufferSubDataARB, first_glBufferSubDataARB, hook_glBufferSubDataARB, (target: u32, offset: isize, size: isize, data: Ptr) -> (), {
+export! { 1241, glBufferSubDataARB, first_glBufferSubDataARB, hook_glBufferSubDataARB, (target: u32, offset: isize, size: isize, data: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBufferSubDataARB(target, offset, size, data) };
 } }
-export! { 1241, glDeleteBuffers, first_glDeleteBuffers, hook_glDeleteBuffers, (n: i32, buffers: Ptr) -> (), {
+export! { 1242, glDeleteBuffers, first_glDeleteBuffers, hook_glDeleteBuffers, (n: i32, buffers: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glDeleteBuffers(n, buffers) };
 } }
-export! { 1242, glDeleteBuffersARB, first_glDeleteBuffersARB, hook_glDeleteBuffersARB, (n: i32, buffers: Ptr) -> (), {
+export! { 1243, glDeleteBuffersARB, first_glDeleteBuffersARB, hook_glDeleteBuffersARB, (n: i32, buffers: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glDeleteBuffersARB(n, buffers) };
 } }
-export! { 1243, glPixelStoref, first_glPixelStoref, hook_glPixelStoref, (pname: u32, param: f32) -> (), {
+export! { 1244, glPixelStoref, first_glPixelStoref, hook_glPixelStoref, (pname: u32, param: f32) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPixelStoref(pname, param) };
 } }
-export! { 1244, glPixelStorei, first_glPixelStorei, hook_glPixelStorei, (pname: u32, param: i32) -> (), {
+export! { 1245, glPixelStorei, first_glPixelStorei, hook_glPixelStorei, (pname: u32, param: i32) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPixelStorei(pname, param) };
 } }
-export! { 1245, glPushClientAttrib, first_glPushClientAttrib, hook_glPushClientAttrib, (mask: u32) -> (), {
+export! { 1246, glPushClientAttrib, first_glPushClientAttrib, hook_glPushClientAttrib, (mask: u32) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPushClientAttrib(mask) };
 } }
-export! { 1246, glPopClientAttrib, first_glPopClientAttrib, hook_glPopClientAttrib, () -> (), {
+export! { 1247, glPopClientAttrib, first_glPopClientAttrib, hook_glPopClientAttrib, () -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPopClientAttrib() };
 } }
-export! { 1247, glEnableClientState, first_glEnableClientState, hook_glEnableClientState, (array: u32) -> (), {
+export! { 1248, glEnableClientState, first_glEnableClientState, hook_glEnableClientState, (array: u32) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glEnableClientState(array) };
 } }
-export! { 1248, glDisableClientState, first_glDisableClientState, hook_glDisableClientState, (array: u32) -> (), {
+export! { 1249, glDisableClientState, first_glDisableClientState, hook_glDisableClientState, (array: u32) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glDisableClientState(array) };
 } }
-export! { 1249, glClientActiveTexture, first_glClientActiveTexture, hook_glClientActiveTexture, (texture: u32) -> (), {
+export! { 1250, glClientActiveTexture, first_glClientActiveTexture, hook_glClientActiveTexture, (texture: u32) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glClientActiveTexture(texture) };
 } }
-export! { 1250, glClientActiveTextureARB, first_glClientActiveTextureARB, hook_glClientActiveTextureARB, (texture: u32) -> (), {
+export! { 1251, glClientActiveTextureARB, first_glClientActiveTextureARB, hook_glClientActiveTextureARB, (texture: u32) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glClientActiveTextureARB(texture) };
 } }
-export! { 1251, glInterleavedArrays, first_glInterleavedArrays, hook_glInterleavedArrays, (format: u32, stride: i32, pointer: Ptr) -> (), {
+export! { 1252, glInterleavedArrays, first_glInterleavedArrays, hook_glInterleavedArrays, (format: u32, stride: i32, pointer: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glInterleavedArrays(format, stride, pointer) };
 } }
-export! { 1252, glColorPointer, first_glColorPointer, hook_glColorPointer, (size: i32, type_: u32, stride: i32, pointer: Ptr) -> (), {
+export! { 1253, glColorPointer, first_glColorPointer, hook_glColorPointer, (size: i32, type_: u32, stride: i32, pointer: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glColorPointer(size, type_, stride, pointer) };
 } }
-export! { 1253, glSecondaryColorPointer, first_glSecondaryColorPointer, hook_glSecondaryColorPointer, (size: i32, type_: u32, stride: i32, pointer: Ptr) -> (), {
+export! { 1254, glSecondaryColorPointer, first_glSecondaryColorPointer, hook_glSecondaryColorPointer, (size: i32, type_: u32, stride: i32, pointer: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glSecondaryColorPointer(size, type_, stride, pointer) };
 } }
-export! { 1254, glSecondaryColorPointerEXT, first_glSecondaryColorPointerEXT, hook_glSecondaryColorPointerEXT, (size: i32, type_: u32, stride: i32, pointer: Ptr) -> (), {
+export! { 1255, glSecondaryColorPointerEXT, first_glSecondaryColorPointerEXT, hook_glSecondaryColorPointerEXT, (size: i32, type_: u32, stride: i32, pointer: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glSecondaryColorPointerEXT(size, type_, stride, pointer) };
 } }
-export! { 1255, glTexCoordPointer, first_glTexCoordPointer, hook_glTexCoordPointer, (size: i32, type_: u32, stride: i32, pointer: Ptr) -> (), {
+export! { 1256, glTexCoordPointer, first_glTexCoordPointer, hook_glTexCoordPointer, (size: i32, type_: u32, stride: i32, pointer: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexCoordPointer(size, type_, stride, pointer) };
 } }
-export! { 1256, glVertexPointer, first_glVertexPointer, hook_glVertexPointer, (size: i32, type_: u32, stride: i32, pointer: Ptr) -> (), {
+export! { 1257, glVertexPointer, first_glVertexPointer, hook_glVertexPointer, (size: i32, type_: u32, stride: i32, pointer: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glVertexPointer(size, type_, stride, pointer) };
 } }
-export! { 1257, glEdgeFlagPointer, first_glEdgeFlagPointer, hook_glEdgeFlagPointer, (stride: i32, pointer: Ptr) -> (), {
+export! { 1258, glEdgeFlagPointer, first_glEdgeFlagPointer, hook_glEdgeFlagPointer, (stride: i32, pointer: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glEdgeFlagPointer(stride, pointer) };
 } }
-export! { 1258, glFogCoordPointer, first_glFogCoordPointer, hook_glFogCoordPointer, (type_: u32, stride: i32, pointer: Ptr) -> (), {
+export! { 1259, glFogCoordPointer, first_glFogCoordPointer, hook_glFogCoordPointer, (type_: u32, stride: i32, pointer: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glFogCoordPointer(type_, stride, pointer) };
 } }
-export! { 1259, glFogCoordPointerEXT, first_glFogCoordPointerEXT, hook_glFogCoordPointerEXT, (type_: u32, stride: i32, pointer: Ptr) -> (), {
+export! { 1260, glFogCoordPointerEXT, first_glFogCoordPointerEXT, hook_glFogCoordPointerEXT, (type_: u32, stride: i32, pointer: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glFogCoordPointerEXT(type_, stride, pointer) };
 } }
-export! { 1260, glIndexPointer, first_glIndexPointer, hook_glIndexPointer, (type_: u32, stride: i32, pointer: Ptr) -> (), {
+export! { 1261, glIndexPointer, first_glIndexPointer, hook_glIndexPointer, (type_: u32, stride: i32, pointer: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glIndexPointer(type_, stride, pointer) };
 } }
-export! { 1261, glNormalPointer, first_glNormalPointer, hook_glNormalPointer, (type_: u32, stride: i32, pointer: Ptr) -> (), {
+export! { 1262, glNormalPointer, first_glNormalPointer, hook_glNormalPointer, (type_: u32, stride: i32, pointer: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glNormalPointer(type_, stride, pointer) };
 } }
-export! { 1262, glVertexAttribPointer, first_glVertexAttribPointer, hook_glVertexAttribPointer, (index: u32, size: i32, type_: u32, normalized: u8, stride: i32, pointer: Ptr) -> (), {
+export! { 1263, glVertexAttribPointer, first_glVertexAttribPointer, hook_glVertexAttribPointer, (index: u32, size: i32, type_: u32, normalized: u8, stride: i32, pointer: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glVertexAttribPointer(index, size, type_, normalized, stride, pointer) };
 } }
-export! { 1263, glVertexAttribPointerARB, first_glVertexAttribPointerARB, hook_glVertexAttribPointerARB, (index: u32, size: i32, type_: u32, normalized: u8, stride: i32, pointer: Ptr) -> (), {
+export! { 1264, glVertexAttribPointerARB, first_glVertexAttribPointerARB, hook_glVertexAttribPointerARB, (index: u32, size: i32, type_: u32, normalized: u8, stride: i32, pointer: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glVertexAttribPointerARB(index, size, type_, normalized, stride, pointer) };
 } }
-export! { 1264, glEnableVertexAttribArray, first_glEnableVertexAttribArray, hook_glEnableVertexAttribArray, (index: u32) -> (), {
+export! { 1265, glEnableVertexAttribArray, first_glEnableVertexAttribArray, hook_glEnableVertexAttribArray, (index: u32) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glEnableVertexAttribArray(index) };
 } }
-export! { 1265, glEnableVertexAttribArrayARB, first_glEnableVertexAttribArrayARB, hook_glEnableVertexAttribArrayARB, (index: u32) -> (), {
+export! { 1266, glEnableVertexAttribArrayARB, first_glEnableVertexAttribArrayARB, hook_glEnableVertexAttribArrayARB, (index: u32) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glEnableVertexAttribArrayARB(index) };
 } }
-export! { 1266, glDisableVertexAttribArray, first_glDisableVertexAttribArray, hook_glDisableVertexAttribArray, (index: u32) -> (), {
+export! { 1267, glDisableVertexAttribArray, first_glDisableVertexAttribArray, hook_glDisableVertexAttribArray, (index: u32) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glDisableVertexAttribArray(index) };
 } }
-export! { 1267, glDisableVertexAttribArrayARB, first_glDisableVertexAttribArrayARB, hook_glDisableVertexAttribArrayARB, (index: u32) -> (), {
+export! { 1268, glDisableVertexAttribArrayARB, first_glDisableVertexAttribArrayARB, hook_glDisableVertexAttribArrayARB, (index: u32) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glDisableVertexAttribArrayARB(index) };
 } }
-export! { 1268, glXChooseVisual, first_glXChooseVisual, hook_glXChooseVisual, (dpy: Ptr, screen: i32, attribs: Ptr) -> Ptr, {
+export! { 1269, glXChooseVisual, first_glXChooseVisual, hook_glXChooseVisual, (dpy: Ptr, screen: i32, attribs: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXChooseVisual(dpy, screen, attribs) }
 } }
-export! { 1269, glXChooseFBConfig, first_glXChooseFBConfig, hook_glXChooseFBConfig, (dpy: Ptr, screen: i32, attribs: Ptr, count: Ptr) -> Ptr, {
+export! { 1270, glXChooseFBConfig, first_glXChooseFBConfig, hook_glXChooseFBConfig, (dpy: Ptr, screen: i32, attribs: Ptr, count: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXChooseFBConfig(dpy, screen, attribs, count) }
 } }
-export! { 1270, glXChooseFBConfigSGIX, first_glXChooseFBConfigSGIX, hook_glXChooseFBConfigSGIX, (dpy: Ptr, screen: i32, attribs: Ptr, count: Ptr) -> Ptr, {
+export! { 1271, glXChooseFBConfigSGIX, first_glXChooseFBConfigSGIX, hook_glXChooseFBConfigSGIX, (dpy: Ptr, screen: i32, attribs: Ptr, count: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXChooseFBConfigSGIX(dpy, screen, attribs, count) }
 } }
-export! { 1271, glXSwapBuffers, first_glXSwapBuffers, hook_glXSwapBuffers, (dpy: Ptr, drawable: c_ulong) -> (), {
+export! { 1272, glXSwapBuffers, first_glXSwapBuffers, hook_glXSwapBuffers, (dpy: Ptr, drawable: c_ulong) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glXSwapBuffers(dpy, drawable) }
 } }
-export! { 1272, glXSwapBuffersMscOML, first_glXSwapBuffersMscOML, hook_glXSwapBuffersMscOML, (dpy: Ptr, drawable: c_ulong, target_msc: i64, divisor: i64, remainder: i64) -> i64, {
+export! { 1273, glXSwapBuffersMscOML, first_glXSwapBuffersMscOML, hook_glXSwapBuffersMscOML, (dpy: Ptr, drawable: c_ulong, target_msc: i64, divisor: i64, remainder: i64) -> i64, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXSwapBuffersMscOML(dpy, drawable, target_msc, divisor, remainder) }
 } }
-export! { 1273, glXMakeCurrent, first_glXMakeCurrent, hook_glXMakeCurrent, (dpy: Ptr, drawable: c_ulong, ctx: Ptr) -> i32, {
+export! { 1274, glXMakeCurrent, first_glXMakeCurrent, hook_glXMakeCurrent, (dpy: Ptr, drawable: c_ulong, ctx: Ptr) -> i32, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXMakeCurrent(dpy, drawable, ctx) }
 } }
-export! { 1274, glXMakeContextCurrent, first_glXMakeContextCurrent, hook_glXMakeContextCurrent, (dpy: Ptr, draw: c_ulong, read: c_ulong, ctx: Ptr) -> i32, {
+export! { 1275, glXMakeContextCurrent, first_glXMakeContextCurrent, hook_glXMakeContextCurrent, (dpy: Ptr, draw: c_ulong, read: c_ulong, ctx: Ptr) -> i32, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXMakeContextCurrent(dpy, draw, read, ctx) }
 } }
-export! { 1275, glXMakeCurrentReadSGI, first_glXMakeCurrentReadSGI, hook_glXMakeCurrentReadSGI, (dpy: Ptr, draw: c_ulong, read: c_ulong, ctx: Ptr) -> i32, {
+export! { 1276, glXMakeCurrentReadSGI, first_glXMakeCurrentReadSGI, hook_glXMakeCurrentReadSGI, (dpy: Ptr, draw: c_ulong, read: c_ulong, ctx: Ptr) -> i32, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXMakeCurrentReadSGI(dpy, draw, read, ctx) }
 } }
-export! { 1276, glXCreateContext, first_glXCreateContext, hook_glXCreateContext, (dpy: Ptr, vis: Ptr, share: Ptr, direct: i32) -> Ptr, {
+export! { 1277, glXCreateContext, first_glXCreateContext, hook_glXCreateContext, (dpy: Ptr, vis: Ptr, share: Ptr, direct: i32) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXCreateContext(dpy, vis, share, direct) }
 } }
-export! { 1277, glXCreateNewContext, first_glXCreateNewContext, hook_glXCreateNewContext, (dpy: Ptr, config: Ptr, kind: i32, share: Ptr, direct: i32) -> Ptr, {
+export! { 1278, glXCreateNewContext, first_glXCreateNewContext, hook_glXCreateNewContext, (dpy: Ptr, config: Ptr, kind: i32, share: Ptr, direct: i32) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXCreateNewContext(dpy, config, kind, share, direct) }
 } }
-export! { 1278, glXCreateContextAttribsARB, first_glXCreateContextAttribsARB, hook_glXCreateContextAttribsARB, (dpy: Ptr, config: Ptr, share: Ptr, direct: i32, attribs: Ptr) -> Ptr, {
+export! { 1279, glXCreateContextAttribsARB, first_glXCreateContextAttribsARB, hook_glXCreateContextAttribsARB, (dpy: Ptr, config: Ptr, share: Ptr, direct: i32, attribs: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXCreateContextAttribsARB(dpy, config, share, direct, attribs) }
 } }
-export! { 1279, glXCreateContextWithConfigSGIX, first_glXCreateContextWithConfigSGIX, hook_glXCreateContextWithConfigSGIX, (dpy: Ptr, config: Ptr, kind: i32, share: Ptr, direct: i32) -> Ptr, {
+export! { 1280, glXCreateContextWithConfigSGIX, first_glXCreateContextWithConfigSGIX, hook_glXCreateContextWithConfigSGIX, (dpy: Ptr, config: Ptr, kind: i32, share: Ptr, direct: i32) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXCreateContextWithConfigSGIX(dpy, config, kind, share, direct) }
 } }
-export! { 1280, glXDestroyContext, first_glXDestroyContext, hook_glXDestroyContext, (dpy: Ptr, ctx: Ptr) -> (), {
+export! { 1281, glXDestroyContext, first_glXDestroyContext, hook_glXDestroyContext, (dpy: Ptr, ctx: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glXDestroyContext(dpy, ctx) }
 } }
-export! { 1281, glXCreateWindow, first_glXCreateWindow, hook_glXCreateWindow, (dpy: Ptr, config: Ptr, win: c_ulong, attribs: Ptr) -> c_ulong, {
+export! { 1282, glXCreateWindow, first_glXCreateWindow, hook_glXCreateWindow, (dpy: Ptr, config: Ptr, win: c_ulong, attribs: Ptr) -> c_ulong, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXCreateWindow(dpy, config, win, attribs) }
 } }
-export! { 1282, glXDestroyWindow, first_glXDestroyWindow, hook_glXDestroyWindow, (dpy: Ptr, win: c_ulong) -> (), {
+export! { 1283, glXDestroyWindow, first_glXDestroyWindow, hook_glXDestroyWindow, (dpy: Ptr, win: c_ulong) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glXDestroyWindow(dpy, win) }
 } }
-export! { 1283, glXGetProcAddress, first_glXGetProcAddress, hook_glXGetProcAddress, (name: Ptr) -> Ptr, {
+export! { 1284, glXGetProcAddress, first_glXGetProcAddress, hook_glXGetProcAddress, (name: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXGetProcAddress(name) }
 } }
-export! { 1284, glXGetProcAddressARB, first_glXGetProcAddressARB, hook_glXGetProcAddressARB, (name: Ptr) -> Ptr, {
+export! { 1285, glXGetProcAddressARB, first_glXGetProcAddressARB, hook_glXGetProcAddressARB, (name: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXGetProcAddressARB(name) }
 } }
-export! { 1286, eglSwapBuffers, first_eglSwapBuffers, hook_eglSwapBuffers, (dpy: Ptr, surface: Ptr) -> u32, {
+export! { 1287, eglSwapBuffers, first_eglSwapBuffers, hook_eglSwapBuffers, (dpy: Ptr, surface: Ptr) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglSwapBuffers(dpy, surface) }
 } }
-export! { 1287, eglSwapBuffersWithDamageKHR, first_eglSwapBuffersWithDamageKHR, hook_eglSwapBuffersWithDamageKHR, (dpy: Ptr, surface: Ptr, rects: Ptr, n: i32) -> u32, {
+export! { 1288, eglSwapBuffersWithDamageKHR, first_eglSwapBuffersWithDamageKHR, hook_eglSwapBuffersWithDamageKHR, (dpy: Ptr, surface: Ptr, rects: Ptr, n: i32) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglSwapBuffersWithDamageKHR(dpy, surface, rects, n) }
 } }
-export! { 1288, eglSwapBuffersWithDamageEXT, first_eglSwapBuffersWithDamageEXT, hook_eglSwapBuffersWithDamageEXT, (dpy: Ptr, surface: Ptr, rects: Ptr, n: i32) -> u32, {
+export! { 1289, eglSwapBuffersWithDamageEXT, first_eglSwapBuffersWithDamageEXT, hook_eglSwapBuffersWithDamageEXT, (dpy: Ptr, surface: Ptr, rects: Ptr, n: i32) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglSwapBuffersWithDamageEXT(dpy, surface, rects, n) }
 } }
-export! { 1289, eglMakeCurrent, first_eglMakeCurrent, hook_eglMakeCurrent, (dpy: Ptr, draw: Ptr, read: Ptr, ctx: Ptr) -> u32, {
+export! { 1290, eglMakeCurrent, first_eglMakeCurrent, hook_eglMakeCurrent, (dpy: Ptr, draw: Ptr, read: Ptr, ctx: Ptr) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglMakeCurrent(dpy, draw, read, ctx) }
 } }
-export! { 1290, eglCreateContext, first_eglCreateContext, hook_eglCreateContext, (dpy: Ptr, config: Ptr, share: Ptr, attribs: Ptr) -> Ptr, {
+export! { 1291, eglCreateContext, first_eglCreateContext, hook_eglCreateContext, (dpy: Ptr, config: Ptr, share: Ptr, attribs: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglCreateContext(dpy, config, share, attribs) }
 } }
-export! { 1291, eglDestroyContext, first_eglDestroyContext, hook_eglDestroyContext, (dpy: Ptr, ctx: Ptr) -> u32, {
+export! { 1292, eglDestroyContext, first_eglDestroyContext, hook_eglDestroyContext, (dpy: Ptr, ctx: Ptr) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglDestroyContext(dpy, ctx) }
 } }
-export! { 1292, eglReleaseThread, first_eglReleaseThread, hook_eglReleaseThread, () -> u32, {
+export! { 1293, eglReleaseThread, first_eglReleaseThread, hook_eglReleaseThread, () -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglReleaseThread() }
 } }
-export! { 1293, eglGetDisplay, first_eglGetDisplay, hook_eglGetDisplay, (native: Ptr) -> Ptr, {
+export! { 1294, eglGetDisplay, first_eglGetDisplay, hook_eglGetDisplay, (native: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglGetDisplay(native) }
 } }
-export! { 1294, eglGetPlatformDisplay, first_eglGetPlatformDisplay, hook_eglGetPlatformDisplay, (platform: u32, native: Ptr, attribs: Ptr) -> Ptr, {
+export! { 1295, eglGetPlatformDisplay, first_eglGetPlatformDisplay, hook_eglGetPlatformDisplay, (platform: u32, native: Ptr, attribs: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglGetPlatformDisplay(platform, native, attribs) }
 } }
-export! { 1295, eglGetPlatformDisplayEXT, first_eglGetPlatformDisplayEXT, hook_eglGetPlatformDisplayEXT, (platform: u32, native: Ptr, attribs: Ptr) -> Ptr, {
+export! { 1296, eglGetPlatformDisplayEXT, first_eglGetPlatformDisplayEXT, hook_eglGetPlatformDisplayEXT, (platform: u32, native: Ptr, attribs: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglGetPlatformDisplayEXT(platform, native, attribs) }
 } }
-export! { 1296, eglCreateWindowSurface, first_eglCreateWindowSurface, hook_eglCreateWindowSurface, (dpy: Ptr, config: Ptr, win: Ptr, attribs: Ptr) -> Ptr, {
+export! { 1297, eglCreateWindowSurface, first_eglCreateWindowSurface, hook_eglCreateWindowSurface, (dpy: Ptr, config: Ptr, win: Ptr, attribs: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglCreateWindowSurface(dpy, config, win, attribs) }
 } }
-export! { 1297, eglCreatePlatformWindowSurface, first_eglCreatePlatformWindowSurface, hook_eglCreatePlatformWindowSurface, (dpy: Ptr, config: Ptr, win: Ptr, attribs: Ptr) -> Ptr, {
+export! { 1298, eglCreatePlatformWindowSurface, first_eglCreatePlatformWindowSurface, hook_eglCreatePlatformWindowSurface, (dpy: Ptr, config: Ptr, win: Ptr, attribs: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglCreatePlatformWindowSurface(dpy, config, win, attribs) }
 } }
-export! { 1298, eglCreatePlatformWindowSurfaceEXT, first_eglCreatePlatformWindowSurfaceEXT, hook_eglCreatePlatformWindowSurfaceEXT, (dpy: Ptr, config: Ptr, win: Ptr, attribs: Ptr) -> Ptr, {
+export! { 1299, eglCreatePlatformWindowSurfaceEXT, first_eglCreatePlatformWindowSurfaceEXT, hook_eglCreatePlatformWindowSurfaceEXT, (dpy: Ptr, config: Ptr, win: Ptr, attribs: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglCreatePlatformWindowSurfaceEXT(dpy, config, win, attribs) }
 } }
-export! { 1299, eglDestroySurface, first_eglDestroySurface, hook_eglDestroySurface, (dpy: Ptr, surface: Ptr) -> u32, {
+export! { 1300, eglDestroySurface, first_eglDestroySurface, hook_eglDestroySurface, (dpy: Ptr, surface: Ptr) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglDestroySurface(dpy, surface) }
 } }
-export! { 1300, eglGetProcAddress, first_eglGetProcAddress, hook_eglGetProcAddress, (name: Ptr) -> Ptr, {
+export! { 1301, eglGetProcAddress, first_eglGetProcAddress, hook_eglGetProcAddress, (name: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglGetProcAddress(name) }
 } }
-export! { 1305, OSMesaMakeCurrent, first_OSMesaMakeCurrent, hook_OSMesaMakeCurrent, (ctx: Ptr, buffer: Ptr, kind: u32, width: i32, height: i32) -> u8, {
+export! { 1306, OSMesaMakeCurrent, first_OSMesaMakeCurrent, hook_OSMesaMakeCurrent, (ctx: Ptr, buffer: Ptr, kind: u32, width: i32, height: i32) -> u8, {
     // SAFETY: the program's own arguments.
     unsafe { special::OSMesaMakeCurrent(ctx, buffer, kind, width, height) }
 } }
-export! { 1306, OSMesaCreateContext, first_OSMesaCreateContext, hook_OSMesaCreateContext, (format: u32, share: Ptr) -> Ptr, {
+export! { 1307, OSMesaCreateContext, first_OSMesaCreateContext, hook_OSMesaCreateContext, (format: u32, share: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::OSMesaCreateContext(format, share) }
 } }
-export! { 1307, OSMesaCreateContextExt, first_OSMesaCreateContextExt, hook_OSMesaCreateContextExt, (format: u32, depth: i32, stencil: i32, accum: i32, share: Ptr) -> Ptr, {
+export! { 1308, OSMesaCreateContextExt, first_OSMesaCreateContextExt, hook_OSMesaCreateContextExt, (format: u32, depth: i32, stencil: i32, accum: i32, share: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::OSMesaCreateContextExt(format, depth, stencil, accum, share) }
 } }
-export! { 1308, OSMesaCreateContextAttribs, first_OSMesaCreateContextAttribs, hook_OSMesaCreateContextAttribs, (attribs: Ptr, share: Ptr) -> Ptr, {
+export! { 1309, OSMesaCreateContextAttribs, first_OSMesaCreateContextAttribs, hook_OSMesaCreateContextAttribs, (attribs: Ptr, share: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::OSMesaCreateContextAttribs(attribs, share) }
 } }
-export! { 1309, OSMesaDestroyContext, first_OSMesaDestroyContext, hook_OSMesaDestroyContext, (ctx: Ptr) -> (), {
+export! { 1310, OSMesaDestroyContext, first_OSMesaDestroyContext, hook_OSMesaDestroyContext, (ctx: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::OSMesaDestroyContext(ctx) }
 } }
-export! { 1310, OSMesaGetProcAddress, first_OSMesaGetProcAddress, hook_OSMesaGetProcAddress, (name: Ptr) -> Ptr, {
+export! { 1311, OSMesaGetProcAddress, first_OSMesaGetProcAddress, hook_OSMesaGetProcAddress, (name: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::OSMesaGetProcAddress(name) }
 } }

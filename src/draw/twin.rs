@@ -1,11 +1,12 @@
 //! A twin of one of the program's own GLSL programs, linked from rewritten shaders: what draws the views. The program's own stays as
 //! it is, and everything that the program asks about it is answered by it.
 
-use crate::gl::{Gl, consts as c};
-use crate::plan::{Shear, camera};
+use crate::gl::{Active, Gl};
+use crate::plan::Shear;
 use crate::rewrite::{Amplifier, Names, Options, Refusal, Stage, Target, Uniform, facts, rewrite};
 use crate::state::Text;
-use std::ffi::CString;
+use std::borrow::Cow;
+use std::ffi::{CStr, CString};
 
 /// What a program draws the views by.
 #[derive(Debug)]
@@ -47,22 +48,6 @@ pub struct Twin {
     uniforms: Vec<(u32, i32, i32)>,
     /// Index of each block in the program, here the index in the twin.
     blocks: Vec<Option<u32>>,
-    /// Where the camera may be: locations of the program's matrices, and block and offset of those in blocks.
-    matrices: Vec<i32>,
-    in_blocks: Vec<(u32, u32)>,
-    /// The last one that was there.
-    camera: Option<[f32; 16]>,
-}
-
-fn kind(stage: Stage) -> u32 {
-    match stage {
-        Stage::Vertex => c::VERTEX_SHADER,
-        Stage::TessControl => c::TESS_CONTROL_SHADER,
-        Stage::TessEvaluation => c::TESS_EVALUATION_SHADER,
-        Stage::Geometry => c::GEOMETRY_SHADER,
-        Stage::Fragment => c::FRAGMENT_SHADER,
-        Stage::Compute => c::COMPUTE_SHADER,
-    }
 }
 
 /// How the draws of a program get their views. `texts` are those that it was linked from. Changes nothing of the program's state.
@@ -99,14 +84,14 @@ pub fn drawn(gl: &Gl, program: u32, texts: &[Text]) -> Result<Drawn, NoTwin> {
                 return Err(NoTwin::Subroutines);
             }
             projection |= facts.projection;
-            rewritten.push((kind(text.stage), text.source.as_slice().into()));
+            rewritten.push((text.kind, text.source.as_slice().into()));
             continue;
         }
         let new = rewrite(&text.source, text.stage, &options)?;
         if new.facts.subroutines {
             return Err(NoTwin::Subroutines);
         }
-        let changed = matches!(new.text, std::borrow::Cow::Owned(_));
+        let changed = matches!(new.text, Cow::Owned(_));
         match text.stage {
             Stage::Fragment if changed => place = Some(new.names),
             Stage::Fragment => {}
@@ -117,7 +102,7 @@ pub fn drawn(gl: &Gl, program: u32, texts: &[Text]) -> Result<Drawn, NoTwin> {
                 }
             }
         }
-        rewritten.push((kind(text.stage), new.text));
+        rewritten.push((text.kind, new.text));
     }
     if projection {
         return Ok(Drawn::ByMatrix);
@@ -151,11 +136,8 @@ pub fn drawn(gl: &Gl, program: u32, texts: &[Text]) -> Result<Drawn, NoTwin> {
     )))
 }
 
-fn places(
-    actives: Vec<crate::gl::Active>,
-    location: impl Fn(&std::ffi::CStr) -> i32,
-) -> Vec<(CString, u32)> {
-    let place = |active: crate::gl::Active| {
+fn places(actives: Vec<Active>, location: impl Fn(&CStr) -> i32) -> Vec<(CString, u32)> {
+    let place = |active: Active| {
         let at = u32::try_from(location(&active.name)).ok()?;
         Some((active.name, at))
     };
@@ -179,9 +161,8 @@ impl Twin {
             gl.uniform_location(name, &text)
         };
         let window = |uniform| place.map_or(-1, |names| ours(names, uniform));
-        let (mut uniforms, mut matrices) = (Vec::new(), Vec::new());
-        let mut in_blocks = Vec::new();
-        for (index, active) in (0..).zip(gl.active_uniforms(program)) {
+        let mut uniforms = Vec::new();
+        for active in gl.active_uniforms(program) {
             let text = active.name.to_string_lossy();
             let stem = text.strip_suffix("[0]").unwrap_or(&text);
             for at in 0..active.size.max(1) {
@@ -193,14 +174,6 @@ impl Twin {
                 let [from, to] = [program, name].map(|of| gl.uniform_location(of, &element));
                 if from >= 0 && to >= 0 {
                     uniforms.push((active.kind, from, to));
-                }
-                if at > 0 || active.kind != c::FLOAT_MAT4 {
-                    continue;
-                }
-                if from >= 0 {
-                    matrices.push(from);
-                } else {
-                    in_blocks.extend(gl.place_in_block(program, index));
                 }
             }
         }
@@ -214,43 +187,12 @@ impl Twin {
             blocks: (0..blocks)
                 .map(|at| gl.same_block(program, at, name))
                 .collect(),
-            matrices,
-            in_blocks,
-            camera: None,
         }
     }
 
     /// The name of the twin.
     pub fn name(&self) -> u32 {
         self.name
-    }
-
-    /// The camera that the program has set, as a pure projection; none where none of its matrices has a perspective.
-    pub fn camera(&self) -> Option<&[f32; 16]> {
-        self.camera.as_ref()
-    }
-
-    /// Whether the camera may be in a buffer, of whose changes nothing is told.
-    pub fn has_blocks(&self) -> bool {
-        !self.in_blocks.is_empty()
-    }
-
-    /// Looks for the camera among the program's matrices.
-    pub fn find_camera(&mut self, gl: &Gl, program: u32) {
-        let uniforms = self.matrices.iter();
-        let mut all: Vec<_> = uniforms.map(|&at| gl.uniform_matrix(program, at)).collect();
-        // Buffers are looked at until a camera is found: the driver has to be waited for.
-        if self.camera.is_none() {
-            let blocks = self.in_blocks.iter();
-            all.extend(blocks.filter_map(|&at| gl.block_matrix(program, at)));
-        }
-        let mut found: Vec<_> = all
-            .into_iter()
-            .filter_map(|m| Some((!camera::is_projection(&m), camera::equivalent(&m)?)))
-            .collect();
-        // Projections alone first, else the first matrix that has one in it.
-        found.sort_by_key(|(mixed, _)| *mixed);
-        self.camera = found.first().map(|(_, p)| *p).or(self.camera);
     }
 
     /// Gives the twin, which is in use, the values that the program's uniforms have.

@@ -80,6 +80,7 @@ pub const ALL_ATTRIB_BITS: u32 = 0xFFFFFFFF;
 pub const ATTRIB_STACK_DEPTH: u32 = 0x0BB0;
 pub const MAX_ATTRIB_STACK_DEPTH: u32 = 0x0D35;
 pub const CURRENT_PROGRAM: u32 = 0x8B8D;
+pub const DELETE_STATUS: u32 = 0x8B80;
 pub const PROGRAM_PIPELINE_BINDING: u32 = 0x825A;
 pub const TEXTURE_2D: u32 = 0x0DE1;
 pub const TEXTURE_1D: u32 = 0x0DE0;

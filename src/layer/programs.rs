@@ -3,9 +3,9 @@
 use super::Layer;
 use crate::config::Class;
 use crate::draw::{Drawn, NoTwin, Twin, drawn};
-use crate::gl::Gl;
-use crate::plan::{Classed, Kind, Method, Plan};
-use crate::state::{Shaders, uniform_change};
+use crate::gl::{Gl, Held, consts as c};
+use crate::plan::{Classed, Kind, Method, Plan, camera};
+use crate::state::{Matrices, Shaders, texts, uniform_change};
 use std::collections::HashMap;
 use std::sync::PoisonError;
 
@@ -15,6 +15,8 @@ pub(super) struct Twins {
     known: HashMap<u32, Known>,
     /// The camera of the last program that had one, for those that have none.
     camera: Option<[f32; 16]>,
+    /// Deleted while in use: such a program lives until another one is in use, and so it must when the layer uses one.
+    doomed: Vec<u32>,
 }
 
 /// How the draws of one program go.
@@ -23,6 +25,9 @@ struct Known {
     /// The link that it belongs to.
     link: u64,
     how: Result<Drawn, NoTwin>,
+    matrices: Matrices,
+    /// The last one that was among them.
+    camera: Option<[f32; 16]>,
     /// The changes of uniforms up to which its camera was looked for, and its values follow.
     seen: u64,
     followed: u64,
@@ -43,19 +48,22 @@ impl Twins {
         Some(twin)
     }
 
-    /// The names of all twins.
+    /// The names of all twins, and of what waits to be deleted.
     pub(super) fn names(&self) -> impl Iterator<Item = u32> {
-        self.known.values().filter_map(|known| match &known.how {
+        let doomed = self.doomed.iter().copied();
+        doomed.chain(self.known.values().filter_map(|known| match &known.how {
             Ok(Drawn::ByTwin(twin)) => Some(twin.name()),
             _ => None,
-        })
+        }))
     }
 }
 
 impl Layer {
     /// After glLinkProgram.
     pub fn linked(&mut self, gl: &Gl, program: u32) {
-        self.shaders(|shaders| shaders.linked(gl, program));
+        if let Some(texts) = texts(gl, program) {
+            self.shaders(|shaders| shaders.linked(program, texts));
+        }
     }
 
     /// A program got its executable in another way.
@@ -63,7 +71,42 @@ impl Layer {
         self.shaders(|shaders| shaders.forget(program));
     }
 
-    /// After glDeleteProgram: what is in use stays until it is not.
+    /// Whether glDeleteProgram has to wait, because the program is in use.
+    pub fn dooms(&mut self, gl: &Gl, program: u32) -> bool {
+        let used = program != 0 && gl.get_integer(c::CURRENT_PROGRAM) as u32 == program;
+        if used && !self.is_doomed(program) {
+            Held::Shader.count(1);
+            self.twins.doomed.push(program);
+        }
+        used
+    }
+
+    /// Whether any program waits to be deleted.
+    pub fn has_doomed(&self) -> bool {
+        !self.twins.doomed.is_empty()
+    }
+
+    /// Whether a program waits to be deleted.
+    pub fn is_doomed(&self, program: u32) -> bool {
+        self.twins.doomed.contains(&program)
+    }
+
+    /// After glUseProgram.
+    pub fn delete_doomed(&mut self, gl: &Gl) {
+        let used = gl.get_integer(c::CURRENT_PROGRAM) as u32;
+        let (kept, gone): (Vec<u32>, Vec<u32>) = self
+            .twins
+            .doomed
+            .iter()
+            .partition(|&&program| program == used);
+        self.twins.doomed = kept;
+        for program in gone {
+            gl.delete_program(program);
+            self.deleted_program(gl, program);
+        }
+    }
+
+    /// After glDeleteProgram.
     pub fn deleted_program(&mut self, gl: &Gl, program: u32) {
         if gl.is_program(program) != 0 {
             return;
@@ -127,7 +170,9 @@ impl Layer {
     #[allow(clippy::option_option, reason = "a twin, and a camera")]
     fn camera_of(&mut self, gl: &Gl, program: u32) -> Option<Option<[f32; 16]>> {
         let Some(Known {
-            how: Ok(Drawn::ByTwin(twin)),
+            how: Ok(Drawn::ByTwin(_)),
+            matrices,
+            camera,
             seen,
             ..
         }) = self.twins.known.get_mut(&program)
@@ -135,17 +180,16 @@ impl Layer {
             return None;
         };
         let change = uniform_change();
-        let searches = twin.camera().is_none();
         let changed = std::mem::replace(seen, change) != change;
-        // Of what is written to buffers nothing is told. One that is mapped is not to be read, and raises an error.
-        let reads = searches && twin.has_blocks();
+        // Buffers are read until a camera is found. One that is mapped is not to be read, and raises an error.
+        let reads = camera.is_none() && matrices.has_blocks();
         if reads {
             self.state.keep_errors(gl);
         }
         if changed || reads {
-            twin.find_camera(gl, program);
+            *camera = camera::among(&matrices.values(gl, program, reads)).or(*camera);
         }
-        let camera = twin.camera().copied();
+        let camera = *camera;
         if reads {
             self.drain_own_errors(gl);
         }
@@ -169,6 +213,7 @@ impl Layer {
             Some((_, texts)) => drawn(gl, program, texts),
             None => Err(NoTwin::NoText),
         };
+        let matrices = Matrices::of(gl, program);
         self.drain_own_errors(gl);
         match &how {
             Ok(Drawn::ByTwin(_)) => {
@@ -183,6 +228,8 @@ impl Layer {
         let new = Known {
             link,
             how,
+            matrices,
+            camera: None,
             seen: 0,
             followed: 0,
         };

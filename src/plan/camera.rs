@@ -59,8 +59,14 @@ pub fn equivalent(m: &[f32; 16]) -> Option<[f32; 16]> {
     Some(p)
 }
 
-/// How much a matrix looks like a projection alone: nothing but that has −1 or 1 for the whole of row 3.
-pub fn is_projection(m: &[f32; 16]) -> bool {
+/// The camera among a program's matrices, as [`equivalent`] has it: that of a projection alone, else of the first one with a perspective.
+pub fn among(matrices: &[[f32; 16]]) -> Option<[f32; 16]> {
+    let alone = matrices.iter().filter(|m| is_projection(m));
+    alone.chain(matrices).find_map(equivalent)
+}
+
+/// Whether a matrix looks like a projection alone: nothing but that has −1 or 1 for the whole of row 3.
+fn is_projection(m: &[f32; 16]) -> bool {
     m[3] == 0.0 && m[7] == 0.0 && m[15] == 0.0 && m[11].abs() == 1.0
 }
 
@@ -122,6 +128,20 @@ mod tests {
         let p = finite(1.0, 0.25, 80.0);
         let upside_down = Mat4::from_scale(Vec3::new(1.0, 1.0, -1.0));
         check(upside_down * p, 1.0, 0.25, 80.0);
+    }
+
+    #[test]
+    fn a_projection_alone_goes_before_what_else_has_a_perspective() {
+        let mixed = finite(9.0, 0.1, 7.0) * Mat4::from_translation(Vec3::new(0.0, 0.0, -3.0));
+        let (mixed, alone) = (
+            mixed.to_cols_array(),
+            finite(1.4, 0.25, 80.0).to_cols_array(),
+        );
+        let flat = Mat4::IDENTITY.to_cols_array();
+        let a = |matrices: &[[f32; 16]]| among(matrices).map(|p| p[0]);
+        assert_eq!(a(&[flat, mixed, alone]), Some(1.4));
+        assert_eq!(a(&[flat, mixed]), Some(9.0));
+        assert_eq!(a(&[flat]), None);
     }
 
     #[test]

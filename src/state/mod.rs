@@ -12,7 +12,7 @@ pub use effect::{Effect, Immediate};
 pub use framebuffer::{BACK, FRONT, Framebuffers, Window};
 pub use lists::{Body, Command, Compiling, Left, Lists, Run, Segment, Start};
 pub use look::Look;
-pub use shaders::{Linked, Shaders, Text, uniform_change, uniform_changes};
+pub use shaders::{Linked, Matrices, Shaders, Text, texts, uniform_change, uniform_changes};
 
 use crate::gl::{Gl, consts as c};
 

@@ -9,7 +9,9 @@ use std::sync::atomic::{AtomicU64, Ordering};
 /// One shader object of a program when it was linked.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Text {
-    /// Its stage.
+    /// Its type, such as GL_VERTEX_SHADER.
+    pub kind: u32,
+    /// The stage that this is.
     pub stage: Stage,
     /// All its strings; empty where it has none.
     pub source: Vec<u8>,
@@ -38,23 +40,28 @@ pub fn uniform_change() -> u64 {
     CHANGES.load(Ordering::Relaxed)
 }
 
+/// What a program has just been linked from. None where that failed, which leaves the executable that was there before.
+pub fn texts(gl: &Gl, program: u32) -> Option<Arc<[Text]>> {
+    if gl.program_parameter(program, c::LINK_STATUS) == 0 {
+        return None;
+    }
+    let text = |shader| {
+        let kind = gl.shader_parameter(shader, c::SHADER_TYPE) as u32;
+        Some(Text {
+            kind,
+            stage: stage(kind)?,
+            source: gl.shader_source(shader),
+        })
+    };
+    let shaders = gl.attached_shaders(program).into_iter();
+    Some(shaders.filter_map(text).collect())
+}
+
 impl Shaders {
-    /// After glLinkProgram. A link that failed leaves the executable that was there before.
-    pub fn linked(&mut self, gl: &Gl, program: u32) {
-        if gl.program_parameter(program, c::LINK_STATUS) == 0 {
-            return;
-        }
+    /// A program was linked.
+    pub fn linked(&mut self, program: u32, texts: Arc<[Text]>) {
         self.links += 1;
-        let texts = gl
-            .attached_shaders(program)
-            .into_iter()
-            .filter_map(|shader| {
-                Some(Text {
-                    stage: stage(gl.shader_parameter(shader, c::SHADER_TYPE) as u32)?,
-                    source: gl.shader_source(shader),
-                })
-            });
-        self.programs.insert(program, (self.links, texts.collect()));
+        self.programs.insert(program, (self.links, texts));
     }
 
     /// A program got its executable in another way, or is no more.
@@ -65,6 +72,49 @@ impl Shaders {
     /// What a program was linked from; none where that was not seen.
     pub fn of(&self, program: u32) -> Option<Linked> {
         self.programs.get(&program).cloned()
+    }
+}
+
+/// The matrices of a program's own shaders.
+#[derive(Debug, Default)]
+pub struct Matrices {
+    /// Locations.
+    uniforms: Vec<i32>,
+    /// Block and offset of those in blocks.
+    in_blocks: Vec<(u32, u32)>,
+}
+
+impl Matrices {
+    /// Of a program that is linked; of arrays the first.
+    pub fn of(gl: &Gl, program: u32) -> Matrices {
+        let mut found = Matrices::default();
+        for (index, active) in (0..).zip(gl.active_uniforms(program)) {
+            if active.kind != c::FLOAT_MAT4 {
+                continue;
+            }
+            match gl.uniform_location(program, &active.name) {
+                location @ 0.. => found.uniforms.push(location),
+                _ => found.in_blocks.extend(gl.place_in_block(program, index)),
+            }
+        }
+        found
+    }
+
+    /// Whether some are in buffers, of whose changes nothing is told.
+    pub fn has_blocks(&self) -> bool {
+        !self.in_blocks.is_empty()
+    }
+
+    /// What they are now, column-major; with `blocks` also those in buffers, for which the driver has to be waited for, and which may raise an
+    /// error.
+    pub fn values(&self, gl: &Gl, program: u32, blocks: bool) -> Vec<[f32; 16]> {
+        let uniforms = self.uniforms.iter();
+        let mut all: Vec<_> = uniforms.map(|&at| gl.uniform_matrix(program, at)).collect();
+        if blocks {
+            let places = self.in_blocks.iter();
+            all.extend(places.filter_map(|&at| gl.block_matrix(program, at)));
+        }
+        all
     }
 }
 

@@ -1,8 +1,8 @@
 //! The programs' own GLSL programs.
 
-use crate::context::{enter, real};
-use crate::hooks::ask;
-use manyview_core::gl::Ptr;
+use crate::context::{enter, peek, real};
+use crate::hooks::{Touch, ask, touch};
+use manyview_core::gl::{Ptr, consts::DELETE_STATUS};
 
 pub(crate) unsafe fn glLinkProgram(program: u32) {
     ask();
@@ -18,9 +18,30 @@ pub(crate) unsafe fn glProgramBinary(program: u32, format: u32, binary: Ptr, len
     enter(|_, l| l.forget_program(program));
 }
 
+pub(crate) unsafe fn glUseProgram(program: u32) {
+    touch(Touch::OBJECTS | Touch::FIXED | Touch::TEXTURE);
+    // SAFETY: the program's own call.
+    unsafe { real().glUseProgram(program) };
+    if peek(|l| l.has_doomed()) == Some(true) {
+        enter(|gl, l| l.delete_doomed(gl));
+    }
+}
+
 pub(crate) unsafe fn glDeleteProgram(program: u32) {
     ask();
+    if enter(|gl, l| l.dooms(gl, program)) == Some(true) {
+        return;
+    }
     // SAFETY: the program's own call.
     unsafe { real().glDeleteProgram(program) };
     enter(|gl, l| l.deleted_program(gl, program));
+}
+
+pub(crate) unsafe fn glGetProgramiv(program: u32, pname: u32, params: Ptr) {
+    // SAFETY: the program's own call.
+    unsafe { real().glGetProgramiv(program, pname, params) };
+    if pname == DELETE_STATUS && !params.is_null() && peek(|l| l.is_doomed(program)) == Some(true) {
+        // SAFETY: the driver has just written the one value of this name there.
+        unsafe { params.cast::<i32>().write_unaligned(1) };
+    }
 }
