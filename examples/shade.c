@@ -85,26 +85,10 @@ enum { SLICES = 48, STACKS = 24, QUAD = 4 };
 static GLuint program, buffer, indices, block;
 static GLsizei count;
 
-static GLuint shader(GLenum kind, const char *text)
-{
-    GLuint s = glCreateShader(kind);
-    GLint ok;
-    glShaderSource(s, 1, &text, NULL);
-    glCompileShader(s);
-    glGetShaderiv(s, GL_COMPILE_STATUS, &ok);
-    if (!ok) {
-        char log[1000];
-        glGetShaderInfoLog(s, sizeof log, NULL, log);
-        demo_fail(1, "a shader does not compile: %s", log);
-    }
-    return s;
-}
-
 void demo_setup(void)
 {
     GLfloat(*v)[6] = malloc(sizeof *v * (SLICES + 1) * (STACKS + 1) + sizeof *v * QUAD);
     GLushort *i = malloc(sizeof *i * 6 * SLICES * STACKS), *o = i;
-    GLint ok;
     if (!v || !i)
         demo_fail(1, "out of memory");
     if (version != 120 && version != 330)
@@ -130,6 +114,11 @@ void demo_setup(void)
         p[0] = c == 1 || c == 2 ? 1.0f : -1.0f, p[1] = c >= 2 ? 1.0f : -1.0f, p[2] = 0.0f;
         p[3] = p[4] = 0.0f, p[5] = 1.0f;
     }
+    if (version == 330) {
+        GLuint arrays;
+        glGenVertexArrays(1, &arrays);
+        glBindVertexArray(arrays);
+    }
     glGenBuffers(1, &buffer);
     glBindBuffer(GL_ARRAY_BUFFER, buffer);
     glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(sizeof *v * ((SLICES + 1) * (STACKS + 1) + QUAD)), v, GL_STATIC_DRAW);
@@ -138,22 +127,8 @@ void demo_setup(void)
     glBufferData(GL_ELEMENT_ARRAY_BUFFER, (GLsizeiptr)sizeof *i * count, i, GL_STATIC_DRAW);
     free(v);
     free(i);
-    GLuint vs = shader(GL_VERTEX_SHADER, version == 330 ? vertex_330 : combined ? vertex_combined : vertex_120);
-    GLuint fs = shader(GL_FRAGMENT_SHADER, version == 330 ? fragment_330 : fragment_120);
-    program = glCreateProgram();
-    glAttachShader(program, vs);
-    glAttachShader(program, fs);
-    glBindAttribLocation(program, 0, "position");
-    glBindAttribLocation(program, 1, "normal");
-    glLinkProgram(program);
-    /* As programs do that keep no more than they need. */
-    glDetachShader(program, vs);
-    glDetachShader(program, fs);
-    glDeleteShader(vs);
-    glDeleteShader(fs);
-    glGetProgramiv(program, GL_LINK_STATUS, &ok);
-    if (!ok)
-        demo_fail(1, "the program does not link");
+    program = demo_program(version == 330 ? vertex_330 : combined ? vertex_combined : vertex_120,
+                           version == 330 ? fragment_330 : fragment_120);
     if (version == 330) {
         glGenBuffers(1, &block);
         glUniformBlockBinding(program, glGetUniformBlockIndex(program, "Camera"), 3);
@@ -166,69 +141,43 @@ void demo_setup(void)
     glClearColor(0.12f, 0.13f, 0.2f, 1.0f);
 }
 
-typedef GLfloat matrix[16]; /* column-major */
-
-static void times(matrix out, const matrix a, const matrix b)
-{
-    matrix p;
-    for (int c = 0; c < 4; c++)
-        for (int r = 0; r < 4; r++) {
-            double sum = 0.0;
-            for (int k = 0; k < 4; k++)
-                sum += (double)a[4 * k + r] * b[4 * c + k];
-            p[4 * c + r] = (GLfloat)sum;
-        }
-    memcpy(out, p, sizeof p);
-}
-
 static GLint at(const char *name) { return glGetUniformLocation(program, name); }
 
 /* What the shaders see of a projection, a camera and a place. */
-static void load(const matrix projection, const matrix view, const matrix model)
+static void load(const demo_matrix projection, const demo_matrix view, const demo_matrix model)
 {
-    matrix mv, all;
+    demo_matrix mv, all;
     if (version == 330) {
         GLfloat camera[36] = {3.0f, 6.0f, 2.0f, 1.0f};
-        memcpy(camera + 4, projection, sizeof(matrix));
-        memcpy(camera + 20, view, sizeof(matrix));
+        memcpy(camera + 4, projection, sizeof(demo_matrix));
+        memcpy(camera + 20, view, sizeof(demo_matrix));
         glBindBuffer(GL_UNIFORM_BUFFER, block);
         glBufferData(GL_UNIFORM_BUFFER, sizeof camera, camera, GL_STREAM_DRAW);
         glUniformMatrix4fv(at("model"), 1, 0, model);
         return;
     }
-    times(mv, view, model);
-    times(all, projection, mv);
+    demo_times(mv, view, model);
+    demo_times(all, projection, mv);
     glUniformMatrix4fv(at("modelview"), 1, 0, mv);
     glUniformMatrix4fv(at(combined ? "everything" : "projection"), 1, 0, combined ? all : projection);
 }
 
-static void place(matrix m, double angle, double x, double y, double z)
-{ /* turned about (0.6, 0.8, 0), then moved */
-    double c = cos(angle), s = sin(angle), u = 0.6, v = 0.8;
-    matrix p = {(GLfloat)(u * u + (1 - u * u) * c), (GLfloat)(u * v * (1 - c)), (GLfloat)(-v * s), 0.0f,
-                (GLfloat)(u * v * (1 - c)), (GLfloat)(v * v + (1 - v * v) * c), (GLfloat)(u * s), 0.0f,
-                (GLfloat)(v * s), (GLfloat)(-u * s), (GLfloat)c, 0.0f,
-                (GLfloat)x, (GLfloat)y, (GLfloat)z, 1.0f};
-    memcpy(m, p, sizeof p);
-}
-
 void demo_frame(int frame)
 {
-    double t = demo_time(frame), n = 1.0, f = 50.0, h = 1.0 / tan(20.0 * M_PI / 180.0);
-    matrix projection = {(GLfloat)(h * demo_height / demo_width), 0, 0, 0, 0, (GLfloat)h, 0, 0,
-                         0, 0, (GLfloat)(-(f + n) / (f - n)), -1, 0, 0, (GLfloat)(-2.0 * f * n / (f - n)), 0};
-    matrix plain = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}, view, model;
+    double t = demo_time(frame);
+    demo_matrix plain = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}, projection, view, model;
     demo_viewport(0, 0, demo_width, demo_height);
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
     glEnable(GL_DEPTH_TEST);
     glUseProgram(program);
+    demo_frustum(projection, 40.0, (double)demo_width / demo_height, 1.0, 50.0);
     demo_view(projection);
     glUniform1f(at("steps"), toon ? 3.0f : 0.0f);
     glUniform1f(at("unlit"), 0.0f);
     glUniform1f(at("size"), 1.0f);
-    place(view, 0.15, 0.0, -0.3, -8.5);
+    demo_turned(view, 0.15, 0.6, 0.8, 0.0, -0.3, -8.5);
     for (int k = 0; k < 5; k++) {
-        place(model, t + 1.3 * k, 1.9 * (k - 2), 0.9 * sin(1.9 * k), -2.5 * (k % 3) + 2.0);
+        demo_turned(model, t + 1.3 * k, 0.6, 0.8, 1.9 * (k - 2), 0.9 * sin(1.9 * k), -2.5 * (k % 3) + 2.0);
         load(projection, view, model);
         glUniform4f(at("colour"), (GLfloat)(0.55 + 0.4 * sin(1.1 * k)), (GLfloat)(0.55 + 0.4 * sin(1.1 * k + 2.0)), 0.7f, 1.0f);
         glDrawElements(GL_TRIANGLES, count, GL_UNSIGNED_SHORT, (void *)0);

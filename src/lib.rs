@@ -34,6 +34,8 @@ pub mod plan;
 
 pub mod atlas;
 
+pub mod offscreen;
+
 pub mod draw;
 
 pub mod interleave;

@@ -109,6 +109,12 @@ fn scene(name: &str) -> Scene {
         "shade_toon" => scene("shade", &["--toon"], 1),
         "shade_combined" => scene("shade", &["--combined"], 1),
         "shade_block" => scene("shade", &["--glsl", "330"], 1),
+        "passes" => scene("passes", &["--depth-blit"], 2),
+        "passes_samples" => scene("passes", &["--samples-inside", "4", "--mipmap"], 1),
+        "passes_copies" => {
+            let arguments = &["--copy", "--screen-blit", "--profile", "core"];
+            scene("passes", arguments, 2)
+        }
         // With the scene.
         "menu" => scene("menu", &[], 14),
         // Errors at the end of the first frame are found in the second.
@@ -390,7 +396,7 @@ fn check_in(
                 };
                 let gate = match strategy {
                     // A twin shifts after the program's own product, the oracle before it.
-                    "replay" if scene.demo != "shade" => Gate::EQUAL,
+                    "replay" if !["shade", "passes"].contains(&scene.demo) => Gate::EQUAL,
                     _ if layouts == CLIPS => BESIDE,
                     _ => Gate::DESIGN,
                 };
@@ -552,9 +558,9 @@ macro_rules! oracle {
 }
 
 oracle! {
-    glx: gears lists echo blur teapot room fogtexgen points clip mirror mesh mesh_vbo mesh_immediate mesh_list fill prims arrays immediate sky field menu shade shade_toon shade_combined shade_block;
-    egl: gears lists echo teapot room fogtexgen points clip mirror mesh mesh_vbo mesh_immediate mesh_list fill prims arrays immediate sky field menu shade shade_toon shade_combined shade_block;
-    osmesa: gears lists echo blur teapot room fogtexgen points clip mirror mesh mesh_vbo mesh_immediate mesh_list fill prims arrays immediate sky field menu shade shade_toon shade_combined shade_block;
+    glx: gears lists echo blur teapot room fogtexgen points clip mirror mesh mesh_vbo mesh_immediate mesh_list fill prims arrays immediate sky field menu shade shade_toon shade_combined shade_block passes passes_samples passes_copies;
+    egl: gears lists echo teapot room fogtexgen points clip mirror mesh mesh_vbo mesh_immediate mesh_list fill prims arrays immediate sky field menu shade shade_toon shade_combined shade_block passes passes_samples passes_copies;
+    osmesa: gears lists echo blur teapot room fogtexgen points clip mirror mesh mesh_vbo mesh_immediate mesh_list fill prims arrays immediate sky field menu shade shade_toon shade_combined shade_block passes passes_samples passes_copies;
 }
 
 /// Surfaces of other kinds, by replay.

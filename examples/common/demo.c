@@ -167,6 +167,7 @@ static void usage(void)
            "  --samples S            multisampled (glx, egl)\n"
            "  --srgb                 sRGB-capable surface, with GL_FRAMEBUFFER_SRGB on (glx, egl)\n"
            "  --check                fail with status 3 after a frame that raised a GL error\n"
+           "  --profile core|compatibility  of the context: OpenGL 3.3 core, or the default one (default compatibility)\n"
            "  --unread               frames end with glReadBuffer(GL_NONE) (glx, egl)\n"
            "  --time                 print the median milliseconds per frame on stderr\n"
            "  --bench                read numbers of frames from stdin, draw so many, print the times of each\n",
@@ -234,7 +235,7 @@ static void parse(int argc, char **argv)
         if (!strcmp(o, "--bench")) { bench = 1; continue; }
         if (!strcmp(o, "--help")) { help = 1; continue; }
         static const char *valued[] = {"--api", "--surface", "--frames", "--size", "--view", "--eye-spacing",
-            "--focal-depth", "--hud-depth", "--canvas", "--offset", "--dump", "--samples", NULL};
+            "--focal-depth", "--hud-depth", "--canvas", "--offset", "--dump", "--samples", "--profile", NULL};
         int known = 0;
         for (const char **k = valued; *k; k++)
             known |= !strcmp(o, *k);
@@ -268,6 +269,10 @@ static void parse(int argc, char **argv)
             pair(o, v, ',', &demo_x, &demo_y);
         } else if (!strcmp(o, "--dump")) {
             dump = v;
+        } else if (!strcmp(o, "--profile")) {
+            if (strcmp(v, "core") && strcmp(v, "compatibility"))
+                demo_fail(2, "--profile: core or compatibility, not %s", v);
+            window.core = !strcmp(v, "core");
         } else {
             window.samples = integer(o, v, 0);
         }
@@ -328,10 +333,11 @@ static void write_dump(int frame)
     unsigned char *rgb = malloc((size_t)demo_width * (size_t)demo_height * 3);
     if (!rgb)
         demo_fail(1, "out of memory");
-    glPushClientAttrib(GL_CLIENT_PIXEL_STORE_BIT);
+    GLint alignment; /* not by glPushClientAttrib: there is none in a core context */
+    glGetIntegerv(GL_PACK_ALIGNMENT, &alignment);
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
     glReadPixels(demo_x, demo_y, demo_width, demo_height, GL_RGB, GL_UNSIGNED_BYTE, rgb);
-    glPopClientAttrib();
+    glPixelStorei(GL_PACK_ALIGNMENT, alignment);
     if (demo_write_png(path, demo_width, demo_height, rgb))
         demo_fail(1, "cannot write %s", path);
     free(rgb);

@@ -61,6 +61,18 @@ void demo_box(double x, double y, double z); /* half sizes, around the origin */
 /* A square texture of two colours with mipmaps; returns its name and leaves it bound. */
 GLuint demo_checker(int size, int squares, const GLubyte a[3], const GLubyte b[3]);
 
+/* ---- shaders.c ---- */
+/* A linked program; the attribute `position` is at 0, `normal` at 1. */
+GLuint demo_program(const char *vertex, const char *fragment);
+typedef GLfloat demo_matrix[16]; /* column-major */
+void demo_times(demo_matrix out, const demo_matrix a, const demo_matrix b);
+/* A perspective projection, not yet that of a view. fovy in degrees. */
+void demo_frustum(demo_matrix out, double fovy, double aspect, double z_near, double z_far);
+/* A camera, y upwards, and the way back from what it sees. */
+void demo_look(demo_matrix out, demo_matrix back, const double from[3], const double to[3]);
+/* Turned about (u, v, 0) of length 1, then moved. */
+void demo_turned(demo_matrix out, double angle, double u, double v, double x, double y, double z);
+
 /* ---- png.c ---- */
 /* RGB rows, the lowest first. */
 int demo_write_png(const char *path, int width, int height, const unsigned char *rgb);
@@ -69,6 +81,7 @@ int demo_write_png(const char *path, int width, int height, const unsigned char 
 struct demo_window {
     int width, height; /* the canvas */
     int samples, srgb, accumulation;
+    int core;          /* 1: --profile core, an OpenGL 3.3 core context */
     int pbuffer;       /* 1: --surface pbuffer, 0: --surface window, -1: not said */
     const char *title;
 };

@@ -9,8 +9,8 @@
 #define DLGL_FUNCTIONS(X) \
     X(glBegin) X(glClear) X(glClearColor) X(glDisable) X(glEnable) X(glEnd) X(glFinish) X(glFrustum) X(glGetError) \
     X(glGetFloatv) X(glGetIntegerv) X(glGetString) X(glLightfv) X(glLightModelfv) X(glLoadIdentity) X(glLoadMatrixf) \
-    X(glMaterialf) X(glMaterialfv) X(glMatrixMode) X(glNormal3d) X(glPixelStorei) X(glPopClientAttrib) \
-    X(glPopMatrix) X(glPushClientAttrib) X(glPushMatrix) X(glReadBuffer) X(glReadPixels) X(glRotated) X(glScaled) \
+    X(glMaterialf) X(glMaterialfv) X(glMatrixMode) X(glNormal3d) X(glPixelStorei) \
+    X(glPopMatrix) X(glPushMatrix) X(glReadBuffer) X(glReadPixels) X(glRotated) X(glScaled) \
     X(glScissor) X(glShadeModel) X(glTranslated) X(glVertex3d) X(glViewport) \
     X(glXChooseFBConfig) X(glXChooseVisual) X(glXCreateContext) X(glXDestroyContext) \
     X(glXGetVisualFromFBConfig) X(glXMakeCurrent) X(glXSwapBuffers) X(glXGetProcAddressARB)
@@ -43,9 +43,7 @@ void dlgl_load(void);
 #define glMatrixMode dl_glMatrixMode
 #define glNormal3d dl_glNormal3d
 #define glPixelStorei dl_glPixelStorei
-#define glPopClientAttrib dl_glPopClientAttrib
 #define glPopMatrix dl_glPopMatrix
-#define glPushClientAttrib dl_glPushClientAttrib
 #define glPushMatrix dl_glPushMatrix
 #define glReadBuffer dl_glReadBuffer
 #define glReadPixels dl_glReadPixels

@@ -53,7 +53,9 @@ static void open_surface(struct demo_window *w)
             config = configs[i];
     if (!config)
         demo_fail(1, "no EGL config of this kind");
-    context = eglCreateContext(display, config, EGL_NO_CONTEXT, NULL);
+    const EGLint core[] = {EGL_CONTEXT_MAJOR_VERSION, 3, EGL_CONTEXT_MINOR_VERSION, 3,
+                           EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
+    context = eglCreateContext(display, config, EGL_NO_CONTEXT, w->core ? core : NULL);
     if (!context)
         demo_fail(1, "eglCreateContext failed (0x%x)", eglGetError());
 

@@ -1,4 +1,4 @@
-/* A double-buffered X window with a legacy GLX context. */
+/* A double-buffered X window with a legacy GLX context, or with a core one. */
 #include "x11.h"
 #ifndef DEMO_DLOPEN
 #include <GL/glx.h>
@@ -8,10 +8,11 @@ static Display *display;
 static Window win;
 static GLXContext context;
 
-static XVisualInfo *choose(const struct demo_window *w)
+/* The config is only found where the visual is chosen by it. */
+static XVisualInfo *choose(const struct demo_window *w, GLXFBConfig *config)
 {
     int screen = DefaultScreen(display);
-    if (!w->samples && !w->srgb) {
+    if (!w->samples && !w->srgb && !w->core) {
         int a[] = {GLX_RGBA, GLX_DOUBLEBUFFER, GLX_RED_SIZE, 8, GLX_GREEN_SIZE, 8, GLX_BLUE_SIZE, 8,
                    GLX_DEPTH_SIZE, 24, GLX_STENCIL_SIZE, 8, w->accumulation ? GLX_ACCUM_RED_SIZE : None, 16, None};
         return glXChooseVisual(display, screen, a);
@@ -36,9 +37,18 @@ static XVisualInfo *choose(const struct demo_window *w)
     a[n] = None;
     GLXFBConfig *configs = glXChooseFBConfig(display, screen, a, &count);
     XVisualInfo *visual = count ? glXGetVisualFromFBConfig(display, configs[0]) : NULL;
+    if (count)
+        *config = configs[0];
     if (configs)
         XFree(configs);
     return visual;
+}
+
+static GLXContext core_context(GLXFBConfig config)
+{
+    const int a[] = {GLX_CONTEXT_MAJOR_VERSION_ARB, 3, GLX_CONTEXT_MINOR_VERSION_ARB, 3,
+                     GLX_CONTEXT_PROFILE_MASK_ARB, GLX_CONTEXT_CORE_PROFILE_BIT_ARB, None};
+    return ((PFNGLXCREATECONTEXTATTRIBSARBPROC)demo_proc("glXCreateContextAttribsARB"))(display, config, NULL, True, a);
 }
 
 static void open_window(struct demo_window *w)
@@ -47,12 +57,13 @@ static void open_window(struct demo_window *w)
 #ifdef DEMO_DLOPEN
     dlgl_load();
 #endif
-    XVisualInfo *visual = choose(w);
+    GLXFBConfig config = NULL;
+    XVisualInfo *visual = choose(w, &config);
     if (!visual)
         demo_fail(1, "no GLX visual of this kind");
-    context = glXCreateContext(display, visual, NULL, True);
+    context = w->core ? core_context(config) : glXCreateContext(display, visual, NULL, True);
     if (!context)
-        demo_fail(1, "glXCreateContext failed");
+        demo_fail(1, "%s failed", w->core ? "glXCreateContextAttribsARB" : "glXCreateContext");
     win = x11_window(display, visual, w);
     XFree(visual);
     if (!glXMakeCurrent(display, win, context))

@@ -59,6 +59,37 @@ pub(crate) fn texture(target: u32) {
     }
 }
 
+/// A parameter of a texture is about to be set.
+#[inline]
+pub(crate) fn look() {
+    any();
+    context::peek(|l| l.look_changed());
+}
+
+/// Something is about to be attached to a framebuffer of the program's, or other buffers of it drawn to.
+#[inline]
+pub(crate) fn attached() {
+    ask();
+    context::peek(|l| l.attachments_changed());
+}
+
+/// The renderbuffer that is bound is about to get another store.
+pub(crate) fn storage() {
+    ask();
+    if context::peek(|l| l.has_copies()) == Some(true) {
+        enter(|gl, l| l.storage_changed(gl));
+    }
+}
+
+/// A call that makes the smaller levels of the texture bound at `target`.
+pub(crate) fn mipmap(target: u32, call: &mut dyn FnMut(&'static Real)) {
+    any();
+    call(real());
+    if context::peek(|l| l.has_copies()) == Some(true) {
+        enter(|gl, l| l.mipmaps(gl, target, &mut || call(gl.real())));
+    }
+}
+
 /// A copy of the read framebuffer to the texture bound at `target`, of columns in pixels.
 pub(crate) fn copy(target: u32, x: i32, width: i32, call: &mut dyn FnMut(&'static Real)) {
     let copied = enter(|gl, l| l.copy_texture(gl, target, x, width, &mut || call(gl.real())));
@@ -160,6 +191,12 @@ pub(crate) fn hide<R>(target: u32, call: &mut dyn FnMut(&'static Real) -> R) -> 
     let mut answer = None;
     enter(|gl, l| l.with_true_zero(gl, target, &mut || answer = Some(call(gl.real()))));
     answer.unwrap_or_else(|| call(real()))
+}
+
+/// As [`hide`], of a call that attaches something.
+pub(crate) fn attach<R>(target: u32, call: &mut dyn FnMut(&'static Real) -> R) -> R {
+    context::peek(|l| l.attachments_changed());
+    hide(target, call)
 }
 
 /// Immediate mode.

@@ -214,7 +214,7 @@ impl Accumulation {
         // A pass would be fed back to the program where it selects or feeds back.
         if gl.version() >= (4, 3) {
             let size = self.size.map(|s| s as i32);
-            gl.copy_image(c::TEXTURE_2D_ARRAY, old[0], self.values, size);
+            gl.copy_image(c::TEXTURE_2D_ARRAY, 0, old[0], self.values, size);
         } else {
             for row in 0..rows {
                 let rect = [0, 0, width as i32, height as i32];

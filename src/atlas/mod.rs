@@ -8,6 +8,7 @@ mod names;
 mod shown;
 mod single;
 mod spread;
+mod surface;
 mod tiles;
 
 use depths::Depths;
@@ -16,6 +17,7 @@ pub use grid::Grid;
 pub use names::Names;
 pub use shown::Shown;
 use single::Single;
+pub use surface::Surface;
 pub use tiles::{Limits, Tiles, TilesError};
 
 use crate::gl::{Gl, consts as c};

@@ -2,7 +2,7 @@
 
 use super::current::Current;
 use super::tuned::{Tuned, Units};
-use crate::atlas::{Atlas, Grid, Tiles};
+use crate::atlas::{Atlas, Grid, Surface, Tiles};
 use crate::gl::{Gl, consts as c};
 use crate::plan::{Rig, Shear};
 use crate::state::{Effect, State};
@@ -43,7 +43,7 @@ pub enum Again {
 )]
 pub fn replay(
     gl: &Gl,
-    atlas: &mut Atlas,
+    surface: &mut dyn Surface,
     state: &State,
     rig: &Rig,
     shear: Option<Shear>,
@@ -51,11 +51,11 @@ pub fn replay(
     leaves: bool,
     call: &mut dyn FnMut(u32),
 ) -> bool {
+    let tiles = surface.tiles();
     if again == Again::Clear && !state.scissor_test {
-        let tiles = atlas.tiles;
         for row in (0..tiles.rows).rev().filter(|&row| tiles.draws_row(row)) {
-            atlas.bind_row(gl, row);
-            call(atlas.tiles.own());
+            surface.bind_row(gl, row);
+            call(tiles.own());
         }
         return true;
     }
@@ -73,7 +73,7 @@ pub fn replay(
         && gl.get_integer(c::ATTRIB_STACK_DEPTH) >= gl.get_integer(c::MAX_ATTRIB_STACK_DEPTH)
     {
         if leaves {
-            call(atlas.tiles.own());
+            call(tiles.own());
         }
         return false;
     }
@@ -82,7 +82,6 @@ pub fn replay(
         // still to come does not put them back.
         gl.get_floats::<4>(c::CURRENT_COLOR);
     }
-    let tiles = atlas.tiles;
     let beside = tiles.columns > 1 || !tiles.grid.is_full();
     let own = tiles.own();
     let tuned = Tuned::enter(
@@ -109,7 +108,7 @@ pub fn replay(
         _ => None,
     };
     for view in tiles.order() {
-        let x = atlas.enter(gl, view);
+        let x = surface.enter(gl, view);
         let free = view == own && matches!(again, Again::Anything { rects: true, .. });
         if beside && !free {
             place(gl, state, &tiles, view, x);

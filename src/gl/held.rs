@@ -9,7 +9,7 @@ use serde::Serialize;
 pub enum Held {
     /// A texture.
     Texture,
-    /// A framebuffer object.
+    /// A framebuffer object or a renderbuffer.
     Framebuffer,
     /// A query object.
     Query,

@@ -6,6 +6,7 @@ mod real;
 pub mod api;
 mod buffers;
 pub mod consts;
+mod framebuffers;
 mod held;
 pub mod immediate;
 mod programs;
@@ -16,8 +17,10 @@ mod textures;
 
 pub use api::Gl;
 pub use buffers::Fence;
+pub use framebuffers::{Attachment, Object, Storage};
 pub use held::{Count, Held};
 pub use immediate::{Ends, Recording};
 pub use programs::Active;
 pub use real::{Ptr, Real};
 pub use table::{COUNT, NAMES, slot};
+pub use textures::{Level, is_multisampled};

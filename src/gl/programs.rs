@@ -289,6 +289,17 @@ impl Gl {
         }
     }
 
+    /// The value of a uniform that is one integer, such as the unit of a sampler.
+    pub fn uniform_int(&self, program: u32, location: i32) -> i32 {
+        let mut v = [0i32; 4];
+        // SAFETY: room for the most integers that a location has.
+        unsafe {
+            self.real
+                .glGetUniformiv(program, location, v.as_mut_ptr().cast())
+        };
+        v[0]
+    }
+
     /// The value of a uniform of type GL_FLOAT_MAT4, column-major.
     pub fn uniform_matrix(&self, program: u32, location: i32) -> [f32; 16] {
         let mut v = [0f32; 16];

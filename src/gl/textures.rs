@@ -3,6 +3,41 @@
 use super::consts as c;
 use super::{Gl, Held, Ptr};
 
+/// The store of a level of a texture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Level {
+    /// Width, height, and layers or slices; all levels of an array have as many layers.
+    pub size: [i32; 3],
+    /// Internal format.
+    pub internal: u32,
+    depth: bool,
+    stencil: bool,
+    integer: bool,
+    samples: i32,
+    fixed: bool,
+}
+
+impl Level {
+    /// A format and a type that go with the internal format; nothing is transferred.
+    fn transfer(&self) -> (u32, u32) {
+        match (self.depth, self.stencil, self.integer) {
+            (true, true, _) if self.internal == c::DEPTH32F_STENCIL8 => {
+                (c::DEPTH_STENCIL, c::FLOAT_32_UNSIGNED_INT_24_8_REV)
+            }
+            (true, true, _) => (c::DEPTH_STENCIL, c::UNSIGNED_INT_24_8),
+            (true, false, _) => (c::DEPTH_COMPONENT, c::UNSIGNED_INT),
+            (false, true, _) => (c::STENCIL_INDEX, c::UNSIGNED_BYTE),
+            (false, false, true) => (c::RGBA_INTEGER, c::INT),
+            (false, false, false) => (c::RGBA, c::UNSIGNED_BYTE),
+        }
+    }
+}
+
+/// Whether a texture target has samples, and so nothing that is set by glTexParameter.
+pub fn is_multisampled(target: u32) -> bool {
+    [c::TEXTURE_2D_MULTISAMPLE, c::TEXTURE_2D_MULTISAMPLE_ARRAY].contains(&target)
+}
+
 impl Gl {
     /// glGetTexParameteriv of one value.
     pub fn get_tex_parameter(&self, target: u32, name: u32) -> i32 {
@@ -34,36 +69,128 @@ impl Gl {
         v
     }
 
-    /// glTexImage2D of level 0 without data. No unpack buffer may be bound.
-    pub fn tex_image_2d_empty(&self, target: u32, internal: u32, w: i32, h: i32, depth: bool) {
-        let (format, kind) = if depth {
-            (c::DEPTH_COMPONENT, c::UNSIGNED_INT)
-        } else {
-            (c::RGBA, c::UNSIGNED_BYTE)
+    /// What a level of the texture bound at a target is, if there is one; of a cube map its first face.
+    pub fn tex_level(&self, target: u32, level: i32) -> Option<Level> {
+        let plane = match target {
+            c::TEXTURE_CUBE_MAP => c::TEXTURE_CUBE_MAP_POSITIVE_X,
+            other => other,
         };
-        // SAFETY: no data is read.
+        let ask = |name| self.get_tex_level_parameter(plane, level, name);
+        let size = [c::TEXTURE_WIDTH, c::TEXTURE_HEIGHT, c::TEXTURE_DEPTH].map(ask);
+        if size[0] <= 0 {
+            return None;
+        }
+        let sampled = self.version() >= (3, 2) && is_multisampled(target);
+        Some(Level {
+            size,
+            internal: ask(c::TEXTURE_INTERNAL_FORMAT) as u32,
+            depth: ask(c::TEXTURE_DEPTH_SIZE) > 0,
+            stencil: self.version() >= (3, 0) && ask(c::TEXTURE_STENCIL_SIZE) > 0,
+            integer: self.version() >= (3, 0)
+                && [c::INT, c::UNSIGNED_INT].contains(&(ask(c::TEXTURE_RED_TYPE) as u32)),
+            samples: if sampled { ask(c::TEXTURE_SAMPLES) } else { 0 },
+            fixed: sampled && ask(c::TEXTURE_FIXED_SAMPLE_LOCATIONS) != 0,
+        })
+    }
+
+    /// glTexImage* of a level of the texture bound at a target, without data. No unpack buffer may be bound.
+    pub fn tex_level_empty(&self, target: u32, level: i32, like: &Level) {
+        let (format, kind) = like.transfer();
+        let (internal, [w, h, d]) = (like.internal as i32, like.size);
+        let real = self.real;
+        let plane = |plane: u32| {
+            // SAFETY: no data is read.
+            unsafe {
+                real.glTexImage2D(
+                    plane,
+                    level,
+                    internal,
+                    w,
+                    h,
+                    0,
+                    format,
+                    kind,
+                    core::ptr::null_mut(),
+                )
+            }
+        };
+        let none = core::ptr::null_mut();
+        match target {
+            c::TEXTURE_CUBE_MAP => (0..6).for_each(|f| plane(c::TEXTURE_CUBE_MAP_POSITIVE_X + f)),
+            // SAFETY: as above.
+            c::TEXTURE_1D => unsafe {
+                real.glTexImage1D(target, level, internal, w, 0, format, kind, none)
+            },
+            c::TEXTURE_3D | c::TEXTURE_2D_ARRAY | c::TEXTURE_CUBE_MAP_ARRAY => {
+                // SAFETY: as above.
+                unsafe {
+                    real.glTexImage3D(target, level, internal, w, h, d, 0, format, kind, none)
+                }
+            }
+            c::TEXTURE_2D_MULTISAMPLE => {
+                let fixed = u8::from(like.fixed);
+                // SAFETY: no pointers.
+                unsafe {
+                    real.glTexImage2DMultisample(target, like.samples, like.internal, w, h, fixed)
+                }
+            }
+            c::TEXTURE_2D_MULTISAMPLE_ARRAY => {
+                let fixed = u8::from(like.fixed);
+                self.tex_image_3d_multisample(target, like.samples, like.internal, w, h, d, fixed);
+            }
+            _ => plane(target),
+        }
+    }
+
+    /// glTexImage2D of level 0 of RGBA8 without data. No unpack buffer may be bound.
+    pub fn tex_image_rgba8_empty(&self, target: u32, w: i32, h: i32) {
+        let level = Level {
+            size: [w, h, 1],
+            internal: c::RGBA8,
+            depth: false,
+            stencil: false,
+            integer: false,
+            samples: 0,
+            fixed: false,
+        };
+        self.tex_level_empty(target, 0, &level);
+    }
+
+    /// glCopyImageSubData of a whole level: width, height and layers. `target` is GL_RENDERBUFFER for those.
+    pub fn copy_image(&self, target: u32, level: i32, from: u32, to: u32, [w, h, d]: [i32; 3]) {
+        // SAFETY: no pointers.
         unsafe {
-            self.real.glTexImage2D(
-                target,
-                0,
-                internal as i32,
-                w,
-                h,
-                0,
-                format,
-                kind,
-                core::ptr::null_mut(),
+            self.real.glCopyImageSubData(
+                from, target, level, 0, 0, 0, to, target, level, 0, 0, 0, w, h, d,
             )
         };
     }
 
-    /// glCopyImageSubData of the whole level 0: width, height and layers.
-    pub fn copy_image(&self, target: u32, from: u32, to: u32, [w, h, d]: [i32; 3]) {
-        // SAFETY: no pointers.
+    /// glGetTexParameterfv of GL_TEXTURE_BORDER_COLOR.
+    pub fn border_color(&self, target: u32) -> [f32; 4] {
+        let mut v = [0f32; 4];
+        let p = v.as_mut_ptr().cast();
+        // SAFETY: room for 4 values.
         unsafe {
             self.real
-                .glCopyImageSubData(from, target, 0, 0, 0, 0, to, target, 0, 0, 0, 0, w, h, d)
+                .glGetTexParameterfv(target, c::TEXTURE_BORDER_COLOR, p)
         };
+        v
+    }
+
+    /// glTexParameterfv of GL_TEXTURE_BORDER_COLOR.
+    pub fn set_border_color(&self, target: u32, v: &[f32; 4]) {
+        // SAFETY: 4 values.
+        unsafe {
+            self.real
+                .glTexParameterfv(target, c::TEXTURE_BORDER_COLOR, v.as_ptr() as Ptr)
+        };
+    }
+
+    /// glGenerateMipmap
+    pub fn generate_mipmap(&self, target: u32) {
+        // SAFETY: no pointers.
+        unsafe { self.real.glGenerateMipmap(target) };
     }
 
     /// glGetTexGeniv of one value; `coord` is GL_S to GL_Q.

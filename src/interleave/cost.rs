@@ -150,7 +150,7 @@ impl Plain {
         let framebuffer = gl.gen_framebuffer();
         gl.bind_framebuffer(c::FRAMEBUFFER, framebuffer);
         gl.bind_texture(c::TEXTURE_2D, texture);
-        gl.tex_image_2d_empty(c::TEXTURE_2D, c::RGBA8, width as i32, height as i32, false);
+        gl.tex_image_rgba8_empty(c::TEXTURE_2D, width as i32, height as i32);
         for (p, v) in [
             (c::TEXTURE_MIN_FILTER, c::NEAREST),
             (c::TEXTURE_MAG_FILTER, c::NEAREST),

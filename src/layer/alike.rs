@@ -46,7 +46,7 @@ impl Layer {
 
     /// Before a draw that is planned.
     pub(super) fn keep_alike(&mut self, gl: &Gl, kind: Kind, plan: &Plan) {
-        if plan.method == Method::Once {
+        if plan.method == Method::Once || !self.state.draws_to_window() {
             return;
         }
         if let Kind::Clear { whole, .. } = kind {
@@ -54,7 +54,12 @@ impl Layer {
         }
         // The raster position stands for a point of the scene.
         let placed = kind == Kind::Pixels && self.raster.is_some();
-        if plan.shear.is_some() || placed || kind == Kind::Accum || self.has_copies() {
+        if plan.shear.is_some()
+            || placed
+            || matches!(kind, Kind::Accum)
+            || !self.sampled.is_empty()
+            || (kind == Kind::List && self.has_copies())
+        {
             self.differ(gl, kind == Kind::List);
         }
     }

@@ -23,7 +23,8 @@ pub(super) struct Frame {
 impl Layer {
     /// Classes the draw that is about to be made; [`crate::state::State::refresh`] has been called.
     pub(super) fn classify(&mut self, gl: &Gl, kind: Kind) -> (Facts, Classed) {
-        let shown = self.state.draws_to_window();
+        let target = self.target(gl);
+        let shown = matches!(target, Target::Window | Target::Pass(_));
         let clear = matches!(kind, Kind::Clear { .. } | Kind::Accum);
         if clear && shown {
             self.frame.deep = false;
@@ -46,6 +47,7 @@ impl Layer {
             }
         }
         let facts = Facts {
+            target,
             draw: self.frame.draws,
             list: self.frame.list,
             raster: self.raster_placed,
@@ -53,7 +55,6 @@ impl Layer {
             ..Facts::of(kind, &self.state)
         };
         let classed = self.classifier.class(&facts);
-        debug_assert!(shown || facts.target != Target::Window);
         (facts, classed)
     }
 

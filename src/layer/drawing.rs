@@ -1,10 +1,12 @@
 //! A draw call of the program: refresh, plan, execute, count.
 
 use super::Layer;
+use crate::atlas::Surface;
 use crate::config::{Class, Output, Projection, Strategy, Word};
 use crate::draw::{Again, Amplified, FixedState, Programs, replay};
 use crate::gl::Gl;
 use crate::gl::api::Indices;
+use crate::offscreen;
 use crate::plan::{Kind, Method, Plan, Ramp, Shear, plan};
 use crate::state::{Command, Run, Touch};
 
@@ -213,7 +215,7 @@ impl Layer {
         self.keep_together(gl);
         let plan = plan(kind, &self.state, &self.rig, &self.means, &classed);
         let plan = self.plan_shaders(gl, kind, &classed, plan);
-        let plan = self.uncopied(gl, self.uncounted(plan));
+        let plan = self.follow(gl, kind, self.uncounted(plan));
         self.keep_alike(gl, kind, &plan);
         self.explain_this(&facts, &classed);
         self.prove_this(gl, &facts, &plan);
@@ -254,12 +256,16 @@ impl Layer {
             return self.replay_by(gl, plan.shear, again, call);
         }
         let mut twins = std::mem::take(&mut self.twins);
-        let (program, rig, tiles) = (self.state.program, self.rig, self.atlas.tiles);
+        let (program, rig) = (self.state.program, self.rig);
+        let stride = match self.state.framebuffers.draw {
+            0 => self.atlas.tiles.stride,
+            _ => offscreen::STRIDE,
+        };
         let shifts = (plan.shear, plan.flat);
         match twins.enter(gl, program) {
             Some(twin) => {
                 self.replay_by(gl, None, again, &mut |view| {
-                    twin.place(gl, shifts, rig.place(view), tiles.stride);
+                    twin.place(gl, shifts, rig.place(view), stride);
                     call(view);
                 });
                 gl.use_program(program);
@@ -279,13 +285,20 @@ impl Layer {
     ) {
         self.prove(gl, shear, again, call);
         // Of what queries count, only the own view is counted.
-        let bound = self.copies.bound(gl);
+        let bound = std::mem::take(&mut self.sampled);
+        let shown = self.wanted_views();
+        let framebuffer = self.state.framebuffers.draw;
+        let mut target = self.offscreen.take(framebuffer, shown);
+        let surface: &mut dyn Surface = match &mut target {
+            Some(target) => target,
+            None => &mut self.atlas,
+        };
         let mut queries = std::mem::take(&mut self.queries);
-        let (own, mut paused) = (self.atlas.tiles.own(), true);
+        let (own, mut paused) = (surface.tiles().own(), true);
         queries.pause(gl);
         let sent = replay(
             gl,
-            &mut self.atlas,
+            surface,
             &self.state,
             &self.rig,
             shear,
@@ -295,11 +308,15 @@ impl Layer {
                 if view == own && std::mem::take(&mut paused) {
                     queries.resume(gl);
                 }
-                self.copies.bind(gl, &bound, view);
+                self.offscreen.bind(gl, &bound, view);
                 call(view);
             },
         );
         self.queries = queries;
+        self.sampled = bound;
+        if let Some(target) = target {
+            self.offscreen.put(target);
+        }
         if !sent {
             self.alike.lose();
             self.report.note(

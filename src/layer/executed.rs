@@ -43,7 +43,7 @@ impl Layer {
             return;
         };
         let after = Current::take(gl, Effect::ALL, true);
-        let bound = self.copies.bound(gl);
+        let bound = self.offscreen.bound(gl);
         if own.everywhere {
             self.queries.pause(gl);
         }
@@ -56,12 +56,12 @@ impl Layer {
             own.everywhere,
             &mut |view| {
                 own.before.put(gl);
-                self.copies.bind(gl, &bound, view);
+                self.offscreen.bind(gl, &bound, view);
                 gl.call_list(name);
             },
         );
         if own.everywhere {
-            self.copies.bind(gl, &bound, self.atlas.tiles.own());
+            self.offscreen.bind(gl, &bound, self.atlas.tiles.own());
             after.put(gl);
             self.queries.resume(gl);
         }

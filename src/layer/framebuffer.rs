@@ -126,6 +126,7 @@ impl Layer {
         if read {
             f.read = 0;
         }
+        self.offscreen.forget_targets(gl, names);
         self.bind_draw(gl, draw, read);
     }
 
@@ -381,7 +382,7 @@ impl Layer {
         }
     }
 
-    fn unscissored<T>(&mut self, gl: &Gl, work: impl FnOnce(&mut Self) -> T) -> T {
+    pub(super) fn unscissored<T>(&mut self, gl: &Gl, work: impl FnOnce(&mut Self) -> T) -> T {
         if self.state.scissor_test {
             gl.disable(c::SCISSOR_TEST);
         }
@@ -434,73 +435,6 @@ impl Layer {
             });
         }
         self.bind_draw(gl, true, true);
-    }
-
-    /// glBlitFramebuffer: into every view's tile where it draws to framebuffer 0; from the same view's tile where it also reads
-    /// from there. `blit` takes the x offsets of source and destination in pixels; `scaled`: their sizes differ.
-    pub fn blit(&mut self, gl: &Gl, scaled: bool, blit: &mut dyn FnMut(i32, i32)) {
-        if self.compiles() {
-            self.compile(gl, Command::Of(Run::Blit), Touch::NONE);
-            return blit(0, 0);
-        }
-        let (draw, read) = (self.draws_to_zero(), self.reads_from_zero());
-        if !draw {
-            if read {
-                return self.read(gl, 0, 0, &mut || blit(0, 0));
-            }
-            return blit(0, 0);
-        }
-        self.state.refresh(gl);
-        self.hold_everything(gl, "copies pictures into the window");
-        self.proving.stop_search();
-        self.in_proof(gl, |layer| layer.blit_views(gl, scaled, blit));
-        self.blit_views(gl, scaled, blit);
-    }
-
-    fn blit_views(&mut self, gl: &Gl, scaled: bool, blit: &mut dyn FnMut(i32, i32)) {
-        let read = self.reads_from_zero();
-        let images = self.state.framebuffers.draw_images();
-        let single = match images[..] {
-            [image] if image != c::NONE => Some(image),
-            _ => None,
-        };
-        let beside = self.atlas.tiles.columns > 1 && !self.atlas.multisampled();
-        let single = single.filter(|_| scaled && beside);
-        for view in self.atlas.tiles.order() {
-            if let Some(image) = single {
-                self.scaled_blit(gl, view, (image, read), blit);
-                continue;
-            }
-            let x = self.atlas.enter(gl, view);
-            if read {
-                let (from, _) = self.atlas.target(view);
-                gl.bind_framebuffer(c::READ_FRAMEBUFFER, from);
-            }
-            self.scissored(gl, view, x, &mut || blit(if read { x } else { 0 }, x));
-        }
-        self.rebind(gl);
-    }
-
-    /// Where pixels lie between others, the nearest is a matter of rounding, and that is the window's only in a framebuffer of its
-    /// size.
-    fn scaled_blit(
-        &mut self,
-        gl: &Gl,
-        view: u32,
-        (image, read): (u32, bool),
-        blit: &mut dyn FnMut(i32, i32),
-    ) {
-        self.make_singles(gl, true);
-        let from = self.state.framebuffers.read_image();
-        let staged = self.unscissored(gl, |layer| layer.atlas.stage(gl, view, image, from));
-        if read {
-            self.take_single(gl, view);
-            gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, staged);
-        } else {
-            gl.bind_framebuffer(c::READ_FRAMEBUFFER, self.state.framebuffers.read);
-        }
-        blit(0, 0);
-        self.unscissored(gl, |layer| layer.atlas.unstage(gl, view));
     }
 
     /// Runs a call with the scissor cut to a tile, where tiles lie beside each other.

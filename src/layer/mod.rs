@@ -4,6 +4,7 @@
 mod accumulate;
 mod alike;
 mod auto;
+mod blits;
 mod classing;
 mod comfort;
 mod control;
@@ -16,7 +17,9 @@ mod frame;
 mod framebuffer;
 mod frames;
 mod immediate;
+mod left;
 mod lists;
+mod passes;
 mod programs;
 mod prove;
 mod queries;
@@ -33,8 +36,9 @@ use crate::atlas::{Atlas, AtlasError, Grid, Names, Tiles};
 use crate::config::{AtlasLayout, Config, Live, Projection, Saving, Strategy, profile};
 use crate::display::{Display, Placement};
 use crate::draw::{Driver, FixedState, Programs};
-use crate::gl::{Count, Ends, Gl, Held, Recording, consts as c};
+use crate::gl::{Count, Ends, Gl, Recording, consts as c};
 use crate::interleave::Interleaver;
+use crate::offscreen::{Bound, Offscreen};
 use crate::plan::{Classifier, Means, Reason, Rig, Shear};
 use crate::present::Saved;
 use crate::report::{Counts, Proof, Report};
@@ -82,7 +86,13 @@ pub struct Layer {
     raster_placed: Projection,
     pushed: Vec<framebuffer::Pushed>,
     queries: queries::Queries,
-    copies: copies::Copies,
+    offscreen: Offscreen,
+    /// What the draw samples that is being made, as far as the views differ in it.
+    sampled: Vec<Bound>,
+    /// The program, and the changes of uniforms and images, up to which that is known.
+    sampled_by: Option<(u32, u64, u64)>,
+    /// A of the camera that the window is drawn with, for telling it from a lamp's.
+    lens: Option<f64>,
     executed: Option<executed::Own>,
     accumulated: accumulate::Accumulated,
     recording: Recording,
@@ -175,7 +185,7 @@ impl Layer {
         if let Some(note) = interleaver.note() {
             report.note(note);
         }
-        sweep(gl, &lists);
+        left::sweep(gl, &lists);
         let live = Live::new(config);
         let detail = if support.viewports {
             sampling::Detail::Lenses
@@ -218,7 +228,10 @@ impl Layer {
             raster_placed: Projection::None,
             pushed: Vec::new(),
             queries: queries::Queries::default(),
-            copies: copies::Copies::new(gl, support.compatibility),
+            offscreen: Offscreen::new(gl, config.views, support.compatibility),
+            sampled: Vec::new(),
+            sampled_by: None,
+            lens: None,
             executed: None,
             on_screen: None,
             accumulated: accumulate::Accumulated::default(),
@@ -300,7 +313,7 @@ impl Layer {
         name != 0
             && (self.atlases().any(|atlas| atlas.owns(name))
                 || self.interleaver.texture() == name
-                || self.copies.owns(name)
+                || self.offscreen.owns_texture(name)
                 || self
                     .accumulated
                     .buffer
@@ -315,6 +328,7 @@ impl Layer {
             && (self
                 .atlases()
                 .any(|atlas| atlas.framebuffers().any(|t| t == name))
+                || self.offscreen.owns_framebuffer(name)
                 || accumulation.is_some_and(|a| a.framebuffer() == name))
     }
 
@@ -338,7 +352,7 @@ impl Layer {
     fn move_names(&mut self, gl: &Gl) {
         self.names.hide();
         self.drop_proof(gl);
-        self.copies.clear(gl);
+        self.offscreen.clear(gl);
         let note = if self.remake(gl) {
             "the program numbers its textures itself; ours moved out of its way"
         } else {
@@ -423,30 +437,6 @@ impl Layer {
         (self.state.window.width, self.state.window.height)
     }
 
-    /// The context is destroyed: what its share group keeps is left to the others.
-    pub fn leave(mut self) {
-        let mut lists = self.lists.lock().unwrap_or_else(PoisonError::into_inner);
-        let mask = Some(self.interleaver.texture()).filter(|&t| t != 0);
-        for atlas in self.atlases() {
-            lists.left.framebuffers.extend(atlas.framebuffers());
-        }
-        let textures = self.atlases().flat_map(|atlas| atlas.textures());
-        let textures = textures.copied();
-        let textures = textures.chain(mask).chain(self.copies.ours());
-        lists.left.textures.extend(textures);
-        let (buffer, fence) = self.atlas.give_buffer();
-        lists.left.buffers.extend(buffer);
-        lists.left.fences.extend(fence);
-        let programs = self.interleaver.programs().chain(self.programs.names());
-        let programs = programs.chain(self.twins.names());
-        lists.left.programs.extend(programs);
-        if let Some(accumulation) = &self.accumulated.buffer {
-            lists.left.framebuffers.push(accumulation.framebuffer());
-            lists.left.textures.extend(accumulation.textures());
-            lists.left.programs.extend(accumulation.programs());
-        }
-    }
-
     /// The layer gives up: the program gets its own framebuffer 0 back.
     pub fn abandon(&mut self, gl: &Gl) {
         for (target, bound) in [
@@ -468,50 +458,6 @@ impl Layer {
             self.report.error();
         }
     }
-}
-
-/// Deletes what destroyed contexts of the share group have left.
-fn sweep(gl: &Gl, lists: &SharedLists) {
-    let left = {
-        let mut lists = lists.lock().unwrap_or_else(PoisonError::into_inner);
-        std::mem::take(&mut lists.left)
-    };
-    if !left.framebuffers.is_empty() {
-        let bound = gl.get_integer(c::DRAW_FRAMEBUFFER_BINDING) as u32;
-        for framebuffer in left.framebuffers {
-            // Where the driver does not share them the name may be the program's by now.
-            if is_attached(gl, framebuffer, &left.textures) {
-                Held::Framebuffer.count(1);
-                gl.delete_framebuffer(framebuffer);
-            }
-        }
-        gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, bound);
-    }
-    // Counted with the context that has made them, which is no more.
-    for texture in left.textures {
-        Held::Texture.count(1);
-        gl.delete_texture(texture);
-    }
-    for buffer in left.buffers {
-        Held::Buffer.count(1);
-        gl.delete_buffer(buffer);
-    }
-    left.fences.into_iter().for_each(|f| gl.delete_fence(f));
-    for program in left.programs {
-        Held::Shader.count(1);
-        gl.delete_program(program);
-    }
-}
-
-/// Whether a framebuffer object has one of these textures as its first colour. Changes the draw framebuffer.
-fn is_attached(gl: &Gl, framebuffer: u32, textures: &[u32]) -> bool {
-    if gl.is_framebuffer(framebuffer) == 0 {
-        return false;
-    }
-    gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, framebuffer);
-    let ask = |name| gl.attachment_parameter(c::COLOR_ATTACHMENT0, name) as u32;
-    ask(c::FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE) == c::TEXTURE
-        && textures.contains(&ask(c::FRAMEBUFFER_ATTACHMENT_OBJECT_NAME))
 }
 
 /// Where the views lie. The strategies that draw all views at once take layers wherever the driver can choose one in a shader,

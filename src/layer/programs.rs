@@ -5,7 +5,7 @@ use crate::config::Class;
 use crate::draw::{Drawn, NoTwin, Twin, drawn};
 use crate::gl::{Gl, Held, consts as c};
 use crate::plan::{Classed, Kind, Method, Plan, camera};
-use crate::state::{Matrices, Shaders, texts, uniform_change};
+use crate::state::{Matrices, Samplers, Shaders, texts, uniform_change};
 use std::collections::HashMap;
 use std::sync::PoisonError;
 
@@ -26,8 +26,11 @@ struct Known {
     link: u64,
     how: Result<Drawn, NoTwin>,
     matrices: Matrices,
-    /// The last one that was among them.
-    camera: Option<[f32; 16]>,
+    samplers: Samplers,
+    /// Their units, and the changes of uniforms up to which they are known.
+    units: (u64, Vec<(u32, u32)>),
+    /// The last one that was among them, and which of them it was in.
+    camera: Option<(usize, [f32; 16])>,
     /// The changes of uniforms up to which its camera was looked for, and its values follow.
     seen: u64,
     followed: u64,
@@ -145,6 +148,10 @@ impl Layer {
         };
         let camera = camera.or(self.twins.camera);
         let Some(camera) = camera else {
+            // Menus and what else is flat needs none.
+            if !gl.is_enabled(c::DEPTH_TEST) {
+                return plan;
+            }
             self.report.note(
                 "no camera was found in the matrices of some of the program's shaders: what they draw is the same in all views".into(),
             );
@@ -168,7 +175,8 @@ impl Layer {
 
     /// The camera that a program with a twin has, where it has one; none for other programs.
     #[allow(clippy::option_option, reason = "a twin, and a camera")]
-    fn camera_of(&mut self, gl: &Gl, program: u32) -> Option<Option<[f32; 16]>> {
+    pub(super) fn camera_of(&mut self, gl: &Gl, program: u32) -> Option<Option<[f32; 16]>> {
+        let aspect = self.aspect();
         let Some(Known {
             how: Ok(Drawn::ByTwin(_)),
             matrices,
@@ -181,23 +189,47 @@ impl Layer {
         };
         let change = uniform_change();
         let changed = std::mem::replace(seen, change) != change;
+        // The one that it was in has mostly only moved.
+        let mut lost = camera.is_none();
+        if let (true, Some((at, found))) = (changed, *camera) {
+            match matrices.value(gl, program, at) {
+                Some(now) => match camera::equivalent(&now) {
+                    Some(now) => *camera = Some((at, now)),
+                    None => lost = true,
+                },
+                None => *camera = Some((at, found)),
+            }
+        }
         // Buffers are read until a camera is found. One that is mapped is not to be read, and raises an error.
         let reads = camera.is_none() && matrices.has_blocks();
-        if reads {
-            self.state.keep_errors(gl);
+        if lost && (changed || reads) {
+            if reads {
+                self.state.keep_errors(gl);
+            }
+            *camera = camera::among(&matrices.values(gl, program, reads), aspect).or(*camera);
         }
-        if changed || reads {
-            *camera = camera::among(&matrices.values(gl, program, reads)).or(*camera);
-        }
-        let camera = *camera;
+        let camera = camera.map(|(_, camera)| camera);
         if reads {
             self.drain_own_errors(gl);
         }
         Some(camera)
     }
 
+    /// The texture units that a program samples, counted from 0, with the targets.
+    pub(super) fn units_of(&mut self, gl: &Gl, program: u32) -> Vec<(u32, u32)> {
+        self.know(gl, program);
+        let Some(known) = self.twins.known.get_mut(&program) else {
+            return Vec::new();
+        };
+        let change = uniform_change();
+        if known.units.0 != change {
+            known.units = (change, known.samplers.units(gl, program));
+        }
+        known.units.1.clone()
+    }
+
     /// Learns how a program is drawn, once for each of its links.
-    fn know(&mut self, gl: &Gl, program: u32) {
+    pub(super) fn know(&mut self, gl: &Gl, program: u32) {
         let linked = self.shaders(|shaders| shaders.of(program));
         let link = linked.as_ref().map_or(0, |(link, _)| *link);
         if self
@@ -214,6 +246,7 @@ impl Layer {
             None => Err(NoTwin::NoText),
         };
         let matrices = Matrices::of(gl, program);
+        let samplers = Samplers::of(gl, program);
         self.drain_own_errors(gl);
         match &how {
             Ok(Drawn::ByTwin(_)) => {
@@ -229,6 +262,8 @@ impl Layer {
             link,
             how,
             matrices,
+            samplers,
+            units: (0, Vec::new()),
             camera: None,
             seen: 0,
             followed: 0,

@@ -209,7 +209,10 @@ impl Layer {
         if !self.proving.proves() {
             return;
         }
-        if !self.copies.bound(gl).is_empty() {
+        if !self.state.draws_to_window() {
+            return;
+        }
+        if !self.sampled.is_empty() {
             return self.proving.refuse(COPIES);
         }
         let mut sent = true;

@@ -161,10 +161,15 @@ impl Layer {
 
     /// The views that the next frame is drawn in.
     pub(super) fn shown(&self) -> Shown {
-        let captured = self.config.capture.as_ref().map(|capture| capture.what);
         if self.rests() {
             return [].into_iter().collect();
         }
+        self.wanted_views()
+    }
+
+    /// The views that have to be drawn where they are not all the same.
+    pub(super) fn wanted_views(&self) -> Shown {
+        let captured = self.config.capture.as_ref().map(|capture| capture.what);
         // What is proved is compared view by view.
         if self.undrawn
             || self.config.without.has(Saving::Unseen)

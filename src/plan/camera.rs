@@ -6,22 +6,22 @@ use glam::DVec4;
 /// times the place of a model as well: what clip-space w is per unit of the matrix's own space does not matter, since w is the depth.
 /// None where `m` has no perspective, or no near distance.
 ///
-/// A is what row 0 has at a right angle to row 3, per unit of row 3; near and far are w where z is −w and w, seen along the direction
+/// A is what row 0 has at a right angle to row 3, per unit of row 3, and so for the other axis with row 1; near and far are w where z is −w and w, seen along the direction
 /// in which w grows. Infinite and reversed depths are the same with their ends swapped.
 pub fn equivalent(m: &[f32; 16]) -> Option<[f32; 16]> {
     let row = |r: usize| {
         let at = |column: usize| m.get(4 * column + r).copied().map_or(0.0, f64::from);
         DVec4::new(at(0), at(1), at(2), at(3))
     };
-    let (row0, row2, row3) = (row(0), row(2), row(3));
+    let (row0, row1, row2, row3) = (row(0), row(1), row(2), row(3));
     let direction = row3.truncate();
     let scale = direction.length();
     // A w that is a constant but for rounding has no perspective.
-    let size = row0.truncate().length().max(row(1).truncate().length());
+    let size = row0.truncate().length().max(row1.truncate().length());
     if !m.iter().all(|v| v.is_finite()) || scale <= 1e-6 * size || size == 0.0 {
         return None;
     }
-    let a = row0.truncate().reject_from(direction).length() / scale;
+    let [a, b] = [row0, row1].map(|r| r.truncate().reject_from(direction).length() / scale);
     let along = row2.truncate().dot(direction / scale);
     // t along the direction: w = scale·t + row3.w, z = along·t + row2.w.
     let w_where = |sign: f64| {
@@ -51,7 +51,7 @@ pub fn equivalent(m: &[f32; 16]) -> Option<[f32; 16]> {
         (-1.0, -2.0 * near)
     };
     let mut p = [0.0f32; 16];
-    for (at, value) in [(0, a), (5, a), (10, c), (11, -1.0), (14, d)] {
+    for (at, value) in [(0, a), (5, b), (10, c), (11, -1.0), (14, d)] {
         if let Some(p) = p.get_mut(at) {
             *p = value as f32;
         }
@@ -59,10 +59,24 @@ pub fn equivalent(m: &[f32; 16]) -> Option<[f32; 16]> {
     Some(p)
 }
 
-/// The camera among a program's matrices, as [`equivalent`] has it: that of a projection alone, else of the first one with a perspective.
-pub fn among(matrices: &[[f32; 16]]) -> Option<[f32; 16]> {
-    let alone = matrices.iter().filter(|m| is_projection(m));
-    alone.chain(matrices).find_map(equivalent)
+/// The camera among a program's matrices, as [`equivalent`] has it, and which one it is in. Programs have those of lamps, too: one with the
+/// `aspect` of the window (width over height) goes first, then a projection alone, then the first one with a perspective.
+pub fn among(matrices: &[[f32; 16]], aspect: f64) -> Option<(usize, [f32; 16])> {
+    let all = matrices.iter().enumerate();
+    let cameras = all.filter_map(|(at, m)| {
+        let camera = equivalent(m)?;
+        let rank = (!fits(&camera, aspect), !is_projection(m), at);
+        Some((rank, (at, camera)))
+    });
+    cameras
+        .min_by_key(|(rank, _)| *rank)
+        .map(|(_, found)| found)
+}
+
+/// Whether a camera that [`equivalent`] has found has the aspect of a picture, width over height, within a hundredth.
+pub fn fits(camera: &[f32; 16], aspect: f64) -> bool {
+    let own = f64::from(camera[5]) / f64::from(camera[0]);
+    (own - aspect).abs() <= 0.01 * aspect
 }
 
 /// Whether a matrix looks like a projection alone: nothing but that has −1 or 1 for the whole of row 3.
@@ -138,10 +152,18 @@ mod tests {
             finite(1.4, 0.25, 80.0).to_cols_array(),
         );
         let flat = Mat4::IDENTITY.to_cols_array();
-        let a = |matrices: &[[f32; 16]]| among(matrices).map(|p| p[0]);
-        assert_eq!(a(&[flat, mixed, alone]), Some(1.4));
-        assert_eq!(a(&[flat, mixed]), Some(9.0));
+        let a = |matrices: &[[f32; 16]]| among(matrices, 1.0).map(|(at, p)| (at, p[0]));
+        assert_eq!(a(&[flat, mixed, alone]), Some((2, 1.4)));
+        assert_eq!(a(&[flat, mixed]), Some((1, 9.0)));
         assert_eq!(a(&[flat]), None);
+        // What has the shape of the window goes before all others.
+        let mut wide = alone;
+        wide[0] /= 1.6;
+        let a = |matrices: &[[f32; 16]]| among(matrices, 1.6).map(|(at, _)| at);
+        assert_eq!(a(&[mixed, alone, wide]), Some(2));
+        let far = Mat4::from_translation(Vec3::new(4.0, 0.0, -9.0));
+        let moved = (Mat4::from_cols_array(&wide) * far).to_cols_array();
+        assert_eq!(a(&[mixed, alone, moved]), Some(2));
     }
 
     #[test]

@@ -43,7 +43,9 @@ pub struct Facts {
 pub enum Target {
     /// The window.
     Window,
-    /// A framebuffer of the program's.
+    /// A framebuffer of the program's that shows what the window shall, or a part of it.
+    Pass(u32),
+    /// Another framebuffer of the program's.
     Framebuffer(u32),
     /// No picture: a list that is compiled, selection, feedback.
     Nothing,
@@ -184,7 +186,7 @@ impl Classifier {
             why,
         };
         match facts.target {
-            Target::Window => {}
+            Target::Window | Target::Pass(_) => {}
             Target::Framebuffer(name) => {
                 return classed(Class::OffScreen, Why::Framebuffer(name));
             }

@@ -12,7 +12,9 @@ pub use effect::{Effect, Immediate};
 pub use framebuffer::{BACK, FRONT, Framebuffers, Window};
 pub use lists::{Body, Command, Compiling, Left, Lists, Run, Segment, Start};
 pub use look::Look;
-pub use shaders::{Linked, Matrices, Shaders, Text, texts, uniform_change, uniform_changes};
+pub use shaders::{
+    Linked, Matrices, Samplers, Shaders, Text, texts, uniform_change, uniform_changes,
+};
 
 use crate::gl::{Gl, consts as c};
 
@@ -41,6 +43,8 @@ impl Touch {
     pub const DEPTH: Touch = Touch(1 << 9);
     /// The 2D texture of the active unit.
     pub const TEXTURE: Touch = Touch(1 << 10);
+    /// What is bound to any texture unit; stale whenever [`Touch::TEXTURE`] is.
+    pub const UNITS: Touch = Touch(1 << 13);
     /// The modelview matrix.
     pub const MODELVIEW: Touch = Touch(1 << 11);
     /// The depth range.
@@ -169,6 +173,9 @@ impl State {
                     _ => Touch::FIXED,
                 };
         }
+        if groups.has(Touch::TEXTURE) {
+            groups = groups | Touch::UNITS;
+        }
         self.touched = self.touched | groups;
     }
 
@@ -213,9 +220,11 @@ impl State {
 
     /// Whether a draw now lands in framebuffer 0 as picture: not in a list, a selection, a feedback or an own framebuffer.
     pub fn draws_to_window(&self) -> bool {
-        self.framebuffers.draw == 0
-            && self.list.is_none()
-            && self.render_mode == c::RENDER
-            && !self.transform_feedback
+        self.framebuffers.draw == 0 && self.makes_pictures()
+    }
+
+    /// Whether a draw now makes a picture, wherever.
+    pub fn makes_pictures(&self) -> bool {
+        self.list.is_none() && self.render_mode == c::RENDER && !self.transform_feedback
     }
 }

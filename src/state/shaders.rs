@@ -3,6 +3,7 @@
 use crate::gl::{Gl, consts as c};
 use crate::rewrite::Stage;
 use std::collections::HashMap;
+use std::ffi::CString;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -105,7 +106,13 @@ impl Matrices {
         !self.in_blocks.is_empty()
     }
 
-    /// What they are now, column-major; with `blocks` also those in buffers, for which the driver has to be waited for, and which may raise an
+    /// One of them as it is now, in the order of [`Matrices::values`]; none for one in a buffer.
+    pub fn value(&self, gl: &Gl, program: u32, at: usize) -> Option<[f32; 16]> {
+        let location = self.uniforms.get(at)?;
+        Some(gl.uniform_matrix(program, *location))
+    }
+
+    /// What they are now, column-major, those in buffers last; with `blocks` also those in buffers, for which the driver has to be waited for, and which may raise an
     /// error.
     pub fn values(&self, gl: &Gl, program: u32, blocks: bool) -> Vec<[f32; 16]> {
         let uniforms = self.uniforms.iter();
@@ -116,6 +123,61 @@ impl Matrices {
         }
         all
     }
+}
+
+/// The textures that a program's own shaders sample.
+#[derive(Debug, Default)]
+pub struct Samplers {
+    /// Locations, and texture targets.
+    uniforms: Vec<(i32, u32)>,
+}
+
+impl Samplers {
+    /// Of a program that is linked.
+    pub fn of(gl: &Gl, program: u32) -> Samplers {
+        let mut uniforms = Vec::new();
+        for active in gl.active_uniforms(program) {
+            let Some(target) = sampled(active.kind) else {
+                continue;
+            };
+            let text = active.name.to_string_lossy();
+            let stem = text.strip_suffix("[0]").unwrap_or(&text);
+            for at in 0..active.size.max(1) {
+                let name = match active.size {
+                    ..=1 => active.name.clone(),
+                    _ => CString::new(format!("{stem}[{at}]")).unwrap_or_default(),
+                };
+                let location = gl.uniform_location(program, &name);
+                if location >= 0 {
+                    uniforms.push((location, target));
+                }
+            }
+        }
+        Samplers { uniforms }
+    }
+
+    /// Texture units, counted from 0, and targets.
+    pub fn units(&self, gl: &Gl, program: u32) -> Vec<(u32, u32)> {
+        let all = self.uniforms.iter();
+        all.map(|&(at, target)| (gl.uniform_int(program, at).max(0).unsigned_abs(), target))
+            .collect()
+    }
+}
+
+/// The target of the textures that a type of samplers reads; none for other types, and for buffers.
+fn sampled(kind: u32) -> Option<u32> {
+    Some(match kind {
+        0x8B5D | 0x8B61 | 0x8DC9 | 0x8DD1 => c::TEXTURE_1D,
+        0x8B5E | 0x8B62 | 0x8DCA | 0x8DD2 => c::TEXTURE_2D,
+        0x8B5F | 0x8DCB | 0x8DD3 => c::TEXTURE_3D,
+        0x8B60 | 0x8DC5 | 0x8DCC | 0x8DD4 => c::TEXTURE_CUBE_MAP,
+        0x8B63 | 0x8B64 | 0x8DCD | 0x8DD5 => c::TEXTURE_RECTANGLE,
+        0x8DC1 | 0x8DC4 | 0x8DCF | 0x8DD7 => c::TEXTURE_2D_ARRAY,
+        0x9108..=0x910A => c::TEXTURE_2D_MULTISAMPLE,
+        0x910B..=0x910D => c::TEXTURE_2D_MULTISAMPLE_ARRAY,
+        0x900C..=0x900F => c::TEXTURE_CUBE_MAP_ARRAY,
+        _ => return None,
+    })
 }
 
 fn stage(kind: u32) -> Option<Stage> {

@@ -268,10 +268,10 @@ pub fn entry(commands: &[Command]) -> String {
                 )
                 .unwrap();
             }
-            "matrix" | "cap" | "any" | "ask" | "uniform" | "texture" => {
+            "matrix" | "cap" | "any" | "ask" | "uniform" | "texture" | "look" | "storage" | "attached" => {
                 let note = match class {
                     "matrix" => format!("matrix(Command::{arg})"),
-                    "any" | "ask" | "uniform" => format!("{class}()"),
+                    "any" | "ask" | "uniform" | "look" | "storage" | "attached" => format!("{class}()"),
                     "texture" => "texture(target)".into(),
                     _ => format!("cap({}, {})", c.params[0].name, name.starts_with("glEnable")),
                 };
@@ -285,8 +285,9 @@ pub fn entry(commands: &[Command]) -> String {
             "read" => writeln!(o, "    // SAFETY: the program's own call.\n    hooks::read(x, width, &mut |gl| {call})").unwrap(),
             "copy" => writeln!(o, "    // SAFETY: the program's own call.\n    hooks::copy(target, x, width, &mut |gl| {call})").unwrap(),
             "now" => writeln!(o, "    // SAFETY: the program's own call.\n    hooks::read_now(x, width, &mut |gl| {call})").unwrap(),
-            "hide" => {
-                writeln!(o, "    // SAFETY: the program's own call.\n    hooks::hide({}, &mut |gl| {call})", c.params[0].name).unwrap()
+            "mipmap" => writeln!(o, "    // SAFETY: the program's own call.\n    hooks::mipmap(target, &mut |gl| {call})").unwrap(),
+            "hide" | "attach" => {
+                writeln!(o, "    // SAFETY: the program's own call.\n    hooks::{class}({}, &mut |gl| {call})", c.params[0].name).unwrap()
             }
             "special" => writeln!(o, "    // SAFETY: the program's own arguments.\n    unsafe {{ special::{}({n}) }}", c.base).unwrap(),
             other => panic!("unknown class {other}"),

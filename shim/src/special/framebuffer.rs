@@ -1,6 +1,6 @@
 //! Framebuffer objects and the program's framebuffer 0.
 
-use crate::context::{enter, real};
+use crate::context::{enter, peek, real};
 use crate::hooks::{ask, compile};
 use core::slice::from_raw_parts;
 use manyview_core::gl::{Gl, Ptr, consts as c};
@@ -40,6 +40,17 @@ pub(crate) unsafe fn glDeleteFramebuffers(n: i32, framebuffers: Ptr) {
     enter(|gl, l| l.deleted_framebuffers(gl, &names));
 }
 
+pub(crate) unsafe fn glDeleteRenderbuffers(n: i32, renderbuffers: Ptr) {
+    ask();
+    if peek(|l| l.has_copies()) == Some(true) && !renderbuffers.is_null() && n > 0 {
+        // SAFETY: n names (the program's array).
+        let names = unsafe { from_raw_parts(renderbuffers as *const u32, n as usize) };
+        enter(|gl, l| l.deleted_renderbuffers(gl, names));
+    }
+    // SAFETY: the program's own call.
+    unsafe { real().glDeleteRenderbuffers(n, renderbuffers) };
+}
+
 /// A choice of buffers: ours for framebuffer 0, else the driver's. In a display list the translated name is compiled.
 fn choose(
     zero: impl Fn(&Layer) -> bool,
@@ -53,6 +64,7 @@ fn choose(
                 l.with_true_zero(gl, target, call);
             }
         } else {
+            l.attachments_changed();
             call();
         }
     });
@@ -65,6 +77,7 @@ fn choose(
 fn choose_draw(names: Option<&[u32]>, several: bool, call: &mut dyn FnMut()) {
     let done = enter(|gl, l| {
         if !l.draws_to_zero() {
+            l.attachments_changed();
             call();
         } else if names
             .and_then(|names| l.draw_buffers(gl, names, several))

@@ -1,0 +1,95 @@
+/* Programs of shaders and their matrices, for demos that bring their own. */
+#include "demo.h"
+#include <math.h>
+#include <string.h>
+
+static GLuint shader(GLenum kind, const char *text)
+{
+    GLuint s = glCreateShader(kind);
+    GLint ok;
+    glShaderSource(s, 1, &text, NULL);
+    glCompileShader(s);
+    glGetShaderiv(s, GL_COMPILE_STATUS, &ok);
+    if (!ok) {
+        char log[1000];
+        glGetShaderInfoLog(s, sizeof log, NULL, log);
+        demo_fail(1, "a shader does not compile: %s", log);
+    }
+    return s;
+}
+
+GLuint demo_program(const char *vertex, const char *fragment)
+{
+    GLuint vs = shader(GL_VERTEX_SHADER, vertex), fs = shader(GL_FRAGMENT_SHADER, fragment), program = glCreateProgram();
+    GLint ok;
+    glAttachShader(program, vs);
+    glAttachShader(program, fs);
+    glBindAttribLocation(program, 0, "position");
+    glBindAttribLocation(program, 1, "normal");
+    glLinkProgram(program);
+    /* As programs do that keep no more than they need. */
+    glDetachShader(program, vs);
+    glDetachShader(program, fs);
+    glDeleteShader(vs);
+    glDeleteShader(fs);
+    glGetProgramiv(program, GL_LINK_STATUS, &ok);
+    if (!ok) {
+        char log[1000];
+        glGetProgramInfoLog(program, sizeof log, NULL, log);
+        demo_fail(1, "a program does not link: %s", log);
+    }
+    return program;
+}
+
+void demo_times(demo_matrix out, const demo_matrix a, const demo_matrix b)
+{
+    demo_matrix p;
+    for (int c = 0; c < 4; c++)
+        for (int r = 0; r < 4; r++) {
+            double sum = 0.0;
+            for (int k = 0; k < 4; k++)
+                sum += (double)a[4 * k + r] * b[4 * c + k];
+            p[4 * c + r] = (GLfloat)sum;
+        }
+    memcpy(out, p, sizeof p);
+}
+
+void demo_frustum(demo_matrix out, double fovy, double aspect, double n, double f)
+{
+    double h = 1.0 / tan(fovy * M_PI / 360.0);
+    demo_matrix p = {(GLfloat)(h / aspect), 0, 0, 0, 0, (GLfloat)h, 0, 0,
+                     0, 0, (GLfloat)(-(f + n) / (f - n)), -1, 0, 0, (GLfloat)(-2.0 * f * n / (f - n)), 0};
+    memcpy(out, p, sizeof p);
+}
+
+void demo_turned(demo_matrix out, double angle, double u, double v, double x, double y, double z)
+{
+    double c = cos(angle), s = sin(angle);
+    demo_matrix p = {(GLfloat)(u * u + (1 - u * u) * c), (GLfloat)(u * v * (1 - c)), (GLfloat)(-v * s), 0.0f,
+                     (GLfloat)(u * v * (1 - c)), (GLfloat)(v * v + (1 - v * v) * c), (GLfloat)(u * s), 0.0f,
+                     (GLfloat)(v * s), (GLfloat)(-u * s), (GLfloat)c, 0.0f,
+                     (GLfloat)x, (GLfloat)y, (GLfloat)z, 1.0f};
+    memcpy(out, p, sizeof p);
+}
+
+void demo_look(demo_matrix m, demo_matrix back, const double from[3], const double to[3])
+{
+    double z[3], x[3], y[3], far = 0.0;
+    for (int k = 0; k < 3; k++)
+        z[k] = from[k] - to[k], far += z[k] * z[k];
+    for (int k = 0; k < 3; k++)
+        z[k] /= sqrt(far);
+    double across = sqrt(z[0] * z[0] + z[2] * z[2]);
+    x[0] = z[2] / across, x[1] = 0.0, x[2] = -z[0] / across;
+    y[0] = z[1] * x[2], y[1] = z[2] * x[0] - z[0] * x[2], y[2] = -z[1] * x[0];
+    const double *rows[3] = {x, y, z};
+    memset(m, 0, sizeof(demo_matrix));
+    memset(back, 0, sizeof(demo_matrix));
+    for (int r = 0; r < 3; r++)
+        for (int c = 0; c < 3; c++) {
+            m[4 * c + r] = back[4 * r + c] = (GLfloat)rows[r][c];
+            m[12 + r] = (GLfloat)(m[12 + r] - rows[r][c] * from[c]);
+            back[12 + c] = (GLfloat)from[c];
+        }
+    m[15] = back[15] = 1.0f;
+}

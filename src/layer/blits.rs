@@ -1,0 +1,112 @@
+//! glBlitFramebuffer between the window and framebuffers of the program's: from each view to the same view.
+
+use super::Layer;
+use crate::atlas::Tiles;
+use crate::gl::{Gl, consts as c};
+use crate::state::{Command, Run, Touch};
+
+impl Layer {
+    /// glBlitFramebuffer: into every view's tile where it draws to framebuffer 0, or into each view's framebuffer; from the same view's
+    /// where it has one. `blit` takes the x offsets of source and destination in pixels; `scaled`: their sizes differ.
+    pub fn blit(&mut self, gl: &Gl, scaled: bool, blit: &mut dyn FnMut(i32, i32)) {
+        if self.compiles() {
+            self.compile(gl, Command::Of(Run::Blit), Touch::NONE);
+            return blit(0, 0);
+        }
+        let f = &self.state.framebuffers;
+        let (draw, read) = (f.draw, f.read);
+        let split = self.offscreen.is_split(gl, read);
+        if draw != 0 {
+            let differs = split || (read == 0 && self.config.views > 1 && !self.rests());
+            return match differs && self.split(gl, draw) || self.offscreen.is_split(gl, draw) {
+                true => self.blit_aside(gl, blit),
+                false if read == 0 => self.read(gl, 0, 0, &mut || blit(0, 0)),
+                false => blit(0, 0),
+            };
+        }
+        if split {
+            self.split(gl, read);
+            self.differ(gl, false);
+        }
+        self.state.refresh(gl);
+        self.hold_everything(gl, "copies pictures into the window");
+        self.proving.stop_search();
+        self.in_proof(gl, |layer| layer.blit_views(gl, scaled, blit));
+        self.blit_views(gl, scaled, blit);
+    }
+
+    /// Into a framebuffer that each view has its own of.
+    fn blit_aside(&mut self, gl: &Gl, blit: &mut dyn FnMut(i32, i32)) {
+        self.state.refresh(gl);
+        let (draw, read) = (self.state.framebuffers.draw, self.state.framebuffers.read);
+        if read != 0 {
+            self.split(gl, read);
+        }
+        let tiles = Tiles {
+            shown: self.wanted_views(),
+            ..self.atlas.tiles
+        };
+        for view in tiles.order() {
+            if read == 0 {
+                self.take_single(gl, view);
+            }
+            for (target, name) in [(c::DRAW_FRAMEBUFFER, draw), (c::READ_FRAMEBUFFER, read)] {
+                if name != 0 {
+                    let name = self.offscreen.view(gl, name, view);
+                    gl.bind_framebuffer(target, name);
+                }
+            }
+            blit(0, 0);
+        }
+        self.rebind(gl);
+    }
+
+    fn blit_views(&mut self, gl: &Gl, scaled: bool, blit: &mut dyn FnMut(i32, i32)) {
+        let read = self.reads_from_zero();
+        let images = self.state.framebuffers.draw_images();
+        let single = match images[..] {
+            [image] if image != c::NONE => Some(image),
+            _ => None,
+        };
+        let beside = self.atlas.tiles.columns > 1 && !self.atlas.multisampled();
+        let single = single.filter(|_| scaled && beside);
+        for view in self.atlas.tiles.order() {
+            if let Some(image) = single {
+                self.scaled_blit(gl, view, (image, read), blit);
+                continue;
+            }
+            let x = self.atlas.enter(gl, view);
+            let from = match self.state.framebuffers.read {
+                0 => self.atlas.target(view).0,
+                read => self.offscreen.view(gl, read, view),
+            };
+            gl.bind_framebuffer(c::READ_FRAMEBUFFER, from);
+            self.scissored(gl, view, x, &mut || blit(if read { x } else { 0 }, x));
+        }
+        self.rebind(gl);
+    }
+
+    /// Where pixels lie between others, the nearest is a matter of rounding, and that is the window's only in a framebuffer of its
+    /// size.
+    fn scaled_blit(
+        &mut self,
+        gl: &Gl,
+        view: u32,
+        (image, read): (u32, bool),
+        blit: &mut dyn FnMut(i32, i32),
+    ) {
+        self.make_singles(gl, true);
+        let from = self.state.framebuffers.read_image();
+        let staged = self.unscissored(gl, |layer| layer.atlas.stage(gl, view, image, from));
+        if read {
+            self.take_single(gl, view);
+            gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, staged);
+        } else {
+            let from = self.state.framebuffers.read;
+            let from = self.offscreen.view(gl, from, view);
+            gl.bind_framebuffer(c::READ_FRAMEBUFFER, from);
+        }
+        blit(0, 0);
+        self.unscissored(gl, |layer| layer.atlas.unstage(gl, view));
+    }
+}

@@ -1,0 +1,159 @@
+//! What the program draws outside the window: once where all views are the same, else once per view, into framebuffers of their own
+//! and with textures of their own (see [`crate::offscreen`]).
+//!
+//! A framebuffer is the window's, in as many views, as soon as a part of the scene is drawn into it in perspective, and it has the shape of
+//! the window or the camera has. Shadow maps, cube faces, light maps have neither. Whatever samples, copies or blits from one that differs
+//! makes its own target differ.
+
+use super::{Layer, keep_bindings};
+use crate::config::Class;
+use crate::gl::Gl;
+use crate::plan::class::Target;
+use crate::plan::{Kind, Method, Plan, Reason, camera};
+use crate::state::{Touch, uniform_change};
+
+impl Layer {
+    /// Where a draw goes. The state is refreshed.
+    pub(super) fn target(&mut self, gl: &Gl) -> Target {
+        let name = self.state.framebuffers.draw;
+        if !self.state.makes_pictures() {
+            return Target::Nothing;
+        }
+        if name == 0 {
+            return Target::Window;
+        }
+        if self.config.views > 1 && self.is_pass(gl, name) {
+            Target::Pass(name)
+        } else {
+            Target::Framebuffer(name)
+        }
+    }
+
+    /// Whether what is drawn into a framebuffer of the program's with its camera of now is what the window's viewer sees.
+    fn is_pass(&mut self, gl: &Gl, framebuffer: u32) -> bool {
+        let camera = match self.state.program {
+            0 => camera::equivalent(&self.state.projection),
+            program => {
+                self.know(gl, program);
+                match self.camera_of(gl, program) {
+                    Some(camera) => camera,
+                    None => camera::equivalent(&self.state.projection),
+                }
+            }
+        };
+        let target = self.offscreen.target(gl, framebuffer);
+        if target.is_cube() || target.attachments.is_empty() {
+            return false;
+        }
+        let alone = target.is_depth_only();
+        let [_, _, width, height] = self.state.viewport.map(i64::from);
+        let (w, h) = (
+            i64::from(self.state.window.width),
+            i64::from(self.state.window.height),
+        );
+        // Within a pixel, since half of an odd size is rounded.
+        let fits = (width * h - height * w).abs() <= w.max(h);
+        let Some(camera) = camera else {
+            return fits;
+        };
+        let a = f64::from(camera[0]);
+        if alone && width == height {
+            // The map of a lamp, unless it sees what the window does.
+            return self
+                .lens
+                .is_some_and(|lens| (a - lens).abs() <= 0.01 * lens);
+        }
+        let pass = fits || camera::fits(&camera, self.aspect());
+        if pass {
+            self.lens = Some(a);
+        }
+        pass
+    }
+
+    /// Width over height of the window.
+    pub(super) fn aspect(&self) -> f64 {
+        f64::from(self.state.window.width) / f64::from(self.state.window.height)
+    }
+
+    /// Where each view has its own images of what a draw samples or draws to, it is replayed; a target gets them when something that depends
+    /// on the view is drawn to it.
+    pub(super) fn follow(&mut self, gl: &Gl, kind: Kind, plan: Plan) -> Plan {
+        if self.config.views < 2 || !self.state.makes_pictures() {
+            return plan;
+        }
+        let whole = matches!(kind, Kind::Clear { .. } | Kind::Accum);
+        if whole {
+            self.sampled.clear();
+            self.sampled_by = None;
+        } else {
+            self.sample(gl);
+        }
+        let framebuffer = self.state.framebuffers.draw;
+        let mut plan = plan;
+        if !self.sampled.is_empty() {
+            // A picture of a view stands where that view has it.
+            plan.flat = None;
+            if plan.class == Class::Flat {
+                plan.shear = None;
+            }
+            if matches!(plan.method, Method::Instanced | Method::Geometry) {
+                plan.method = Method::Replay;
+                plan.reason = Some(Reason::Kind(
+                    "draws with a texture that each view has its own of",
+                ));
+            }
+        }
+        if framebuffer == 0 {
+            return plan;
+        }
+        let differs = !self.sampled.is_empty()
+            || (plan.method != Method::Once && !whole && plan.shear.is_some());
+        let split = match differs {
+            true => self.split(gl, framebuffer),
+            false => self.offscreen.is_split(gl, framebuffer) && self.split(gl, framebuffer),
+        };
+        plan.method = if split { Method::Replay } else { Method::Once };
+        plan.reason = None;
+        plan
+    }
+
+    /// Looks which textures with an image per view a draw reads.
+    fn sample(&mut self, gl: &Gl) {
+        let program = self.state.program;
+        let key = Some((program, uniform_change(), self.offscreen.changes()));
+        let bound = self.state.touched.has(Touch::UNITS);
+        if std::mem::replace(&mut self.sampled_by, key) == key && !bound {
+            return;
+        }
+        self.state.touched = self.state.touched.without(Touch::UNITS);
+        self.sampled = match program {
+            _ if self.offscreen.is_empty() => Vec::new(),
+            0 => self.offscreen.bound(gl),
+            program => {
+                let units = self.units_of(gl, program);
+                self.offscreen.bound_among(gl, units.into_iter())
+            }
+        };
+    }
+
+    /// Each view gets a framebuffer like this one of the program's; false where the driver makes none.
+    pub(super) fn split(&mut self, gl: &Gl, framebuffer: u32) -> bool {
+        if self.offscreen.is_made(gl, framebuffer) {
+            return true;
+        }
+        if self.offscreen.is_refused(gl, framebuffer) {
+            return false;
+        }
+        self.state.keep_errors(gl);
+        let split = keep_bindings(gl, || {
+            self.offscreen.split(gl, &mut self.names, framebuffer)
+        });
+        self.drain_own_errors(gl);
+        if !split {
+            self.report.note(format!(
+                "the driver makes no other framebuffer like the program's {framebuffer}: what is drawn there is the same in all views"
+            ));
+        }
+        split
+    }
+}

@@ -1,0 +1,324 @@
+//! What the program draws outside the window, or copies from the frame: one image per view where the views differ in it.
+//!
+//! The program's own texture or renderbuffer holds its own view, so that what it reads back is its own. For the others there are
+//! images beside it. A framebuffer with such an image has one framebuffer per view as well; a draw that samples such a texture has the
+//! texture of its view bound. Nothing is there until something drawn depends on the view: shadow maps, light maps and whatever else
+//! is the same in all views stays one image, drawn once.
+#![forbid(unsafe_code)]
+
+mod image;
+mod target;
+
+pub use target::Target;
+
+use crate::atlas::{Grid, Names, Shown, Tiles};
+use crate::gl::{Gl, Object, consts as c};
+use image::Image;
+use std::collections::{HashMap, HashSet};
+
+/// The images and framebuffers of one context.
+#[derive(Debug)]
+pub struct Offscreen {
+    images: HashMap<Object, Image>,
+    /// The textures among them that are not the program's own.
+    ours: HashSet<u32>,
+    targets: HashMap<u32, Target>,
+    /// Changes of attachments, of buffers that are drawn to, and of images.
+    changes: u64,
+    means: image::Means,
+    /// Those of a framebuffer, one in a layer.
+    tiles: Tiles,
+    /// Texture units of the context that are looked at.
+    units: u32,
+}
+
+/// Pixels from tile to tile where there is but one: wider than any framebuffer.
+pub const STRIDE: u32 = 1 << 20;
+
+/// A texture with an image per view that is bound.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Bound {
+    unit: u32,
+    target: u32,
+    texture: u32,
+}
+
+impl Offscreen {
+    /// For a number of views, in a context with or without fixed function.
+    pub fn new(gl: &Gl, views: u32, compatibility: bool) -> Offscreen {
+        let units = gl.get_integer(c::MAX_COMBINED_TEXTURE_IMAGE_UNITS);
+        Offscreen {
+            images: HashMap::new(),
+            ours: HashSet::new(),
+            targets: HashMap::new(),
+            changes: 1,
+            means: image::Means {
+                version: gl.version(),
+                mipmaps: compatibility,
+                looks: 1,
+            },
+            units: units.clamp(1, 32) as u32,
+            tiles: Tiles {
+                views,
+                window: [0; 2],
+                grid: Grid::FULL,
+                shown: Shown::ALL,
+                width: 0,
+                height: 0,
+                stride: STRIDE,
+                columns: 1,
+                rows: views,
+            },
+        }
+    }
+
+    /// Whether all views have the same images.
+    pub fn is_empty(&self) -> bool {
+        self.images.is_empty()
+    }
+
+    /// Whether a texture is one of ours.
+    pub fn owns_texture(&self, name: u32) -> bool {
+        self.ours.contains(&name)
+    }
+
+    /// Whether a framebuffer is one of ours.
+    pub fn owns_framebuffer(&self, name: u32) -> bool {
+        self.framebuffers().any(|f| f == name)
+    }
+
+    /// The textures that are ours.
+    pub fn textures(&self) -> impl Iterator<Item = u32> {
+        self.ours.iter().copied()
+    }
+
+    /// The renderbuffers that are ours.
+    pub fn renderbuffers(&self) -> impl Iterator<Item = u32> {
+        self.images.iter().flat_map(|(object, image)| match object {
+            Object::Renderbuffer(own) => image.others(*own).collect(),
+            Object::Texture(_) => Vec::new(),
+        })
+    }
+
+    /// The framebuffers that are ours.
+    pub fn framebuffers(&self) -> impl Iterator<Item = u32> {
+        self.targets.values().flat_map(Target::others)
+    }
+
+    /// How often images or attachments have changed.
+    pub fn changes(&self) -> u64 {
+        self.changes
+    }
+
+    /// A parameter of some texture is another.
+    pub fn look_changed(&mut self) {
+        self.means.looks += 1;
+    }
+
+    /// What is attached to some framebuffer is another, or what is drawn to of it.
+    pub fn attachments_changed(&mut self) {
+        self.changes += 1;
+    }
+
+    /// Whether an object has an image per view.
+    pub fn has(&self, object: Object) -> bool {
+        self.images.contains_key(&object)
+    }
+
+    /// The textures of the views, by view; none where it is the same in all of them.
+    pub fn views(&self, texture: u32) -> Vec<u32> {
+        let image = self.images.get(&Object::Texture(texture));
+        image.map_or_else(Vec::new, |image| image.views.clone())
+    }
+
+    /// The texture with an image per view that is bound at a target.
+    pub fn bound_at(&self, gl: &Gl, target: u32) -> Option<u32> {
+        let texture = gl.get_integer(image::binding(target)?) as u32;
+        self.has(Object::Texture(texture)).then_some(texture)
+    }
+
+    /// Gives the texture that is bound at a target an image per view, with what is in it. The caller keeps errors, and bindings as
+    /// for [`crate::atlas::Atlas::new`]. False where that is not done: all views see the same.
+    pub fn split_texture(
+        &mut self,
+        gl: &Gl,
+        names: &mut Names,
+        (target, texture): (u32, u32),
+    ) -> bool {
+        if self.has(Object::Texture(texture)) {
+            return true;
+        }
+        let Some(image) = self
+            .means
+            .texture(gl, names, (target, texture), &self.tiles)
+        else {
+            return false;
+        };
+        self.ours.extend(image.others(texture));
+        self.images.insert(Object::Texture(texture), image);
+        self.changes += 1;
+        true
+    }
+
+    /// All objects of a framebuffer get an image per view. As [`Offscreen::split_texture`].
+    pub fn split(&mut self, gl: &Gl, names: &mut Names, framebuffer: u32) -> bool {
+        let attachments = self.target(gl, framebuffer).attachments.clone();
+        for attachment in attachments {
+            if self.has(attachment.object) {
+                continue;
+            }
+            let done = match attachment.object {
+                Object::Texture(name) => image::with_texture(gl, name, |target| {
+                    self.split_texture(gl, names, (target, name))
+                }),
+                Object::Renderbuffer(name) => {
+                    let image = self.means.renderbuffer(gl, name, &self.tiles);
+                    self.images.insert(attachment.object, image);
+                    self.changes += 1;
+                    Some(true)
+                }
+            };
+            if done != Some(true) {
+                self.target(gl, framebuffer).refused = true;
+                return false;
+            }
+        }
+        self.target(gl, framebuffer);
+        let target = self.targets.get_mut(&framebuffer);
+        target.is_some_and(|target| target.make(gl, &self.images))
+    }
+
+    /// Whether the views have framebuffers of their own.
+    pub fn is_made(&mut self, gl: &Gl, framebuffer: u32) -> bool {
+        self.target(gl, framebuffer).is_made()
+    }
+
+    /// Whether the driver has refused to make them.
+    pub fn is_refused(&mut self, gl: &Gl, framebuffer: u32) -> bool {
+        self.target(gl, framebuffer).refused
+    }
+
+    /// What is known of a framebuffer of the program's.
+    pub fn target(&mut self, gl: &Gl, framebuffer: u32) -> &mut Target {
+        let target = self.targets.entry(framebuffer);
+        let target = target.or_insert_with(|| Target::new(framebuffer, self.tiles));
+        target.follow(gl, self.changes, &self.images);
+        target
+    }
+
+    /// Whether the views differ in what a framebuffer holds.
+    pub fn is_split(&mut self, gl: &Gl, framebuffer: u32) -> bool {
+        if self.is_empty() || framebuffer == 0 {
+            return false;
+        }
+        let attachments = self.target(gl, framebuffer).attachments.clone();
+        attachments.iter().any(|a| self.has(a.object))
+    }
+
+    /// The framebuffer of a view; the program's own where it is the only one.
+    pub fn view(&mut self, gl: &Gl, framebuffer: u32, view: u32) -> u32 {
+        match self.is_split(gl, framebuffer) {
+            true => self.target(gl, framebuffer).view(view),
+            false => framebuffer,
+        }
+    }
+
+    /// Takes the framebuffers of the views, where there are some, for as long as they are drawn to.
+    pub fn take(&mut self, framebuffer: u32, shown: Shown) -> Option<Target> {
+        self.targets.get(&framebuffer).filter(|t| t.is_made())?;
+        let mut target = self.targets.remove(&framebuffer)?;
+        target.show(shown);
+        Some(target)
+    }
+
+    /// After [`Offscreen::take`].
+    pub fn put(&mut self, target: Target) {
+        self.targets.insert(target.own(), target);
+    }
+
+    /// All bound textures with an image per view; where the draw's own units are not known.
+    pub fn bound(&self, gl: &Gl) -> Vec<Bound> {
+        let units = (0..self.units).flat_map(|unit| image::TARGETS.map(|t| (unit, t.0)));
+        self.bound_among(gl, units)
+    }
+
+    /// Those at units (counted from 0) and targets.
+    pub fn bound_among(&self, gl: &Gl, units: impl Iterator<Item = (u32, u32)>) -> Vec<Bound> {
+        let mut bound = Vec::new();
+        if self.ours.is_empty() {
+            return bound;
+        }
+        let active = gl.get_integer(c::ACTIVE_TEXTURE) as u32;
+        let mut now = active;
+        for (unit, target) in units {
+            let unit = c::TEXTURE0 + unit;
+            if std::mem::replace(&mut now, unit) != unit {
+                gl.active_texture(unit);
+            }
+            let texture = image::binding(target).map_or(0, |b| gl.get_integer(b) as u32);
+            let image = self.images.get(&Object::Texture(texture));
+            let new = Bound {
+                unit,
+                target,
+                texture,
+            };
+            if texture != 0 && image.is_some_and(|i| i.target == target) && !bound.contains(&new) {
+                bound.push(new);
+            }
+        }
+        if now != active {
+            gl.active_texture(active);
+        }
+        bound
+    }
+
+    /// Binds a view's textures.
+    pub fn bind(&mut self, gl: &Gl, bound: &[Bound], view: u32) {
+        if bound.is_empty() {
+            return;
+        }
+        let active = gl.get_integer(c::ACTIVE_TEXTURE) as u32;
+        for b in bound {
+            gl.active_texture(b.unit);
+            if let Some(image) = self.images.get_mut(&Object::Texture(b.texture)) {
+                image.bind(gl, &self.means, b.texture, view);
+            }
+        }
+        gl.active_texture(active);
+    }
+
+    /// The images of objects are no longer what the program believes, or the objects are gone.
+    pub fn forget(&mut self, gl: &Gl, objects: impl IntoIterator<Item = Object>) {
+        for object in objects {
+            let Some(image) = self.images.remove(&object) else {
+                continue;
+            };
+            self.changes += 1;
+            match object {
+                Object::Texture(own) => image.others(own).for_each(|name| {
+                    self.ours.remove(&name);
+                    gl.delete_texture(name);
+                }),
+                Object::Renderbuffer(own) => image
+                    .others(own)
+                    .for_each(|name| gl.delete_renderbuffer(name)),
+            }
+        }
+    }
+
+    /// glDeleteFramebuffers.
+    pub fn forget_targets(&mut self, gl: &Gl, names: &[u32]) {
+        for target in names.iter().filter_map(|name| self.targets.remove(name)) {
+            target.delete(gl);
+        }
+    }
+
+    /// All images.
+    pub fn clear(&mut self, gl: &Gl) {
+        let all: Vec<Object> = self.images.keys().copied().collect();
+        self.forget(gl, all);
+        for (_, target) in self.targets.drain() {
+            target.delete(gl);
+        }
+    }
+}

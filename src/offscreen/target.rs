@@ -1,0 +1,186 @@
+//! A framebuffer of the program's, and those of the other views.
+
+use super::image::Image;
+use crate::atlas::{Shown, Surface, Tiles};
+use crate::gl::{Attachment, Gl, Object, consts as c};
+use std::collections::HashMap;
+
+/// One framebuffer of the program's.
+#[derive(Debug)]
+pub struct Target {
+    own: u32,
+    /// By view, the program's own among them; empty where it is the only one.
+    views: Vec<u32>,
+    /// Up to which change the rest is known.
+    seen: u64,
+    /// What is attached.
+    pub attachments: Vec<Attachment>,
+    draw_buffers: Vec<u32>,
+    read_buffer: u32,
+    /// The objects that are attached for each view.
+    objects: Vec<Option<Vec<u32>>>,
+    tiles: Tiles,
+    /// The driver makes none for the other views.
+    pub(super) refused: bool,
+}
+
+impl Target {
+    pub(super) fn new(own: u32, tiles: Tiles) -> Target {
+        Target {
+            own,
+            views: Vec::new(),
+            seen: 0,
+            attachments: Vec::new(),
+            draw_buffers: Vec::new(),
+            read_buffer: c::NONE,
+            objects: Vec::new(),
+            tiles,
+            refused: false,
+        }
+    }
+
+    /// The program's name of it.
+    pub fn own(&self) -> u32 {
+        self.own
+    }
+
+    /// Our names.
+    pub(super) fn others(&self) -> impl Iterator<Item = u32> {
+        self.views.iter().copied().filter(|&name| name != self.own)
+    }
+
+    /// The framebuffer of a view.
+    pub fn view(&self, view: u32) -> u32 {
+        self.views.get(view as usize).copied().unwrap_or(self.own)
+    }
+
+    /// Whether the views have framebuffers of their own.
+    pub(super) fn is_made(&self) -> bool {
+        !self.views.is_empty()
+    }
+
+    /// Nothing but depth or stencil is attached.
+    pub fn is_depth_only(&self) -> bool {
+        let points = [c::DEPTH_ATTACHMENT, c::STENCIL_ATTACHMENT];
+        self.attachments.iter().all(|a| points.contains(&a.point))
+    }
+
+    /// Faces of a cube, which look all around.
+    pub fn is_cube(&self) -> bool {
+        self.attachments.iter().any(|a| a.face != 0)
+    }
+
+    /// Reads it again where something has changed since; changes nothing of the program's state. What no longer fits is dropped.
+    pub(super) fn follow(&mut self, gl: &Gl, changes: u64, images: &HashMap<Object, Image>) {
+        if std::mem::replace(&mut self.seen, changes) == changes {
+            return;
+        }
+        let bindings = [
+            (c::DRAW_FRAMEBUFFER, c::DRAW_FRAMEBUFFER_BINDING),
+            (c::READ_FRAMEBUFFER, c::READ_FRAMEBUFFER_BINDING),
+        ]
+        .map(|(target, binding)| (target, gl.get_integer(binding) as u32));
+        gl.bind_framebuffer(c::FRAMEBUFFER, self.own);
+        let attachments = gl.attachments(c::DRAW_FRAMEBUFFER);
+        let buffers = gl.get_integer(c::MAX_DRAW_BUFFERS).clamp(1, 16) as u32;
+        let mut draw_buffers: Vec<u32> = (0..buffers)
+            .map(|at| gl.get_integer(c::DRAW_BUFFER0 + at) as u32)
+            .collect();
+        let used = draw_buffers.iter().rposition(|&b| b != c::NONE);
+        draw_buffers.truncate(used.map_or(1, |at| at + 1));
+        let read_buffer = gl.get_integer(c::READ_BUFFER) as u32;
+        for (target, name) in bindings {
+            gl.bind_framebuffer(target, name);
+        }
+        let objects: Vec<_> = attachments
+            .iter()
+            .map(|a| images.get(&a.object).map(|image| image.views.clone()))
+            .collect();
+        let same = (&attachments, &draw_buffers, read_buffer, &objects)
+            == (
+                &self.attachments,
+                &self.draw_buffers,
+                self.read_buffer,
+                &self.objects,
+            );
+        if !same {
+            self.drop_views(gl);
+            self.refused = false;
+        }
+        self.attachments = attachments;
+        self.draw_buffers = draw_buffers;
+        self.read_buffer = read_buffer;
+        self.objects = objects;
+    }
+
+    fn drop_views(&mut self, gl: &Gl) {
+        self.others().for_each(|name| gl.delete_framebuffer(name));
+        self.views.clear();
+    }
+
+    /// Makes the framebuffers of the other views, where they are not there; all objects have images. Changes the framebuffer
+    /// bindings.
+    pub(super) fn make(&mut self, gl: &Gl, images: &HashMap<Object, Image>) -> bool {
+        if !self.views.is_empty() {
+            return true;
+        }
+        let mut complete = true;
+        let own = self.tiles.own();
+        let views = (0..self.tiles.views).map(|view| {
+            if view == own {
+                return self.own;
+            }
+            let name = gl.gen_framebuffer();
+            gl.bind_framebuffer(c::FRAMEBUFFER, name);
+            for attachment in &self.attachments {
+                let Some(image) = images.get(&attachment.object) else {
+                    continue;
+                };
+                let Some(&new) = image.views.get(view as usize) else {
+                    continue;
+                };
+                let object = match attachment.object {
+                    Object::Texture(_) => Object::Texture(new),
+                    Object::Renderbuffer(_) => Object::Renderbuffer(new),
+                };
+                gl.attach_like(attachment, object, image.target);
+            }
+            gl.draw_buffers(&self.draw_buffers);
+            gl.read_buffer(self.read_buffer);
+            complete &= gl.check_framebuffer_status(c::DRAW_FRAMEBUFFER) == c::FRAMEBUFFER_COMPLETE;
+            name
+        });
+        self.views = views.collect();
+        if !complete {
+            self.drop_views(gl);
+            self.refused = true;
+        }
+        complete
+    }
+
+    /// The views that are drawn from now on.
+    pub(super) fn show(&mut self, shown: Shown) {
+        self.tiles.shown = shown;
+    }
+
+    /// Only while its context is current.
+    pub(super) fn delete(mut self, gl: &Gl) {
+        self.drop_views(gl);
+    }
+}
+
+impl Surface for Target {
+    fn tiles(&self) -> Tiles {
+        self.tiles
+    }
+
+    fn enter(&mut self, gl: &Gl, view: u32) -> i32 {
+        gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, self.view(view));
+        0
+    }
+
+    fn bind_row(&mut self, gl: &Gl, row: u32) {
+        // One view in each.
+        self.enter(gl, self.tiles.slot(row));
+    }
+}

@@ -1,0 +1,94 @@
+//! Programs with framebuffers of their own: what they know of them is the same under the layer; what is the same in all views is drawn
+//! once; what is not has the parallax of each view. (Pictures of whole scenes: tests/oracle.rs.)
+#![forbid(unsafe_code)]
+
+mod support;
+
+use image::RgbImage;
+use std::process::Command;
+use support::{Compiled, bare, compiled, demo, layered, rgb, screen, succeed};
+
+const VIEWS: u32 = 3;
+
+/// The first and the last column of the middle row of a view that is blue.
+fn blue(all: &RgbImage, view: u32) -> [f64; 2] {
+    let width = all.width() / VIEWS;
+    let at = |x: u32| all.get_pixel(view * width + x, all.height() / 2).0;
+    let mut lit = (0..width).filter(|&x| at(x) == [0, 0, 255]);
+    let left = lit.next().expect("it is drawn");
+    [left, lit.next_back().unwrap_or(left)].map(f64::from)
+}
+
+#[test]
+fn a_program_knows_of_its_framebuffers_what_it_knows_without_the_layer() {
+    let program = compiled("offscreen", Compiled::Program, &["-lEGL", "-lGL"]);
+    let folder = tempfile::tempdir().expect("a folder");
+    let picture = folder.path().join("frame.png");
+    let lines = |mut command: Command| {
+        let output = succeed(command.env_remove("DISPLAY"));
+        String::from_utf8(output.stdout).expect("text")
+    };
+    let expected = lines(bare(&program));
+    assert!(expected.contains("shown: bound 0 0"), "{expected}");
+    for atlas in ["side-by-side", "layers"] {
+        let options = [
+            ("VIEWS", "3"),
+            ("ATLAS", atlas),
+            ("STRATEGY", "replay"),
+            ("SEPARATION", "0.4"),
+            ("CONVERGENCE", "4"),
+            ("CAPTURE_OUT", picture.to_str().expect("UTF-8")),
+            ("CAPTURE_FRAMES", "1"),
+            ("CAPTURE_WHAT", "atlas"),
+        ];
+        let told = lines(layered(&program, &options));
+        for (told, expected) in told.lines().zip(expected.lines()) {
+            assert_eq!(told, expected, "{atlas}");
+        }
+        assert_eq!(told.lines().count(), expected.lines().count());
+        let all = rgb(&picture);
+        let [left, own, right] = [0, 1, 2].map(|view| blue(&all, view));
+        // At depth 3, moved by ±0.4 · (3 − 4) / 3 in 32 columns, blitted to 64: the left camera's to the right.
+        for (moved, shift) in [(left[0] - own[0], 4.3), (right[1] - own[1], -4.3)] {
+            assert!(
+                (moved - shift).abs() <= 2.0,
+                "{atlas}: {left:?} {own:?} {right:?}"
+            );
+        }
+    }
+}
+
+/// The draws of a number of frames that went to the driver once, as they were, and those that were replayed.
+fn draws(frames: &str, arguments: &[&str]) -> [u64; 2] {
+    let folder = tempfile::tempdir().expect("a folder");
+    let report = folder.path().join("report.json");
+    let options = [
+        ("VIEWS", "3"),
+        ("STRATEGY", "replay"),
+        ("REPORT", report.to_str().expect("UTF-8")),
+    ];
+    let mut program = layered(demo("passes"), &options);
+    let screen = screen();
+    succeed(
+        screen.give(
+            program
+                .args(["--frames", frames, "--check"])
+                .args(arguments),
+        ),
+    );
+    let text = std::fs::read_to_string(&report).expect("a report");
+    let report: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+    ["once", "replay"].map(|way| report["draws"][way].as_u64().expect("a number"))
+}
+
+#[test]
+fn a_lamp_s_map_is_drawn_once_also_in_a_square_window() {
+    for size in ["300x220", "256x256"] {
+        let arguments = ["--size", size];
+        let [few, more] = ["3", "4"].map(|frames| draws(frames, &arguments));
+        let [once, replayed] = [0, 1].map(|way| more[way] - few[way]);
+        // One clear and eleven things that throw shadows.
+        assert_eq!(once, 12, "{size}");
+        assert!(replayed > 20, "{size}: {replayed}");
+    }
+}

@@ -1,0 +1,149 @@
+/* Framebuffers of a program's own, with a scene in them: prints what a program can know of them, of what they hold and of its errors, while it
+ * attaches other images, gives them other stores, reads, copies, blits, deletes. The frame shows the last one. */
+#include "surface.h"
+
+static const char *const vertex = "#version 120\nuniform mat4 camera; uniform float depth; attribute vec2 place;\n"
+                                  "void main() { gl_Position = camera * vec4(place * depth * 0.4, -depth, 1.0); }\n";
+static const char *const fragment = "uniform vec4 colour; void main() { gl_FragColor = colour; }";
+static const char *const whole = "attribute vec2 place; varying vec2 at; void main() { at = place * 0.5 + 0.5; gl_Position = vec4(place, 0.0, 1.0); }";
+static const char *const picture = "uniform sampler2D image; varying vec2 at; void main() { gl_FragColor = texture2D(image, at); }";
+static GLuint scene, shown, target[2], depth, colours[2];
+
+static GLuint linked(const char *v, const char *f)
+{
+    GLuint program = glCreateProgram();
+    for (int i = 0; i < 2; i++) {
+        GLuint s = glCreateShader(i ? GL_FRAGMENT_SHADER : GL_VERTEX_SHADER);
+        glShaderSource(s, 1, i ? &f : &v, NULL);
+        glCompileShader(s);
+        glAttachShader(program, s);
+    }
+    glBindAttribLocation(program, 3, "place");
+    glLinkProgram(program);
+    return program;
+}
+
+static void quad(GLuint program, float depth, float r, float g, float b)
+{
+    static const GLfloat corners[] = {-1, -1, 1, -1, 1, 1, -1, 1};
+    const GLfloat camera[16] = {1.5f, 0, 0, 0, 0, 2, 0, 0, 0, 0, -1.04f, -1, 0, 0, -2.04f, 0};
+    glUseProgram(program);
+    if (program == scene) {
+        glUniformMatrix4fv(glGetUniformLocation(scene, "camera"), 1, 0, camera);
+        glUniform1f(glGetUniformLocation(scene, "depth"), depth);
+        glUniform4f(glGetUniformLocation(scene, "colour"), r, g, b, 1.0f);
+    }
+    glEnableVertexAttribArray(3);
+    glVertexAttribPointer(3, 2, GL_FLOAT, 0, 0, corners);
+    glDrawArrays(GL_TRIANGLE_FAN, 0, 4);
+}
+
+static GLuint texture(int width, int height)
+{
+    GLuint name;
+    glGenTextures(1, &name);
+    glBindTexture(GL_TEXTURE_2D, name);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, width, height, 0, GL_RGBA, GL_UNSIGNED_BYTE, NULL);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    return name;
+}
+
+/* Names are numbered otherwise under the layer. */
+static int which(GLint name, const GLuint *among, int count)
+{
+    for (int i = 0; i < count; i++)
+        if (name && (GLuint)name == among[i])
+            return i + 1;
+    return name ? -1 : 0;
+}
+
+static void tell(const char *what, int x, int y)
+{
+    GLint bound[3], of[3];
+    unsigned char pixel[4];
+    glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &bound[0]);
+    glGetIntegerv(GL_READ_FRAMEBUFFER_BINDING, &bound[1]);
+    glGetIntegerv(GL_TEXTURE_BINDING_2D, &bound[2]);
+    glGetFramebufferAttachmentParameteriv(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE, &of[0]);
+    glGetTexLevelParameteriv(GL_TEXTURE_2D, 0, GL_TEXTURE_WIDTH, &of[1]);
+    glGetIntegerv(GL_RENDERBUFFER_BINDING, &of[2]);
+    glReadPixels(x, y, 1, 1, GL_RGBA, GL_UNSIGNED_BYTE, pixel);
+    printf("%s: bound %d %d, texture %d, renderbuffer %d, a 0x%x, width %d, status 0x%x, pixel %d %d %d, error 0x%x\n", what, which(bound[0], target, 2),
+           which(bound[1], target, 2), which(bound[2], colours, 2), which(of[2], &depth, 1), of[0], of[1], glCheckFramebufferStatus(GL_FRAMEBUFFER), pixel[0], pixel[1], pixel[2], glGetError());
+}
+
+static void image(const char *what)
+{
+    unsigned char all[WIDTH * HEIGHT * 4];
+    unsigned sum = 0;
+    glGetTexImage(GL_TEXTURE_2D, 0, GL_RGBA, GL_UNSIGNED_BYTE, all);
+    for (int i = 0; i < WIDTH * HEIGHT * 4; i++)
+        sum = sum * 31 + all[i];
+    printf("%s: image %08x, error 0x%x\n", what, sum, glGetError());
+}
+
+int main(void)
+{
+    if (!open_surface() || !new_context(EGL_NO_CONTEXT))
+        return 2;
+    scene = linked(vertex, fragment), shown = linked(whole, picture);
+    glGenFramebuffers(2, target);
+    glGenRenderbuffers(1, &depth);
+    glBindRenderbuffer(GL_RENDERBUFFER, depth);
+    glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT24, WIDTH, HEIGHT);
+    colours[0] = texture(WIDTH, HEIGHT), colours[1] = texture(WIDTH, HEIGHT);
+    glEnable(GL_DEPTH_TEST);
+
+    glBindFramebuffer(GL_FRAMEBUFFER, target[0]);
+    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, colours[0], 0);
+    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth);
+    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    quad(scene, 20, 1, 0, 0);
+    tell("a scene", 32, 24);
+    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, colours[1], 0);
+    glClear(GL_COLOR_BUFFER_BIT);
+    quad(scene, 10, 0, 1, 0);
+    tell("another image", 32, 24);
+    image("of the other");
+    glDrawBuffer(GL_NONE);
+    quad(scene, 5, 1, 1, 1);
+    tell("no image", 32, 24);
+    glDrawBuffer(GL_COLOR_ATTACHMENT0);
+    glDrawBuffer(GL_COLOR_ATTACHMENT1 + 40);
+    tell("no such image", 32, 24);
+
+    glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT24, WIDTH / 2, HEIGHT / 2);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, WIDTH / 2, HEIGHT / 2, 0, GL_RGBA, GL_UNSIGNED_BYTE, NULL);
+    glViewport(0, 0, WIDTH / 2, HEIGHT / 2);
+    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    quad(scene, 3, 0, 0, 1);
+    tell("half the size", 16, 12);
+
+    glBindFramebuffer(GL_FRAMEBUFFER, target[1]);
+    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, colours[0], 0);
+    tell("the first image again", 32, 24);
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, target[0]);
+    glBlitFramebuffer(0, 0, WIDTH / 2, HEIGHT / 2, 0, 0, WIDTH, HEIGHT, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    glBlitFramebuffer(0, 0, 8, 8, 0, 0, 9, 9, GL_DEPTH_BUFFER_BIT, GL_LINEAR);
+    tell("blitted", 16, 12);
+    glBindTexture(GL_TEXTURE_2D, colours[0]);
+    image("of what is blitted");
+    glGenerateMipmap(GL_TEXTURE_2D);
+    glGenerateMipmap(GL_TEXTURE_2D + 40);
+    printf("levels: error 0x%x 0x%x\n", glGetError(), glGetError());
+    glDeleteTextures(1, &colours[1]);
+    glDeleteFramebuffers(1, &target[0]);
+    glDeleteRenderbuffers(1, &depth);
+    tell("deleted", 32, 24);
+    printf("there: %d %d %d, %d %d\n", glIsFramebuffer(target[0]), glIsTexture(colours[1]), glIsRenderbuffer(depth), glIsFramebuffer(target[1] + 1),
+           glIsTexture(colours[1] + 1));
+
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    glViewport(0, 0, WIDTH, HEIGHT);
+    glDisable(GL_DEPTH_TEST);
+    quad(shown, 0, 0, 0, 0);
+    tell("shown", 32, 24);
+    eglSwapBuffers(display, surface);
+    return 0;
+}
