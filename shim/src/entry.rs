@@ -7,7 +7,7 @@ use manyview_core::gl::{Ptr, slot};
 use manyview_core::state::Effect;
 
 /// Where each exported function jumps to, by slot: at first its resolver, then the driver's function or the hook.
-pub(crate) static ENTRY: [AtomicPtr<()>; 1367] = [
+pub(crate) static ENTRY: [AtomicPtr<()>; 1389] = [
     AtomicPtr::new(first_glVertex2d as *mut ()),
     AtomicPtr::new(first_glVertex2dv as *mut ()),
     AtomicPtr::new(first_glVertex2f as *mut ()),
@@ -813,6 +813,23 @@ pub(crate) static ENTRY: [AtomicPtr<()>; 1367] = [
     AtomicPtr::new(first_glTextureParameterIuiv as *mut ()),
     AtomicPtr::new(first_glGenerateMipmap as *mut ()),
     AtomicPtr::new(first_glGenerateMipmapEXT as *mut ()),
+    AtomicPtr::new(first_glCopyImageSubData as *mut ()),
+    AtomicPtr::new(first_glCopyImageSubDataEXT as *mut ()),
+    AtomicPtr::new(first_glCopyImageSubDataOES as *mut ()),
+    AtomicPtr::new(first_glGetTextureImage as *mut ()),
+    AtomicPtr::new(first_glGetTextureSubImage as *mut ()),
+    AtomicPtr::new(first_glGetCompressedTextureImage as *mut ()),
+    AtomicPtr::new(first_glTextureSubImage1D as *mut ()),
+    AtomicPtr::new(first_glTextureSubImage2D as *mut ()),
+    AtomicPtr::new(first_glTextureSubImage3D as *mut ()),
+    AtomicPtr::new(first_glClearTexImage as *mut ()),
+    AtomicPtr::new(first_glClearTexImageEXT as *mut ()),
+    AtomicPtr::new(first_glClearTexSubImage as *mut ()),
+    AtomicPtr::new(first_glClearTexSubImageEXT as *mut ()),
+    AtomicPtr::new(first_glBindImageTexture as *mut ()),
+    AtomicPtr::new(first_glBindImageTextures as *mut ()),
+    AtomicPtr::new(first_glDispatchCompute as *mut ()),
+    AtomicPtr::new(first_glDispatchComputeIndirect as *mut ()),
     AtomicPtr::new(first_glProgramEnvParameter4dARB as *mut ()),
     AtomicPtr::new(first_glProgramEnvParameter4dvARB as *mut ()),
     AtomicPtr::new(first_glProgramEnvParameter4fARB as *mut ()),
@@ -1217,13 +1234,16 @@ pub(crate) static ENTRY: [AtomicPtr<()>; 1367] = [
     AtomicPtr::new(first_glGetPixelMapuiv as *mut ()),
     AtomicPtr::new(first_glGetPixelMapusv as *mut ()),
     AtomicPtr::new(first_glGetPolygonStipple as *mut ()),
-    AtomicPtr::new(first_glGetTexImage as *mut ()),
-    AtomicPtr::new(first_glGetnTexImage as *mut ()),
     AtomicPtr::new(first_glGetPointerv as *mut ()),
     AtomicPtr::new(first_glGetPointervEXT as *mut ()),
     AtomicPtr::new(first_glGetPointervKHR as *mut ()),
     AtomicPtr::new(first_glGetIntegeri_v as *mut ()),
     AtomicPtr::new(first_glGetIntegerIndexedvEXT as *mut ()),
+    AtomicPtr::new(first_glGetTexImage as *mut ()),
+    AtomicPtr::new(first_glGetnTexImage as *mut ()),
+    AtomicPtr::new(first_glGetCompressedTexImage as *mut ()),
+    AtomicPtr::new(first_glGetCompressedTexImageARB as *mut ()),
+    AtomicPtr::new(first_glGetnCompressedTexImage as *mut ()),
     AtomicPtr::new(first_glGetUniformfv as *mut ()),
     AtomicPtr::new(first_glGetUniformfvARB as *mut ()),
     AtomicPtr::new(first_glGetUniformiv as *mut ()),
@@ -1375,10 +1395,12 @@ pub(crate) static ENTRY: [AtomicPtr<()>; 1367] = [
     AtomicPtr::new(core::ptr::null_mut()),
     AtomicPtr::new(core::ptr::null_mut()),
     AtomicPtr::new(core::ptr::null_mut()),
+    AtomicPtr::new(core::ptr::null_mut()),
+    AtomicPtr::new(core::ptr::null_mut()),
 ];
 
 /// The hook of each exported function, by slot.
-pub(crate) static HOOK: [Option<crate::Address>; 1367] = [
+pub(crate) static HOOK: [Option<crate::Address>; 1389] = [
     Some(crate::Address(hook_glVertex2d as *const ())),
     Some(crate::Address(hook_glVertex2dv as *const ())),
     Some(crate::Address(hook_glVertex2f as *const ())),
@@ -2184,6 +2206,23 @@ pub(crate) static HOOK: [Option<crate::Address>; 1367] = [
     Some(crate::Address(hook_glTextureParameterIuiv as *const ())),
     Some(crate::Address(hook_glGenerateMipmap as *const ())),
     Some(crate::Address(hook_glGenerateMipmapEXT as *const ())),
+    Some(crate::Address(hook_glCopyImageSubData as *const ())),
+    Some(crate::Address(hook_glCopyImageSubDataEXT as *const ())),
+    Some(crate::Address(hook_glCopyImageSubDataOES as *const ())),
+    Some(crate::Address(hook_glGetTextureImage as *const ())),
+    Some(crate::Address(hook_glGetTextureSubImage as *const ())),
+    Some(crate::Address(hook_glGetCompressedTextureImage as *const ())),
+    Some(crate::Address(hook_glTextureSubImage1D as *const ())),
+    Some(crate::Address(hook_glTextureSubImage2D as *const ())),
+    Some(crate::Address(hook_glTextureSubImage3D as *const ())),
+    Some(crate::Address(hook_glClearTexImage as *const ())),
+    Some(crate::Address(hook_glClearTexImageEXT as *const ())),
+    Some(crate::Address(hook_glClearTexSubImage as *const ())),
+    Some(crate::Address(hook_glClearTexSubImageEXT as *const ())),
+    Some(crate::Address(hook_glBindImageTexture as *const ())),
+    Some(crate::Address(hook_glBindImageTextures as *const ())),
+    Some(crate::Address(hook_glDispatchCompute as *const ())),
+    Some(crate::Address(hook_glDispatchComputeIndirect as *const ())),
     Some(crate::Address(hook_glProgramEnvParameter4dARB as *const ())),
     Some(crate::Address(hook_glProgramEnvParameter4dvARB as *const ())),
     Some(crate::Address(hook_glProgramEnvParameter4fARB as *const ())),
@@ -2588,13 +2627,16 @@ pub(crate) static HOOK: [Option<crate::Address>; 1367] = [
     Some(crate::Address(hook_glGetPixelMapuiv as *const ())),
     Some(crate::Address(hook_glGetPixelMapusv as *const ())),
     Some(crate::Address(hook_glGetPolygonStipple as *const ())),
-    Some(crate::Address(hook_glGetTexImage as *const ())),
-    Some(crate::Address(hook_glGetnTexImage as *const ())),
     Some(crate::Address(hook_glGetPointerv as *const ())),
     Some(crate::Address(hook_glGetPointervEXT as *const ())),
     Some(crate::Address(hook_glGetPointervKHR as *const ())),
     Some(crate::Address(hook_glGetIntegeri_v as *const ())),
     Some(crate::Address(hook_glGetIntegerIndexedvEXT as *const ())),
+    Some(crate::Address(hook_glGetTexImage as *const ())),
+    Some(crate::Address(hook_glGetnTexImage as *const ())),
+    Some(crate::Address(hook_glGetCompressedTexImage as *const ())),
+    Some(crate::Address(hook_glGetCompressedTexImageARB as *const ())),
+    Some(crate::Address(hook_glGetnCompressedTexImage as *const ())),
     Some(crate::Address(hook_glGetUniformfv as *const ())),
     Some(crate::Address(hook_glGetUniformfvARB as *const ())),
     Some(crate::Address(hook_glGetUniformiv as *const ())),
@@ -2746,59 +2788,63 @@ pub(crate) static HOOK: [Option<crate::Address>; 1367] = [
     None,
     None,
     None,
+    None,
+    None,
 ];
 
 /// Exported names in order, their slots and addresses: what dlsym and the GetProcAddress family hand out.
-pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1318] = [
-    (b"OSMesaCreateContext", 1318, crate::Address(OSMesaCreateContext as *const ())),
-    (b"OSMesaCreateContextAttribs", 1320, crate::Address(OSMesaCreateContextAttribs as *const ())),
-    (b"OSMesaCreateContextExt", 1319, crate::Address(OSMesaCreateContextExt as *const ())),
-    (b"OSMesaDestroyContext", 1321, crate::Address(OSMesaDestroyContext as *const ())),
-    (b"OSMesaGetProcAddress", 1322, crate::Address(OSMesaGetProcAddress as *const ())),
-    (b"OSMesaMakeCurrent", 1317, crate::Address(OSMesaMakeCurrent as *const ())),
-    (b"eglCreateContext", 1302, crate::Address(eglCreateContext as *const ())),
-    (b"eglCreatePlatformWindowSurface", 1309, crate::Address(eglCreatePlatformWindowSurface as *const ())),
-    (b"eglCreatePlatformWindowSurfaceEXT", 1310, crate::Address(eglCreatePlatformWindowSurfaceEXT as *const ())),
-    (b"eglCreateWindowSurface", 1308, crate::Address(eglCreateWindowSurface as *const ())),
-    (b"eglDestroyContext", 1303, crate::Address(eglDestroyContext as *const ())),
-    (b"eglDestroySurface", 1311, crate::Address(eglDestroySurface as *const ())),
-    (b"eglGetDisplay", 1305, crate::Address(eglGetDisplay as *const ())),
-    (b"eglGetPlatformDisplay", 1306, crate::Address(eglGetPlatformDisplay as *const ())),
-    (b"eglGetPlatformDisplayEXT", 1307, crate::Address(eglGetPlatformDisplayEXT as *const ())),
-    (b"eglGetProcAddress", 1312, crate::Address(eglGetProcAddress as *const ())),
-    (b"eglMakeCurrent", 1301, crate::Address(eglMakeCurrent as *const ())),
-    (b"eglReleaseThread", 1304, crate::Address(eglReleaseThread as *const ())),
-    (b"eglSwapBuffers", 1298, crate::Address(eglSwapBuffers as *const ())),
-    (b"eglSwapBuffersWithDamageEXT", 1300, crate::Address(eglSwapBuffersWithDamageEXT as *const ())),
-    (b"eglSwapBuffersWithDamageKHR", 1299, crate::Address(eglSwapBuffersWithDamageKHR as *const ())),
-    (b"glAccum", 1054, crate::Address(glAccum as *const ())),
+pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1338] = [
+    (b"OSMesaCreateContext", 1338, crate::Address(OSMesaCreateContext as *const ())),
+    (b"OSMesaCreateContextAttribs", 1340, crate::Address(OSMesaCreateContextAttribs as *const ())),
+    (b"OSMesaCreateContextExt", 1339, crate::Address(OSMesaCreateContextExt as *const ())),
+    (b"OSMesaDestroyContext", 1341, crate::Address(OSMesaDestroyContext as *const ())),
+    (b"OSMesaGetProcAddress", 1342, crate::Address(OSMesaGetProcAddress as *const ())),
+    (b"OSMesaMakeCurrent", 1337, crate::Address(OSMesaMakeCurrent as *const ())),
+    (b"eglCreateContext", 1322, crate::Address(eglCreateContext as *const ())),
+    (b"eglCreatePlatformWindowSurface", 1329, crate::Address(eglCreatePlatformWindowSurface as *const ())),
+    (b"eglCreatePlatformWindowSurfaceEXT", 1330, crate::Address(eglCreatePlatformWindowSurfaceEXT as *const ())),
+    (b"eglCreateWindowSurface", 1328, crate::Address(eglCreateWindowSurface as *const ())),
+    (b"eglDestroyContext", 1323, crate::Address(eglDestroyContext as *const ())),
+    (b"eglDestroySurface", 1331, crate::Address(eglDestroySurface as *const ())),
+    (b"eglGetDisplay", 1325, crate::Address(eglGetDisplay as *const ())),
+    (b"eglGetPlatformDisplay", 1326, crate::Address(eglGetPlatformDisplay as *const ())),
+    (b"eglGetPlatformDisplayEXT", 1327, crate::Address(eglGetPlatformDisplayEXT as *const ())),
+    (b"eglGetProcAddress", 1332, crate::Address(eglGetProcAddress as *const ())),
+    (b"eglMakeCurrent", 1321, crate::Address(eglMakeCurrent as *const ())),
+    (b"eglReleaseThread", 1324, crate::Address(eglReleaseThread as *const ())),
+    (b"eglSwapBuffers", 1318, crate::Address(eglSwapBuffers as *const ())),
+    (b"eglSwapBuffersWithDamageEXT", 1320, crate::Address(eglSwapBuffersWithDamageEXT as *const ())),
+    (b"eglSwapBuffersWithDamageKHR", 1319, crate::Address(eglSwapBuffersWithDamageKHR as *const ())),
+    (b"glAccum", 1071, crate::Address(glAccum as *const ())),
     (b"glActiveTexture", 537, crate::Address(glActiveTexture as *const ())),
     (b"glActiveTextureARB", 538, crate::Address(glActiveTextureARB as *const ())),
     (b"glAlphaFunc", 674, crate::Address(glAlphaFunc as *const ())),
     (b"glArrayElement", 260, crate::Address(glArrayElement as *const ())),
     (b"glArrayElementEXT", 261, crate::Address(glArrayElementEXT as *const ())),
     (b"glBegin", 454, crate::Address(glBegin as *const ())),
-    (b"glBeginConditionalRender", 1160, crate::Address(glBeginConditionalRender as *const ())),
-    (b"glBeginConditionalRenderNV", 1161, crate::Address(glBeginConditionalRenderNV as *const ())),
-    (b"glBeginQuery", 1165, crate::Address(glBeginQuery as *const ())),
-    (b"glBeginQueryARB", 1166, crate::Address(glBeginQueryARB as *const ())),
+    (b"glBeginConditionalRender", 1177, crate::Address(glBeginConditionalRender as *const ())),
+    (b"glBeginConditionalRenderNV", 1178, crate::Address(glBeginConditionalRenderNV as *const ())),
+    (b"glBeginQuery", 1182, crate::Address(glBeginQuery as *const ())),
+    (b"glBeginQueryARB", 1183, crate::Address(glBeginQueryARB as *const ())),
     (b"glBeginTransformFeedback", 668, crate::Address(glBeginTransformFeedback as *const ())),
     (b"glBeginTransformFeedbackEXT", 669, crate::Address(glBeginTransformFeedbackEXT as *const ())),
     (b"glBeginTransformFeedbackNV", 670, crate::Address(glBeginTransformFeedbackNV as *const ())),
-    (b"glBindBuffer", 1247, crate::Address(glBindBuffer as *const ())),
-    (b"glBindBufferARB", 1248, crate::Address(glBindBufferARB as *const ())),
-    (b"glBindFramebuffer", 1071, crate::Address(glBindFramebuffer as *const ())),
-    (b"glBindFramebufferEXT", 1072, crate::Address(glBindFramebufferEXT as *const ())),
+    (b"glBindBuffer", 1267, crate::Address(glBindBuffer as *const ())),
+    (b"glBindBufferARB", 1268, crate::Address(glBindBufferARB as *const ())),
+    (b"glBindFramebuffer", 1088, crate::Address(glBindFramebuffer as *const ())),
+    (b"glBindFramebufferEXT", 1089, crate::Address(glBindFramebufferEXT as *const ())),
+    (b"glBindImageTexture", 818, crate::Address(glBindImageTexture as *const ())),
+    (b"glBindImageTextures", 819, crate::Address(glBindImageTextures as *const ())),
     (b"glBindMultiTextureEXT", 541, crate::Address(glBindMultiTextureEXT as *const ())),
     (b"glBindProgramARB", 587, crate::Address(glBindProgramARB as *const ())),
     (b"glBindProgramNV", 588, crate::Address(glBindProgramNV as *const ())),
     (b"glBindProgramPipeline", 592, crate::Address(glBindProgramPipeline as *const ())),
-    (b"glBindRenderbuffer", 1239, crate::Address(glBindRenderbuffer as *const ())),
-    (b"glBindTexture", 1065, crate::Address(glBindTexture as *const ())),
-    (b"glBindTextureEXT", 1066, crate::Address(glBindTextureEXT as *const ())),
+    (b"glBindRenderbuffer", 1259, crate::Address(glBindRenderbuffer as *const ())),
+    (b"glBindTexture", 1082, crate::Address(glBindTexture as *const ())),
+    (b"glBindTextureEXT", 1083, crate::Address(glBindTextureEXT as *const ())),
     (b"glBindTextureUnit", 540, crate::Address(glBindTextureUnit as *const ())),
     (b"glBindTextures", 539, crate::Address(glBindTextures as *const ())),
-    (b"glBitmap", 1055, crate::Address(glBitmap as *const ())),
+    (b"glBitmap", 1072, crate::Address(glBitmap as *const ())),
     (b"glBlendColor", 703, crate::Address(glBlendColor as *const ())),
     (b"glBlendColorEXT", 704, crate::Address(glBlendColorEXT as *const ())),
     (b"glBlendEquation", 689, crate::Address(glBlendEquation as *const ())),
@@ -2829,38 +2875,42 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1318] = [
     (b"glBlendFunciARB", 686, crate::Address(glBlendFunciARB as *const ())),
     (b"glBlendFunciEXT", 687, crate::Address(glBlendFunciEXT as *const ())),
     (b"glBlendFunciOES", 688, crate::Address(glBlendFunciOES as *const ())),
-    (b"glBlitFramebuffer", 1087, crate::Address(glBlitFramebuffer as *const ())),
-    (b"glBlitFramebufferEXT", 1088, crate::Address(glBlitFramebufferEXT as *const ())),
-    (b"glBlitFramebufferNV", 1089, crate::Address(glBlitFramebufferNV as *const ())),
-    (b"glBlitNamedFramebuffer", 1090, crate::Address(glBlitNamedFramebuffer as *const ())),
-    (b"glBufferData", 1249, crate::Address(glBufferData as *const ())),
-    (b"glBufferDataARB", 1250, crate::Address(glBufferDataARB as *const ())),
-    (b"glBufferSubData", 1251, crate::Address(glBufferSubData as *const ())),
-    (b"glBufferSubDataARB", 1252, crate::Address(glBufferSubDataARB as *const ())),
-    (b"glCallList", 1060, crate::Address(glCallList as *const ())),
-    (b"glCallLists", 1061, crate::Address(glCallLists as *const ())),
-    (b"glCheckFramebufferStatus", 1122, crate::Address(glCheckFramebufferStatus as *const ())),
-    (b"glCheckFramebufferStatusEXT", 1123, crate::Address(glCheckFramebufferStatusEXT as *const ())),
+    (b"glBlitFramebuffer", 1104, crate::Address(glBlitFramebuffer as *const ())),
+    (b"glBlitFramebufferEXT", 1105, crate::Address(glBlitFramebufferEXT as *const ())),
+    (b"glBlitFramebufferNV", 1106, crate::Address(glBlitFramebufferNV as *const ())),
+    (b"glBlitNamedFramebuffer", 1107, crate::Address(glBlitNamedFramebuffer as *const ())),
+    (b"glBufferData", 1269, crate::Address(glBufferData as *const ())),
+    (b"glBufferDataARB", 1270, crate::Address(glBufferDataARB as *const ())),
+    (b"glBufferSubData", 1271, crate::Address(glBufferSubData as *const ())),
+    (b"glBufferSubDataARB", 1272, crate::Address(glBufferSubDataARB as *const ())),
+    (b"glCallList", 1077, crate::Address(glCallList as *const ())),
+    (b"glCallLists", 1078, crate::Address(glCallLists as *const ())),
+    (b"glCheckFramebufferStatus", 1139, crate::Address(glCheckFramebufferStatus as *const ())),
+    (b"glCheckFramebufferStatusEXT", 1140, crate::Address(glCheckFramebufferStatusEXT as *const ())),
     (b"glClampColor", 590, crate::Address(glClampColor as *const ())),
     (b"glClampColorARB", 591, crate::Address(glClampColorARB as *const ())),
-    (b"glClear", 988, crate::Address(glClear as *const ())),
+    (b"glClear", 1005, crate::Address(glClear as *const ())),
     (b"glClearAccum", 705, crate::Address(glClearAccum as *const ())),
-    (b"glClearBufferfi", 989, crate::Address(glClearBufferfi as *const ())),
-    (b"glClearBufferfv", 990, crate::Address(glClearBufferfv as *const ())),
-    (b"glClearBufferiv", 991, crate::Address(glClearBufferiv as *const ())),
-    (b"glClearBufferuiv", 992, crate::Address(glClearBufferuiv as *const ())),
+    (b"glClearBufferfi", 1006, crate::Address(glClearBufferfi as *const ())),
+    (b"glClearBufferfv", 1007, crate::Address(glClearBufferfv as *const ())),
+    (b"glClearBufferiv", 1008, crate::Address(glClearBufferiv as *const ())),
+    (b"glClearBufferuiv", 1009, crate::Address(glClearBufferuiv as *const ())),
     (b"glClearColor", 706, crate::Address(glClearColor as *const ())),
     (b"glClearDepth", 707, crate::Address(glClearDepth as *const ())),
     (b"glClearDepthf", 708, crate::Address(glClearDepthf as *const ())),
     (b"glClearDepthfOES", 709, crate::Address(glClearDepthfOES as *const ())),
     (b"glClearIndex", 710, crate::Address(glClearIndex as *const ())),
-    (b"glClearNamedFramebufferfi", 1094, crate::Address(glClearNamedFramebufferfi as *const ())),
-    (b"glClearNamedFramebufferfv", 1091, crate::Address(glClearNamedFramebufferfv as *const ())),
-    (b"glClearNamedFramebufferiv", 1092, crate::Address(glClearNamedFramebufferiv as *const ())),
-    (b"glClearNamedFramebufferuiv", 1093, crate::Address(glClearNamedFramebufferuiv as *const ())),
+    (b"glClearNamedFramebufferfi", 1111, crate::Address(glClearNamedFramebufferfi as *const ())),
+    (b"glClearNamedFramebufferfv", 1108, crate::Address(glClearNamedFramebufferfv as *const ())),
+    (b"glClearNamedFramebufferiv", 1109, crate::Address(glClearNamedFramebufferiv as *const ())),
+    (b"glClearNamedFramebufferuiv", 1110, crate::Address(glClearNamedFramebufferuiv as *const ())),
     (b"glClearStencil", 711, crate::Address(glClearStencil as *const ())),
-    (b"glClientActiveTexture", 1261, crate::Address(glClientActiveTexture as *const ())),
-    (b"glClientActiveTextureARB", 1262, crate::Address(glClientActiveTextureARB as *const ())),
+    (b"glClearTexImage", 814, crate::Address(glClearTexImage as *const ())),
+    (b"glClearTexImageEXT", 815, crate::Address(glClearTexImageEXT as *const ())),
+    (b"glClearTexSubImage", 816, crate::Address(glClearTexSubImage as *const ())),
+    (b"glClearTexSubImageEXT", 817, crate::Address(glClearTexSubImageEXT as *const ())),
+    (b"glClientActiveTexture", 1281, crate::Address(glClientActiveTexture as *const ())),
+    (b"glClientActiveTextureARB", 1282, crate::Address(glClientActiveTextureARB as *const ())),
     (b"glClipControl", 585, crate::Address(glClipControl as *const ())),
     (b"glClipControlEXT", 586, crate::Address(glClipControlEXT as *const ())),
     (b"glClipPlane", 712, crate::Address(glClipPlane as *const ())),
@@ -2910,7 +2960,7 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1318] = [
     (b"glColorP3uiv", 441, crate::Address(glColorP3uiv as *const ())),
     (b"glColorP4ui", 442, crate::Address(glColorP4ui as *const ())),
     (b"glColorP4uiv", 443, crate::Address(glColorP4uiv as *const ())),
-    (b"glColorPointer", 1264, crate::Address(glColorPointer as *const ())),
+    (b"glColorPointer", 1284, crate::Address(glColorPointer as *const ())),
     (b"glCompressedTexImage1D", 773, crate::Address(glCompressedTexImage1D as *const ())),
     (b"glCompressedTexImage1DARB", 774, crate::Address(glCompressedTexImage1DARB as *const ())),
     (b"glCompressedTexImage2D", 775, crate::Address(glCompressedTexImage2D as *const ())),
@@ -2923,42 +2973,45 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1318] = [
     (b"glCompressedTexSubImage2DARB", 782, crate::Address(glCompressedTexSubImage2DARB as *const ())),
     (b"glCompressedTexSubImage3D", 783, crate::Address(glCompressedTexSubImage3D as *const ())),
     (b"glCompressedTexSubImage3DARB", 784, crate::Address(glCompressedTexSubImage3DARB as *const ())),
-    (b"glCopyColorTable", 1151, crate::Address(glCopyColorTable as *const ())),
-    (b"glCopyColorTableSGI", 1152, crate::Address(glCopyColorTableSGI as *const ())),
-    (b"glCopyConvolutionFilter1D", 1153, crate::Address(glCopyConvolutionFilter1D as *const ())),
-    (b"glCopyConvolutionFilter1DEXT", 1154, crate::Address(glCopyConvolutionFilter1DEXT as *const ())),
-    (b"glCopyConvolutionFilter2D", 1155, crate::Address(glCopyConvolutionFilter2D as *const ())),
-    (b"glCopyConvolutionFilter2DEXT", 1156, crate::Address(glCopyConvolutionFilter2DEXT as *const ())),
-    (b"glCopyMultiTexImage1DEXT", 1147, crate::Address(glCopyMultiTexImage1DEXT as *const ())),
-    (b"glCopyMultiTexImage2DEXT", 1148, crate::Address(glCopyMultiTexImage2DEXT as *const ())),
-    (b"glCopyPixels", 1057, crate::Address(glCopyPixels as *const ())),
-    (b"glCopyTexImage1D", 1129, crate::Address(glCopyTexImage1D as *const ())),
-    (b"glCopyTexImage1DEXT", 1130, crate::Address(glCopyTexImage1DEXT as *const ())),
-    (b"glCopyTexImage2D", 1131, crate::Address(glCopyTexImage2D as *const ())),
-    (b"glCopyTexImage2DEXT", 1132, crate::Address(glCopyTexImage2DEXT as *const ())),
-    (b"glCopyTexSubImage1D", 1133, crate::Address(glCopyTexSubImage1D as *const ())),
-    (b"glCopyTexSubImage1DEXT", 1134, crate::Address(glCopyTexSubImage1DEXT as *const ())),
-    (b"glCopyTexSubImage2D", 1135, crate::Address(glCopyTexSubImage2D as *const ())),
-    (b"glCopyTexSubImage2DEXT", 1136, crate::Address(glCopyTexSubImage2DEXT as *const ())),
-    (b"glCopyTexSubImage3D", 1142, crate::Address(glCopyTexSubImage3D as *const ())),
-    (b"glCopyTexSubImage3DEXT", 1143, crate::Address(glCopyTexSubImage3DEXT as *const ())),
-    (b"glCopyTextureImage1DEXT", 1149, crate::Address(glCopyTextureImage1DEXT as *const ())),
-    (b"glCopyTextureImage2DEXT", 1150, crate::Address(glCopyTextureImage2DEXT as *const ())),
-    (b"glCopyTextureSubImage1D", 1144, crate::Address(glCopyTextureSubImage1D as *const ())),
-    (b"glCopyTextureSubImage2D", 1145, crate::Address(glCopyTextureSubImage2D as *const ())),
-    (b"glCopyTextureSubImage3D", 1146, crate::Address(glCopyTextureSubImage3D as *const ())),
+    (b"glCopyColorTable", 1168, crate::Address(glCopyColorTable as *const ())),
+    (b"glCopyColorTableSGI", 1169, crate::Address(glCopyColorTableSGI as *const ())),
+    (b"glCopyConvolutionFilter1D", 1170, crate::Address(glCopyConvolutionFilter1D as *const ())),
+    (b"glCopyConvolutionFilter1DEXT", 1171, crate::Address(glCopyConvolutionFilter1DEXT as *const ())),
+    (b"glCopyConvolutionFilter2D", 1172, crate::Address(glCopyConvolutionFilter2D as *const ())),
+    (b"glCopyConvolutionFilter2DEXT", 1173, crate::Address(glCopyConvolutionFilter2DEXT as *const ())),
+    (b"glCopyImageSubData", 805, crate::Address(glCopyImageSubData as *const ())),
+    (b"glCopyImageSubDataEXT", 806, crate::Address(glCopyImageSubDataEXT as *const ())),
+    (b"glCopyImageSubDataOES", 807, crate::Address(glCopyImageSubDataOES as *const ())),
+    (b"glCopyMultiTexImage1DEXT", 1164, crate::Address(glCopyMultiTexImage1DEXT as *const ())),
+    (b"glCopyMultiTexImage2DEXT", 1165, crate::Address(glCopyMultiTexImage2DEXT as *const ())),
+    (b"glCopyPixels", 1074, crate::Address(glCopyPixels as *const ())),
+    (b"glCopyTexImage1D", 1146, crate::Address(glCopyTexImage1D as *const ())),
+    (b"glCopyTexImage1DEXT", 1147, crate::Address(glCopyTexImage1DEXT as *const ())),
+    (b"glCopyTexImage2D", 1148, crate::Address(glCopyTexImage2D as *const ())),
+    (b"glCopyTexImage2DEXT", 1149, crate::Address(glCopyTexImage2DEXT as *const ())),
+    (b"glCopyTexSubImage1D", 1150, crate::Address(glCopyTexSubImage1D as *const ())),
+    (b"glCopyTexSubImage1DEXT", 1151, crate::Address(glCopyTexSubImage1DEXT as *const ())),
+    (b"glCopyTexSubImage2D", 1152, crate::Address(glCopyTexSubImage2D as *const ())),
+    (b"glCopyTexSubImage2DEXT", 1153, crate::Address(glCopyTexSubImage2DEXT as *const ())),
+    (b"glCopyTexSubImage3D", 1159, crate::Address(glCopyTexSubImage3D as *const ())),
+    (b"glCopyTexSubImage3DEXT", 1160, crate::Address(glCopyTexSubImage3DEXT as *const ())),
+    (b"glCopyTextureImage1DEXT", 1166, crate::Address(glCopyTextureImage1DEXT as *const ())),
+    (b"glCopyTextureImage2DEXT", 1167, crate::Address(glCopyTextureImage2DEXT as *const ())),
+    (b"glCopyTextureSubImage1D", 1161, crate::Address(glCopyTextureSubImage1D as *const ())),
+    (b"glCopyTextureSubImage2D", 1162, crate::Address(glCopyTextureSubImage2D as *const ())),
+    (b"glCopyTextureSubImage3D", 1163, crate::Address(glCopyTextureSubImage3D as *const ())),
     (b"glCullFace", 718, crate::Address(glCullFace as *const ())),
-    (b"glDeleteBuffers", 1253, crate::Address(glDeleteBuffers as *const ())),
-    (b"glDeleteBuffersARB", 1254, crate::Address(glDeleteBuffersARB as *const ())),
-    (b"glDeleteFramebuffers", 1073, crate::Address(glDeleteFramebuffers as *const ())),
-    (b"glDeleteFramebuffersEXT", 1074, crate::Address(glDeleteFramebuffersEXT as *const ())),
-    (b"glDeleteLists", 1062, crate::Address(glDeleteLists as *const ())),
-    (b"glDeleteProgram", 986, crate::Address(glDeleteProgram as *const ())),
-    (b"glDeleteQueries", 1169, crate::Address(glDeleteQueries as *const ())),
-    (b"glDeleteQueriesARB", 1170, crate::Address(glDeleteQueriesARB as *const ())),
-    (b"glDeleteRenderbuffers", 1245, crate::Address(glDeleteRenderbuffers as *const ())),
-    (b"glDeleteRenderbuffersEXT", 1246, crate::Address(glDeleteRenderbuffersEXT as *const ())),
-    (b"glDeleteTextures", 1067, crate::Address(glDeleteTextures as *const ())),
+    (b"glDeleteBuffers", 1273, crate::Address(glDeleteBuffers as *const ())),
+    (b"glDeleteBuffersARB", 1274, crate::Address(glDeleteBuffersARB as *const ())),
+    (b"glDeleteFramebuffers", 1090, crate::Address(glDeleteFramebuffers as *const ())),
+    (b"glDeleteFramebuffersEXT", 1091, crate::Address(glDeleteFramebuffersEXT as *const ())),
+    (b"glDeleteLists", 1079, crate::Address(glDeleteLists as *const ())),
+    (b"glDeleteProgram", 1003, crate::Address(glDeleteProgram as *const ())),
+    (b"glDeleteQueries", 1186, crate::Address(glDeleteQueries as *const ())),
+    (b"glDeleteQueriesARB", 1187, crate::Address(glDeleteQueriesARB as *const ())),
+    (b"glDeleteRenderbuffers", 1265, crate::Address(glDeleteRenderbuffers as *const ())),
+    (b"glDeleteRenderbuffersEXT", 1266, crate::Address(glDeleteRenderbuffersEXT as *const ())),
+    (b"glDeleteTextures", 1084, crate::Address(glDeleteTextures as *const ())),
     (b"glDepthBoundsEXT", 719, crate::Address(glDepthBoundsEXT as *const ())),
     (b"glDepthFunc", 531, crate::Address(glDepthFunc as *const ())),
     (b"glDepthMask", 530, crate::Address(glDepthMask as *const ())),
@@ -2968,79 +3021,81 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1318] = [
     (b"glDepthRangef", 533, crate::Address(glDepthRangef as *const ())),
     (b"glDepthRangefOES", 534, crate::Address(glDepthRangefOES as *const ())),
     (b"glDisable", 519, crate::Address(glDisable as *const ())),
-    (b"glDisableClientState", 1260, crate::Address(glDisableClientState as *const ())),
+    (b"glDisableClientState", 1280, crate::Address(glDisableClientState as *const ())),
     (b"glDisableIndexedEXT", 526, crate::Address(glDisableIndexedEXT as *const ())),
-    (b"glDisableVertexAttribArray", 1278, crate::Address(glDisableVertexAttribArray as *const ())),
-    (b"glDisableVertexAttribArrayARB", 1279, crate::Address(glDisableVertexAttribArrayARB as *const ())),
+    (b"glDisableVertexAttribArray", 1298, crate::Address(glDisableVertexAttribArray as *const ())),
+    (b"glDisableVertexAttribArrayARB", 1299, crate::Address(glDisableVertexAttribArrayARB as *const ())),
     (b"glDisablei", 525, crate::Address(glDisablei as *const ())),
     (b"glDisableiEXT", 527, crate::Address(glDisableiEXT as *const ())),
     (b"glDisableiNV", 528, crate::Address(glDisableiNV as *const ())),
     (b"glDisableiOES", 529, crate::Address(glDisableiOES as *const ())),
-    (b"glDiscardFramebufferEXT", 1128, crate::Address(glDiscardFramebufferEXT as *const ())),
-    (b"glDrawArrays", 993, crate::Address(glDrawArrays as *const ())),
-    (b"glDrawArraysEXT", 994, crate::Address(glDrawArraysEXT as *const ())),
-    (b"glDrawArraysIndirect", 1029, crate::Address(glDrawArraysIndirect as *const ())),
-    (b"glDrawArraysInstanced", 1010, crate::Address(glDrawArraysInstanced as *const ())),
-    (b"glDrawArraysInstancedANGLE", 1011, crate::Address(glDrawArraysInstancedANGLE as *const ())),
-    (b"glDrawArraysInstancedARB", 1012, crate::Address(glDrawArraysInstancedARB as *const ())),
-    (b"glDrawArraysInstancedBaseInstance", 1023, crate::Address(glDrawArraysInstancedBaseInstance as *const ())),
-    (b"glDrawArraysInstancedBaseInstanceEXT", 1024, crate::Address(glDrawArraysInstancedBaseInstanceEXT as *const ())),
-    (b"glDrawArraysInstancedEXT", 1013, crate::Address(glDrawArraysInstancedEXT as *const ())),
-    (b"glDrawArraysInstancedNV", 1014, crate::Address(glDrawArraysInstancedNV as *const ())),
-    (b"glDrawBuffer", 1075, crate::Address(glDrawBuffer as *const ())),
-    (b"glDrawBuffers", 1076, crate::Address(glDrawBuffers as *const ())),
-    (b"glDrawBuffersARB", 1077, crate::Address(glDrawBuffersARB as *const ())),
-    (b"glDrawBuffersATI", 1078, crate::Address(glDrawBuffersATI as *const ())),
-    (b"glDrawBuffersEXT", 1079, crate::Address(glDrawBuffersEXT as *const ())),
-    (b"glDrawElements", 995, crate::Address(glDrawElements as *const ())),
-    (b"glDrawElementsBaseVertex", 1002, crate::Address(glDrawElementsBaseVertex as *const ())),
-    (b"glDrawElementsBaseVertexEXT", 1003, crate::Address(glDrawElementsBaseVertexEXT as *const ())),
-    (b"glDrawElementsBaseVertexOES", 1004, crate::Address(glDrawElementsBaseVertexOES as *const ())),
-    (b"glDrawElementsIndirect", 1030, crate::Address(glDrawElementsIndirect as *const ())),
-    (b"glDrawElementsInstanced", 1015, crate::Address(glDrawElementsInstanced as *const ())),
-    (b"glDrawElementsInstancedANGLE", 1016, crate::Address(glDrawElementsInstancedANGLE as *const ())),
-    (b"glDrawElementsInstancedARB", 1017, crate::Address(glDrawElementsInstancedARB as *const ())),
-    (b"glDrawElementsInstancedBaseInstance", 1025, crate::Address(glDrawElementsInstancedBaseInstance as *const ())),
-    (b"glDrawElementsInstancedBaseInstanceEXT", 1026, crate::Address(glDrawElementsInstancedBaseInstanceEXT as *const ())),
-    (b"glDrawElementsInstancedBaseVertex", 1020, crate::Address(glDrawElementsInstancedBaseVertex as *const ())),
-    (b"glDrawElementsInstancedBaseVertexBaseInstance", 1027, crate::Address(glDrawElementsInstancedBaseVertexBaseInstance as *const ())),
-    (b"glDrawElementsInstancedBaseVertexBaseInstanceEXT", 1028, crate::Address(glDrawElementsInstancedBaseVertexBaseInstanceEXT as *const ())),
-    (b"glDrawElementsInstancedBaseVertexEXT", 1021, crate::Address(glDrawElementsInstancedBaseVertexEXT as *const ())),
-    (b"glDrawElementsInstancedBaseVertexOES", 1022, crate::Address(glDrawElementsInstancedBaseVertexOES as *const ())),
-    (b"glDrawElementsInstancedEXT", 1018, crate::Address(glDrawElementsInstancedEXT as *const ())),
-    (b"glDrawElementsInstancedNV", 1019, crate::Address(glDrawElementsInstancedNV as *const ())),
-    (b"glDrawPixels", 1056, crate::Address(glDrawPixels as *const ())),
-    (b"glDrawRangeElements", 996, crate::Address(glDrawRangeElements as *const ())),
-    (b"glDrawRangeElementsBaseVertex", 1005, crate::Address(glDrawRangeElementsBaseVertex as *const ())),
-    (b"glDrawRangeElementsBaseVertexEXT", 1006, crate::Address(glDrawRangeElementsBaseVertexEXT as *const ())),
-    (b"glDrawRangeElementsBaseVertexOES", 1007, crate::Address(glDrawRangeElementsBaseVertexOES as *const ())),
-    (b"glDrawRangeElementsEXT", 997, crate::Address(glDrawRangeElementsEXT as *const ())),
-    (b"glDrawTransformFeedback", 1037, crate::Address(glDrawTransformFeedback as *const ())),
-    (b"glDrawTransformFeedbackEXT", 1038, crate::Address(glDrawTransformFeedbackEXT as *const ())),
-    (b"glDrawTransformFeedbackInstanced", 1040, crate::Address(glDrawTransformFeedbackInstanced as *const ())),
-    (b"glDrawTransformFeedbackInstancedEXT", 1041, crate::Address(glDrawTransformFeedbackInstancedEXT as *const ())),
-    (b"glDrawTransformFeedbackNV", 1039, crate::Address(glDrawTransformFeedbackNV as *const ())),
-    (b"glDrawTransformFeedbackStream", 1042, crate::Address(glDrawTransformFeedbackStream as *const ())),
-    (b"glDrawTransformFeedbackStreamInstanced", 1043, crate::Address(glDrawTransformFeedbackStreamInstanced as *const ())),
+    (b"glDiscardFramebufferEXT", 1145, crate::Address(glDiscardFramebufferEXT as *const ())),
+    (b"glDispatchCompute", 820, crate::Address(glDispatchCompute as *const ())),
+    (b"glDispatchComputeIndirect", 821, crate::Address(glDispatchComputeIndirect as *const ())),
+    (b"glDrawArrays", 1010, crate::Address(glDrawArrays as *const ())),
+    (b"glDrawArraysEXT", 1011, crate::Address(glDrawArraysEXT as *const ())),
+    (b"glDrawArraysIndirect", 1046, crate::Address(glDrawArraysIndirect as *const ())),
+    (b"glDrawArraysInstanced", 1027, crate::Address(glDrawArraysInstanced as *const ())),
+    (b"glDrawArraysInstancedANGLE", 1028, crate::Address(glDrawArraysInstancedANGLE as *const ())),
+    (b"glDrawArraysInstancedARB", 1029, crate::Address(glDrawArraysInstancedARB as *const ())),
+    (b"glDrawArraysInstancedBaseInstance", 1040, crate::Address(glDrawArraysInstancedBaseInstance as *const ())),
+    (b"glDrawArraysInstancedBaseInstanceEXT", 1041, crate::Address(glDrawArraysInstancedBaseInstanceEXT as *const ())),
+    (b"glDrawArraysInstancedEXT", 1030, crate::Address(glDrawArraysInstancedEXT as *const ())),
+    (b"glDrawArraysInstancedNV", 1031, crate::Address(glDrawArraysInstancedNV as *const ())),
+    (b"glDrawBuffer", 1092, crate::Address(glDrawBuffer as *const ())),
+    (b"glDrawBuffers", 1093, crate::Address(glDrawBuffers as *const ())),
+    (b"glDrawBuffersARB", 1094, crate::Address(glDrawBuffersARB as *const ())),
+    (b"glDrawBuffersATI", 1095, crate::Address(glDrawBuffersATI as *const ())),
+    (b"glDrawBuffersEXT", 1096, crate::Address(glDrawBuffersEXT as *const ())),
+    (b"glDrawElements", 1012, crate::Address(glDrawElements as *const ())),
+    (b"glDrawElementsBaseVertex", 1019, crate::Address(glDrawElementsBaseVertex as *const ())),
+    (b"glDrawElementsBaseVertexEXT", 1020, crate::Address(glDrawElementsBaseVertexEXT as *const ())),
+    (b"glDrawElementsBaseVertexOES", 1021, crate::Address(glDrawElementsBaseVertexOES as *const ())),
+    (b"glDrawElementsIndirect", 1047, crate::Address(glDrawElementsIndirect as *const ())),
+    (b"glDrawElementsInstanced", 1032, crate::Address(glDrawElementsInstanced as *const ())),
+    (b"glDrawElementsInstancedANGLE", 1033, crate::Address(glDrawElementsInstancedANGLE as *const ())),
+    (b"glDrawElementsInstancedARB", 1034, crate::Address(glDrawElementsInstancedARB as *const ())),
+    (b"glDrawElementsInstancedBaseInstance", 1042, crate::Address(glDrawElementsInstancedBaseInstance as *const ())),
+    (b"glDrawElementsInstancedBaseInstanceEXT", 1043, crate::Address(glDrawElementsInstancedBaseInstanceEXT as *const ())),
+    (b"glDrawElementsInstancedBaseVertex", 1037, crate::Address(glDrawElementsInstancedBaseVertex as *const ())),
+    (b"glDrawElementsInstancedBaseVertexBaseInstance", 1044, crate::Address(glDrawElementsInstancedBaseVertexBaseInstance as *const ())),
+    (b"glDrawElementsInstancedBaseVertexBaseInstanceEXT", 1045, crate::Address(glDrawElementsInstancedBaseVertexBaseInstanceEXT as *const ())),
+    (b"glDrawElementsInstancedBaseVertexEXT", 1038, crate::Address(glDrawElementsInstancedBaseVertexEXT as *const ())),
+    (b"glDrawElementsInstancedBaseVertexOES", 1039, crate::Address(glDrawElementsInstancedBaseVertexOES as *const ())),
+    (b"glDrawElementsInstancedEXT", 1035, crate::Address(glDrawElementsInstancedEXT as *const ())),
+    (b"glDrawElementsInstancedNV", 1036, crate::Address(glDrawElementsInstancedNV as *const ())),
+    (b"glDrawPixels", 1073, crate::Address(glDrawPixels as *const ())),
+    (b"glDrawRangeElements", 1013, crate::Address(glDrawRangeElements as *const ())),
+    (b"glDrawRangeElementsBaseVertex", 1022, crate::Address(glDrawRangeElementsBaseVertex as *const ())),
+    (b"glDrawRangeElementsBaseVertexEXT", 1023, crate::Address(glDrawRangeElementsBaseVertexEXT as *const ())),
+    (b"glDrawRangeElementsBaseVertexOES", 1024, crate::Address(glDrawRangeElementsBaseVertexOES as *const ())),
+    (b"glDrawRangeElementsEXT", 1014, crate::Address(glDrawRangeElementsEXT as *const ())),
+    (b"glDrawTransformFeedback", 1054, crate::Address(glDrawTransformFeedback as *const ())),
+    (b"glDrawTransformFeedbackEXT", 1055, crate::Address(glDrawTransformFeedbackEXT as *const ())),
+    (b"glDrawTransformFeedbackInstanced", 1057, crate::Address(glDrawTransformFeedbackInstanced as *const ())),
+    (b"glDrawTransformFeedbackInstancedEXT", 1058, crate::Address(glDrawTransformFeedbackInstancedEXT as *const ())),
+    (b"glDrawTransformFeedbackNV", 1056, crate::Address(glDrawTransformFeedbackNV as *const ())),
+    (b"glDrawTransformFeedbackStream", 1059, crate::Address(glDrawTransformFeedbackStream as *const ())),
+    (b"glDrawTransformFeedbackStreamInstanced", 1060, crate::Address(glDrawTransformFeedbackStreamInstanced as *const ())),
     (b"glEdgeFlag", 234, crate::Address(glEdgeFlag as *const ())),
-    (b"glEdgeFlagPointer", 1269, crate::Address(glEdgeFlagPointer as *const ())),
+    (b"glEdgeFlagPointer", 1289, crate::Address(glEdgeFlagPointer as *const ())),
     (b"glEdgeFlagv", 235, crate::Address(glEdgeFlagv as *const ())),
     (b"glEnable", 518, crate::Address(glEnable as *const ())),
-    (b"glEnableClientState", 1259, crate::Address(glEnableClientState as *const ())),
+    (b"glEnableClientState", 1279, crate::Address(glEnableClientState as *const ())),
     (b"glEnableIndexedEXT", 521, crate::Address(glEnableIndexedEXT as *const ())),
-    (b"glEnableVertexAttribArray", 1276, crate::Address(glEnableVertexAttribArray as *const ())),
-    (b"glEnableVertexAttribArrayARB", 1277, crate::Address(glEnableVertexAttribArrayARB as *const ())),
+    (b"glEnableVertexAttribArray", 1296, crate::Address(glEnableVertexAttribArray as *const ())),
+    (b"glEnableVertexAttribArrayARB", 1297, crate::Address(glEnableVertexAttribArrayARB as *const ())),
     (b"glEnablei", 520, crate::Address(glEnablei as *const ())),
     (b"glEnableiEXT", 522, crate::Address(glEnableiEXT as *const ())),
     (b"glEnableiNV", 523, crate::Address(glEnableiNV as *const ())),
     (b"glEnableiOES", 524, crate::Address(glEnableiOES as *const ())),
     (b"glEnd", 455, crate::Address(glEnd as *const ())),
-    (b"glEndConditionalRender", 1162, crate::Address(glEndConditionalRender as *const ())),
-    (b"glEndConditionalRenderNV", 1163, crate::Address(glEndConditionalRenderNV as *const ())),
-    (b"glEndConditionalRenderNVX", 1164, crate::Address(glEndConditionalRenderNVX as *const ())),
-    (b"glEndList", 1059, crate::Address(glEndList as *const ())),
-    (b"glEndQuery", 1167, crate::Address(glEndQuery as *const ())),
-    (b"glEndQueryARB", 1168, crate::Address(glEndQueryARB as *const ())),
+    (b"glEndConditionalRender", 1179, crate::Address(glEndConditionalRender as *const ())),
+    (b"glEndConditionalRenderNV", 1180, crate::Address(glEndConditionalRenderNV as *const ())),
+    (b"glEndConditionalRenderNVX", 1181, crate::Address(glEndConditionalRenderNVX as *const ())),
+    (b"glEndList", 1076, crate::Address(glEndList as *const ())),
+    (b"glEndQuery", 1184, crate::Address(glEndQuery as *const ())),
+    (b"glEndQueryARB", 1185, crate::Address(glEndQueryARB as *const ())),
     (b"glEndTransformFeedback", 671, crate::Address(glEndTransformFeedback as *const ())),
     (b"glEndTransformFeedbackEXT", 672, crate::Address(glEndTransformFeedbackEXT as *const ())),
     (b"glEndTransformFeedbackNV", 673, crate::Address(glEndTransformFeedbackNV as *const ())),
@@ -3052,15 +3107,15 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1318] = [
     (b"glEvalCoord2dv", 255, crate::Address(glEvalCoord2dv as *const ())),
     (b"glEvalCoord2f", 256, crate::Address(glEvalCoord2f as *const ())),
     (b"glEvalCoord2fv", 257, crate::Address(glEvalCoord2fv as *const ())),
-    (b"glEvalMesh1", 1052, crate::Address(glEvalMesh1 as *const ())),
-    (b"glEvalMesh2", 1053, crate::Address(glEvalMesh2 as *const ())),
+    (b"glEvalMesh1", 1069, crate::Address(glEvalMesh1 as *const ())),
+    (b"glEvalMesh2", 1070, crate::Address(glEvalMesh2 as *const ())),
     (b"glEvalPoint1", 258, crate::Address(glEvalPoint1 as *const ())),
     (b"glEvalPoint2", 259, crate::Address(glEvalPoint2 as *const ())),
-    (b"glFeedbackBuffer", 1232, crate::Address(glFeedbackBuffer as *const ())),
-    (b"glFinish", 1157, crate::Address(glFinish as *const ())),
-    (b"glFlush", 1158, crate::Address(glFlush as *const ())),
-    (b"glFogCoordPointer", 1270, crate::Address(glFogCoordPointer as *const ())),
-    (b"glFogCoordPointerEXT", 1271, crate::Address(glFogCoordPointerEXT as *const ())),
+    (b"glFeedbackBuffer", 1252, crate::Address(glFeedbackBuffer as *const ())),
+    (b"glFinish", 1174, crate::Address(glFinish as *const ())),
+    (b"glFlush", 1175, crate::Address(glFlush as *const ())),
+    (b"glFogCoordPointer", 1290, crate::Address(glFogCoordPointer as *const ())),
+    (b"glFogCoordPointerEXT", 1291, crate::Address(glFogCoordPointerEXT as *const ())),
     (b"glFogCoordd", 224, crate::Address(glFogCoordd as *const ())),
     (b"glFogCoorddEXT", 225, crate::Address(glFogCoorddEXT as *const ())),
     (b"glFogCoorddv", 226, crate::Address(glFogCoorddv as *const ())),
@@ -3075,105 +3130,111 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1318] = [
     (b"glFogfv", 558, crate::Address(glFogfv as *const ())),
     (b"glFogi", 559, crate::Address(glFogi as *const ())),
     (b"glFogiv", 560, crate::Address(glFogiv as *const ())),
-    (b"glFramebufferDrawBufferEXT", 1084, crate::Address(glFramebufferDrawBufferEXT as *const ())),
-    (b"glFramebufferDrawBuffersEXT", 1085, crate::Address(glFramebufferDrawBuffersEXT as *const ())),
-    (b"glFramebufferParameteri", 1124, crate::Address(glFramebufferParameteri as *const ())),
-    (b"glFramebufferReadBufferEXT", 1086, crate::Address(glFramebufferReadBufferEXT as *const ())),
-    (b"glFramebufferRenderbuffer", 1115, crate::Address(glFramebufferRenderbuffer as *const ())),
-    (b"glFramebufferRenderbufferEXT", 1116, crate::Address(glFramebufferRenderbufferEXT as *const ())),
-    (b"glFramebufferTexture", 1102, crate::Address(glFramebufferTexture as *const ())),
-    (b"glFramebufferTexture1D", 1106, crate::Address(glFramebufferTexture1D as *const ())),
-    (b"glFramebufferTexture1DEXT", 1107, crate::Address(glFramebufferTexture1DEXT as *const ())),
-    (b"glFramebufferTexture2D", 1108, crate::Address(glFramebufferTexture2D as *const ())),
-    (b"glFramebufferTexture2DEXT", 1109, crate::Address(glFramebufferTexture2DEXT as *const ())),
-    (b"glFramebufferTexture3D", 1110, crate::Address(glFramebufferTexture3D as *const ())),
-    (b"glFramebufferTexture3DEXT", 1111, crate::Address(glFramebufferTexture3DEXT as *const ())),
-    (b"glFramebufferTextureARB", 1103, crate::Address(glFramebufferTextureARB as *const ())),
-    (b"glFramebufferTextureEXT", 1104, crate::Address(glFramebufferTextureEXT as *const ())),
-    (b"glFramebufferTextureLayer", 1112, crate::Address(glFramebufferTextureLayer as *const ())),
-    (b"glFramebufferTextureLayerARB", 1113, crate::Address(glFramebufferTextureLayerARB as *const ())),
-    (b"glFramebufferTextureLayerEXT", 1114, crate::Address(glFramebufferTextureLayerEXT as *const ())),
-    (b"glFramebufferTextureOES", 1105, crate::Address(glFramebufferTextureOES as *const ())),
+    (b"glFramebufferDrawBufferEXT", 1101, crate::Address(glFramebufferDrawBufferEXT as *const ())),
+    (b"glFramebufferDrawBuffersEXT", 1102, crate::Address(glFramebufferDrawBuffersEXT as *const ())),
+    (b"glFramebufferParameteri", 1141, crate::Address(glFramebufferParameteri as *const ())),
+    (b"glFramebufferReadBufferEXT", 1103, crate::Address(glFramebufferReadBufferEXT as *const ())),
+    (b"glFramebufferRenderbuffer", 1132, crate::Address(glFramebufferRenderbuffer as *const ())),
+    (b"glFramebufferRenderbufferEXT", 1133, crate::Address(glFramebufferRenderbufferEXT as *const ())),
+    (b"glFramebufferTexture", 1119, crate::Address(glFramebufferTexture as *const ())),
+    (b"glFramebufferTexture1D", 1123, crate::Address(glFramebufferTexture1D as *const ())),
+    (b"glFramebufferTexture1DEXT", 1124, crate::Address(glFramebufferTexture1DEXT as *const ())),
+    (b"glFramebufferTexture2D", 1125, crate::Address(glFramebufferTexture2D as *const ())),
+    (b"glFramebufferTexture2DEXT", 1126, crate::Address(glFramebufferTexture2DEXT as *const ())),
+    (b"glFramebufferTexture3D", 1127, crate::Address(glFramebufferTexture3D as *const ())),
+    (b"glFramebufferTexture3DEXT", 1128, crate::Address(glFramebufferTexture3DEXT as *const ())),
+    (b"glFramebufferTextureARB", 1120, crate::Address(glFramebufferTextureARB as *const ())),
+    (b"glFramebufferTextureEXT", 1121, crate::Address(glFramebufferTextureEXT as *const ())),
+    (b"glFramebufferTextureLayer", 1129, crate::Address(glFramebufferTextureLayer as *const ())),
+    (b"glFramebufferTextureLayerARB", 1130, crate::Address(glFramebufferTextureLayerARB as *const ())),
+    (b"glFramebufferTextureLayerEXT", 1131, crate::Address(glFramebufferTextureLayerEXT as *const ())),
+    (b"glFramebufferTextureOES", 1122, crate::Address(glFramebufferTextureOES as *const ())),
     (b"glFrontFace", 720, crate::Address(glFrontFace as *const ())),
     (b"glFrustum", 476, crate::Address(glFrustum as *const ())),
-    (b"glGenFramebuffers", 1235, crate::Address(glGenFramebuffers as *const ())),
-    (b"glGenFramebuffersEXT", 1236, crate::Address(glGenFramebuffersEXT as *const ())),
-    (b"glGenLists", 1063, crate::Address(glGenLists as *const ())),
-    (b"glGenRenderbuffers", 1237, crate::Address(glGenRenderbuffers as *const ())),
-    (b"glGenRenderbuffersEXT", 1238, crate::Address(glGenRenderbuffersEXT as *const ())),
-    (b"glGenTextures", 1234, crate::Address(glGenTextures as *const ())),
+    (b"glGenFramebuffers", 1255, crate::Address(glGenFramebuffers as *const ())),
+    (b"glGenFramebuffersEXT", 1256, crate::Address(glGenFramebuffersEXT as *const ())),
+    (b"glGenLists", 1080, crate::Address(glGenLists as *const ())),
+    (b"glGenRenderbuffers", 1257, crate::Address(glGenRenderbuffers as *const ())),
+    (b"glGenRenderbuffersEXT", 1258, crate::Address(glGenRenderbuffersEXT as *const ())),
+    (b"glGenTextures", 1254, crate::Address(glGenTextures as *const ())),
     (b"glGenerateMipmap", 803, crate::Address(glGenerateMipmap as *const ())),
     (b"glGenerateMipmapEXT", 804, crate::Address(glGenerateMipmapEXT as *const ())),
-    (b"glGetBooleanv", 1096, crate::Address(glGetBooleanv as *const ())),
-    (b"glGetClipPlane", 1201, crate::Address(glGetClipPlane as *const ())),
-    (b"glGetDoublev", 1098, crate::Address(glGetDoublev as *const ())),
-    (b"glGetError", 1159, crate::Address(glGetError as *const ())),
-    (b"glGetFloatv", 1097, crate::Address(glGetFloatv as *const ())),
-    (b"glGetFramebufferAttachmentParameteriv", 1120, crate::Address(glGetFramebufferAttachmentParameteriv as *const ())),
-    (b"glGetFramebufferAttachmentParameterivEXT", 1121, crate::Address(glGetFramebufferAttachmentParameterivEXT as *const ())),
-    (b"glGetFramebufferParameteriv", 1125, crate::Address(glGetFramebufferParameteriv as *const ())),
-    (b"glGetInteger64v", 1099, crate::Address(glGetInteger64v as *const ())),
-    (b"glGetInteger64vAPPLE", 1100, crate::Address(glGetInteger64vAPPLE as *const ())),
-    (b"glGetInteger64vEXT", 1101, crate::Address(glGetInteger64vEXT as *const ())),
-    (b"glGetIntegerIndexedvEXT", 1215, crate::Address(glGetIntegerIndexedvEXT as *const ())),
-    (b"glGetIntegeri_v", 1214, crate::Address(glGetIntegeri_v as *const ())),
-    (b"glGetIntegerv", 1095, crate::Address(glGetIntegerv as *const ())),
-    (b"glGetLightfv", 1193, crate::Address(glGetLightfv as *const ())),
-    (b"glGetLightiv", 1194, crate::Address(glGetLightiv as *const ())),
-    (b"glGetMapdv", 1202, crate::Address(glGetMapdv as *const ())),
-    (b"glGetMapfv", 1203, crate::Address(glGetMapfv as *const ())),
-    (b"glGetMapiv", 1204, crate::Address(glGetMapiv as *const ())),
-    (b"glGetMaterialfv", 1195, crate::Address(glGetMaterialfv as *const ())),
-    (b"glGetMaterialiv", 1196, crate::Address(glGetMaterialiv as *const ())),
-    (b"glGetPixelMapfv", 1205, crate::Address(glGetPixelMapfv as *const ())),
-    (b"glGetPixelMapuiv", 1206, crate::Address(glGetPixelMapuiv as *const ())),
-    (b"glGetPixelMapusv", 1207, crate::Address(glGetPixelMapusv as *const ())),
-    (b"glGetPointerv", 1211, crate::Address(glGetPointerv as *const ())),
-    (b"glGetPointervEXT", 1212, crate::Address(glGetPointervEXT as *const ())),
-    (b"glGetPointervKHR", 1213, crate::Address(glGetPointervKHR as *const ())),
-    (b"glGetPolygonStipple", 1208, crate::Address(glGetPolygonStipple as *const ())),
-    (b"glGetProgramiv", 987, crate::Address(glGetProgramiv as *const ())),
-    (b"glGetQueryObjecti64v", 1178, crate::Address(glGetQueryObjecti64v as *const ())),
-    (b"glGetQueryObjecti64vEXT", 1179, crate::Address(glGetQueryObjecti64vEXT as *const ())),
-    (b"glGetQueryObjectiv", 1173, crate::Address(glGetQueryObjectiv as *const ())),
-    (b"glGetQueryObjectivARB", 1174, crate::Address(glGetQueryObjectivARB as *const ())),
-    (b"glGetQueryObjectivEXT", 1175, crate::Address(glGetQueryObjectivEXT as *const ())),
-    (b"glGetQueryObjectui64v", 1180, crate::Address(glGetQueryObjectui64v as *const ())),
-    (b"glGetQueryObjectui64vEXT", 1181, crate::Address(glGetQueryObjectui64vEXT as *const ())),
-    (b"glGetQueryObjectuiv", 1176, crate::Address(glGetQueryObjectuiv as *const ())),
-    (b"glGetQueryObjectuivARB", 1177, crate::Address(glGetQueryObjectuivARB as *const ())),
-    (b"glGetQueryiv", 1171, crate::Address(glGetQueryiv as *const ())),
-    (b"glGetQueryivARB", 1172, crate::Address(glGetQueryivARB as *const ())),
-    (b"glGetTexEnvfv", 1191, crate::Address(glGetTexEnvfv as *const ())),
-    (b"glGetTexEnviv", 1192, crate::Address(glGetTexEnviv as *const ())),
-    (b"glGetTexGendv", 1188, crate::Address(glGetTexGendv as *const ())),
-    (b"glGetTexGenfv", 1189, crate::Address(glGetTexGenfv as *const ())),
-    (b"glGetTexGeniv", 1190, crate::Address(glGetTexGeniv as *const ())),
-    (b"glGetTexImage", 1209, crate::Address(glGetTexImage as *const ())),
-    (b"glGetTexLevelParameterfv", 1199, crate::Address(glGetTexLevelParameterfv as *const ())),
-    (b"glGetTexLevelParameteriv", 1200, crate::Address(glGetTexLevelParameteriv as *const ())),
-    (b"glGetTexParameterfv", 1197, crate::Address(glGetTexParameterfv as *const ())),
-    (b"glGetTexParameteriv", 1198, crate::Address(glGetTexParameteriv as *const ())),
-    (b"glGetUniformfv", 1216, crate::Address(glGetUniformfv as *const ())),
-    (b"glGetUniformfvARB", 1217, crate::Address(glGetUniformfvARB as *const ())),
-    (b"glGetUniformiv", 1218, crate::Address(glGetUniformiv as *const ())),
-    (b"glGetUniformivARB", 1219, crate::Address(glGetUniformivARB as *const ())),
-    (b"glGetVertexAttribPointerv", 1229, crate::Address(glGetVertexAttribPointerv as *const ())),
-    (b"glGetVertexAttribPointervARB", 1230, crate::Address(glGetVertexAttribPointervARB as *const ())),
-    (b"glGetVertexAttribPointervNV", 1231, crate::Address(glGetVertexAttribPointervNV as *const ())),
-    (b"glGetVertexAttribdv", 1220, crate::Address(glGetVertexAttribdv as *const ())),
-    (b"glGetVertexAttribdvARB", 1221, crate::Address(glGetVertexAttribdvARB as *const ())),
-    (b"glGetVertexAttribdvNV", 1222, crate::Address(glGetVertexAttribdvNV as *const ())),
-    (b"glGetVertexAttribfv", 1223, crate::Address(glGetVertexAttribfv as *const ())),
-    (b"glGetVertexAttribfvARB", 1224, crate::Address(glGetVertexAttribfvARB as *const ())),
-    (b"glGetVertexAttribfvNV", 1225, crate::Address(glGetVertexAttribfvNV as *const ())),
-    (b"glGetVertexAttribiv", 1226, crate::Address(glGetVertexAttribiv as *const ())),
-    (b"glGetVertexAttribivARB", 1227, crate::Address(glGetVertexAttribivARB as *const ())),
-    (b"glGetVertexAttribivNV", 1228, crate::Address(glGetVertexAttribivNV as *const ())),
-    (b"glGetnTexImage", 1210, crate::Address(glGetnTexImage as *const ())),
+    (b"glGetBooleanv", 1113, crate::Address(glGetBooleanv as *const ())),
+    (b"glGetClipPlane", 1218, crate::Address(glGetClipPlane as *const ())),
+    (b"glGetCompressedTexImage", 1233, crate::Address(glGetCompressedTexImage as *const ())),
+    (b"glGetCompressedTexImageARB", 1234, crate::Address(glGetCompressedTexImageARB as *const ())),
+    (b"glGetCompressedTextureImage", 810, crate::Address(glGetCompressedTextureImage as *const ())),
+    (b"glGetDoublev", 1115, crate::Address(glGetDoublev as *const ())),
+    (b"glGetError", 1176, crate::Address(glGetError as *const ())),
+    (b"glGetFloatv", 1114, crate::Address(glGetFloatv as *const ())),
+    (b"glGetFramebufferAttachmentParameteriv", 1137, crate::Address(glGetFramebufferAttachmentParameteriv as *const ())),
+    (b"glGetFramebufferAttachmentParameterivEXT", 1138, crate::Address(glGetFramebufferAttachmentParameterivEXT as *const ())),
+    (b"glGetFramebufferParameteriv", 1142, crate::Address(glGetFramebufferParameteriv as *const ())),
+    (b"glGetInteger64v", 1116, crate::Address(glGetInteger64v as *const ())),
+    (b"glGetInteger64vAPPLE", 1117, crate::Address(glGetInteger64vAPPLE as *const ())),
+    (b"glGetInteger64vEXT", 1118, crate::Address(glGetInteger64vEXT as *const ())),
+    (b"glGetIntegerIndexedvEXT", 1230, crate::Address(glGetIntegerIndexedvEXT as *const ())),
+    (b"glGetIntegeri_v", 1229, crate::Address(glGetIntegeri_v as *const ())),
+    (b"glGetIntegerv", 1112, crate::Address(glGetIntegerv as *const ())),
+    (b"glGetLightfv", 1210, crate::Address(glGetLightfv as *const ())),
+    (b"glGetLightiv", 1211, crate::Address(glGetLightiv as *const ())),
+    (b"glGetMapdv", 1219, crate::Address(glGetMapdv as *const ())),
+    (b"glGetMapfv", 1220, crate::Address(glGetMapfv as *const ())),
+    (b"glGetMapiv", 1221, crate::Address(glGetMapiv as *const ())),
+    (b"glGetMaterialfv", 1212, crate::Address(glGetMaterialfv as *const ())),
+    (b"glGetMaterialiv", 1213, crate::Address(glGetMaterialiv as *const ())),
+    (b"glGetPixelMapfv", 1222, crate::Address(glGetPixelMapfv as *const ())),
+    (b"glGetPixelMapuiv", 1223, crate::Address(glGetPixelMapuiv as *const ())),
+    (b"glGetPixelMapusv", 1224, crate::Address(glGetPixelMapusv as *const ())),
+    (b"glGetPointerv", 1226, crate::Address(glGetPointerv as *const ())),
+    (b"glGetPointervEXT", 1227, crate::Address(glGetPointervEXT as *const ())),
+    (b"glGetPointervKHR", 1228, crate::Address(glGetPointervKHR as *const ())),
+    (b"glGetPolygonStipple", 1225, crate::Address(glGetPolygonStipple as *const ())),
+    (b"glGetProgramiv", 1004, crate::Address(glGetProgramiv as *const ())),
+    (b"glGetQueryObjecti64v", 1195, crate::Address(glGetQueryObjecti64v as *const ())),
+    (b"glGetQueryObjecti64vEXT", 1196, crate::Address(glGetQueryObjecti64vEXT as *const ())),
+    (b"glGetQueryObjectiv", 1190, crate::Address(glGetQueryObjectiv as *const ())),
+    (b"glGetQueryObjectivARB", 1191, crate::Address(glGetQueryObjectivARB as *const ())),
+    (b"glGetQueryObjectivEXT", 1192, crate::Address(glGetQueryObjectivEXT as *const ())),
+    (b"glGetQueryObjectui64v", 1197, crate::Address(glGetQueryObjectui64v as *const ())),
+    (b"glGetQueryObjectui64vEXT", 1198, crate::Address(glGetQueryObjectui64vEXT as *const ())),
+    (b"glGetQueryObjectuiv", 1193, crate::Address(glGetQueryObjectuiv as *const ())),
+    (b"glGetQueryObjectuivARB", 1194, crate::Address(glGetQueryObjectuivARB as *const ())),
+    (b"glGetQueryiv", 1188, crate::Address(glGetQueryiv as *const ())),
+    (b"glGetQueryivARB", 1189, crate::Address(glGetQueryivARB as *const ())),
+    (b"glGetTexEnvfv", 1208, crate::Address(glGetTexEnvfv as *const ())),
+    (b"glGetTexEnviv", 1209, crate::Address(glGetTexEnviv as *const ())),
+    (b"glGetTexGendv", 1205, crate::Address(glGetTexGendv as *const ())),
+    (b"glGetTexGenfv", 1206, crate::Address(glGetTexGenfv as *const ())),
+    (b"glGetTexGeniv", 1207, crate::Address(glGetTexGeniv as *const ())),
+    (b"glGetTexImage", 1231, crate::Address(glGetTexImage as *const ())),
+    (b"glGetTexLevelParameterfv", 1216, crate::Address(glGetTexLevelParameterfv as *const ())),
+    (b"glGetTexLevelParameteriv", 1217, crate::Address(glGetTexLevelParameteriv as *const ())),
+    (b"glGetTexParameterfv", 1214, crate::Address(glGetTexParameterfv as *const ())),
+    (b"glGetTexParameteriv", 1215, crate::Address(glGetTexParameteriv as *const ())),
+    (b"glGetTextureImage", 808, crate::Address(glGetTextureImage as *const ())),
+    (b"glGetTextureSubImage", 809, crate::Address(glGetTextureSubImage as *const ())),
+    (b"glGetUniformfv", 1236, crate::Address(glGetUniformfv as *const ())),
+    (b"glGetUniformfvARB", 1237, crate::Address(glGetUniformfvARB as *const ())),
+    (b"glGetUniformiv", 1238, crate::Address(glGetUniformiv as *const ())),
+    (b"glGetUniformivARB", 1239, crate::Address(glGetUniformivARB as *const ())),
+    (b"glGetVertexAttribPointerv", 1249, crate::Address(glGetVertexAttribPointerv as *const ())),
+    (b"glGetVertexAttribPointervARB", 1250, crate::Address(glGetVertexAttribPointervARB as *const ())),
+    (b"glGetVertexAttribPointervNV", 1251, crate::Address(glGetVertexAttribPointervNV as *const ())),
+    (b"glGetVertexAttribdv", 1240, crate::Address(glGetVertexAttribdv as *const ())),
+    (b"glGetVertexAttribdvARB", 1241, crate::Address(glGetVertexAttribdvARB as *const ())),
+    (b"glGetVertexAttribdvNV", 1242, crate::Address(glGetVertexAttribdvNV as *const ())),
+    (b"glGetVertexAttribfv", 1243, crate::Address(glGetVertexAttribfv as *const ())),
+    (b"glGetVertexAttribfvARB", 1244, crate::Address(glGetVertexAttribfvARB as *const ())),
+    (b"glGetVertexAttribfvNV", 1245, crate::Address(glGetVertexAttribfvNV as *const ())),
+    (b"glGetVertexAttribiv", 1246, crate::Address(glGetVertexAttribiv as *const ())),
+    (b"glGetVertexAttribivARB", 1247, crate::Address(glGetVertexAttribivARB as *const ())),
+    (b"glGetVertexAttribivNV", 1248, crate::Address(glGetVertexAttribivNV as *const ())),
+    (b"glGetnCompressedTexImage", 1235, crate::Address(glGetnCompressedTexImage as *const ())),
+    (b"glGetnTexImage", 1232, crate::Address(glGetnTexImage as *const ())),
     (b"glHint", 581, crate::Address(glHint as *const ())),
     (b"glIndexMask", 721, crate::Address(glIndexMask as *const ())),
-    (b"glIndexPointer", 1272, crate::Address(glIndexPointer as *const ())),
+    (b"glIndexPointer", 1292, crate::Address(glIndexPointer as *const ())),
     (b"glIndexd", 236, crate::Address(glIndexd as *const ())),
     (b"glIndexdv", 237, crate::Address(glIndexdv as *const ())),
     (b"glIndexf", 238, crate::Address(glIndexf as *const ())),
@@ -3185,19 +3246,19 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1318] = [
     (b"glIndexub", 244, crate::Address(glIndexub as *const ())),
     (b"glIndexubv", 245, crate::Address(glIndexubv as *const ())),
     (b"glInitNames", 722, crate::Address(glInitNames as *const ())),
-    (b"glInterleavedArrays", 1263, crate::Address(glInterleavedArrays as *const ())),
-    (b"glInvalidateFramebuffer", 1126, crate::Address(glInvalidateFramebuffer as *const ())),
-    (b"glInvalidateSubFramebuffer", 1127, crate::Address(glInvalidateSubFramebuffer as *const ())),
-    (b"glIsEnabled", 1182, crate::Address(glIsEnabled as *const ())),
-    (b"glIsEnabledIndexedEXT", 1184, crate::Address(glIsEnabledIndexedEXT as *const ())),
-    (b"glIsEnabledi", 1183, crate::Address(glIsEnabledi as *const ())),
-    (b"glIsEnablediEXT", 1185, crate::Address(glIsEnablediEXT as *const ())),
-    (b"glIsEnablediNV", 1186, crate::Address(glIsEnablediNV as *const ())),
-    (b"glIsEnablediOES", 1187, crate::Address(glIsEnablediOES as *const ())),
-    (b"glIsFramebuffer", 1069, crate::Address(glIsFramebuffer as *const ())),
-    (b"glIsFramebufferEXT", 1070, crate::Address(glIsFramebufferEXT as *const ())),
-    (b"glIsList", 1064, crate::Address(glIsList as *const ())),
-    (b"glIsTexture", 1068, crate::Address(glIsTexture as *const ())),
+    (b"glInterleavedArrays", 1283, crate::Address(glInterleavedArrays as *const ())),
+    (b"glInvalidateFramebuffer", 1143, crate::Address(glInvalidateFramebuffer as *const ())),
+    (b"glInvalidateSubFramebuffer", 1144, crate::Address(glInvalidateSubFramebuffer as *const ())),
+    (b"glIsEnabled", 1199, crate::Address(glIsEnabled as *const ())),
+    (b"glIsEnabledIndexedEXT", 1201, crate::Address(glIsEnabledIndexedEXT as *const ())),
+    (b"glIsEnabledi", 1200, crate::Address(glIsEnabledi as *const ())),
+    (b"glIsEnablediEXT", 1202, crate::Address(glIsEnablediEXT as *const ())),
+    (b"glIsEnablediNV", 1203, crate::Address(glIsEnablediNV as *const ())),
+    (b"glIsEnablediOES", 1204, crate::Address(glIsEnablediOES as *const ())),
+    (b"glIsFramebuffer", 1086, crate::Address(glIsFramebuffer as *const ())),
+    (b"glIsFramebufferEXT", 1087, crate::Address(glIsFramebufferEXT as *const ())),
+    (b"glIsList", 1081, crate::Address(glIsList as *const ())),
+    (b"glIsTexture", 1085, crate::Address(glIsTexture as *const ())),
     (b"glLightModelf", 546, crate::Address(glLightModelf as *const ())),
     (b"glLightModelfv", 547, crate::Address(glLightModelfv as *const ())),
     (b"glLightModeli", 548, crate::Address(glLightModeli as *const ())),
@@ -3208,8 +3269,8 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1318] = [
     (b"glLightiv", 545, crate::Address(glLightiv as *const ())),
     (b"glLineStipple", 727, crate::Address(glLineStipple as *const ())),
     (b"glLineWidth", 582, crate::Address(glLineWidth as *const ())),
-    (b"glLinkProgram", 980, crate::Address(glLinkProgram as *const ())),
-    (b"glLinkProgramARB", 981, crate::Address(glLinkProgramARB as *const ())),
+    (b"glLinkProgram", 997, crate::Address(glLinkProgram as *const ())),
+    (b"glLinkProgramARB", 998, crate::Address(glLinkProgramARB as *const ())),
     (b"glListBase", 728, crate::Address(glListBase as *const ())),
     (b"glLoadIdentity", 457, crate::Address(glLoadIdentity as *const ())),
     (b"glLoadMatrixd", 458, crate::Address(glLoadMatrixd as *const ())),
@@ -3260,18 +3321,18 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1318] = [
     (b"glMultTransposeMatrixdARB", 467, crate::Address(glMultTransposeMatrixdARB as *const ())),
     (b"glMultTransposeMatrixf", 468, crate::Address(glMultTransposeMatrixf as *const ())),
     (b"glMultTransposeMatrixfARB", 469, crate::Address(glMultTransposeMatrixfARB as *const ())),
-    (b"glMultiDrawArrays", 998, crate::Address(glMultiDrawArrays as *const ())),
-    (b"glMultiDrawArraysEXT", 999, crate::Address(glMultiDrawArraysEXT as *const ())),
-    (b"glMultiDrawArraysIndirect", 1031, crate::Address(glMultiDrawArraysIndirect as *const ())),
-    (b"glMultiDrawArraysIndirectAMD", 1032, crate::Address(glMultiDrawArraysIndirectAMD as *const ())),
-    (b"glMultiDrawArraysIndirectEXT", 1033, crate::Address(glMultiDrawArraysIndirectEXT as *const ())),
-    (b"glMultiDrawElements", 1000, crate::Address(glMultiDrawElements as *const ())),
-    (b"glMultiDrawElementsBaseVertex", 1008, crate::Address(glMultiDrawElementsBaseVertex as *const ())),
-    (b"glMultiDrawElementsBaseVertexEXT", 1009, crate::Address(glMultiDrawElementsBaseVertexEXT as *const ())),
-    (b"glMultiDrawElementsEXT", 1001, crate::Address(glMultiDrawElementsEXT as *const ())),
-    (b"glMultiDrawElementsIndirect", 1034, crate::Address(glMultiDrawElementsIndirect as *const ())),
-    (b"glMultiDrawElementsIndirectAMD", 1035, crate::Address(glMultiDrawElementsIndirectAMD as *const ())),
-    (b"glMultiDrawElementsIndirectEXT", 1036, crate::Address(glMultiDrawElementsIndirectEXT as *const ())),
+    (b"glMultiDrawArrays", 1015, crate::Address(glMultiDrawArrays as *const ())),
+    (b"glMultiDrawArraysEXT", 1016, crate::Address(glMultiDrawArraysEXT as *const ())),
+    (b"glMultiDrawArraysIndirect", 1048, crate::Address(glMultiDrawArraysIndirect as *const ())),
+    (b"glMultiDrawArraysIndirectAMD", 1049, crate::Address(glMultiDrawArraysIndirectAMD as *const ())),
+    (b"glMultiDrawArraysIndirectEXT", 1050, crate::Address(glMultiDrawArraysIndirectEXT as *const ())),
+    (b"glMultiDrawElements", 1017, crate::Address(glMultiDrawElements as *const ())),
+    (b"glMultiDrawElementsBaseVertex", 1025, crate::Address(glMultiDrawElementsBaseVertex as *const ())),
+    (b"glMultiDrawElementsBaseVertexEXT", 1026, crate::Address(glMultiDrawElementsBaseVertexEXT as *const ())),
+    (b"glMultiDrawElementsEXT", 1018, crate::Address(glMultiDrawElementsEXT as *const ())),
+    (b"glMultiDrawElementsIndirect", 1051, crate::Address(glMultiDrawElementsIndirect as *const ())),
+    (b"glMultiDrawElementsIndirectAMD", 1052, crate::Address(glMultiDrawElementsIndirectAMD as *const ())),
+    (b"glMultiDrawElementsIndirectEXT", 1053, crate::Address(glMultiDrawElementsIndirectEXT as *const ())),
     (b"glMultiTexCoord1d", 118, crate::Address(glMultiTexCoord1d as *const ())),
     (b"glMultiTexCoord1dARB", 119, crate::Address(glMultiTexCoord1dARB as *const ())),
     (b"glMultiTexCoord1dv", 120, crate::Address(glMultiTexCoord1dv as *const ())),
@@ -3352,13 +3413,13 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1318] = [
     (b"glMultiTexCoordP3uiv", 421, crate::Address(glMultiTexCoordP3uiv as *const ())),
     (b"glMultiTexCoordP4ui", 422, crate::Address(glMultiTexCoordP4ui as *const ())),
     (b"glMultiTexCoordP4uiv", 423, crate::Address(glMultiTexCoordP4uiv as *const ())),
-    (b"glNamedFramebufferDrawBuffer", 1081, crate::Address(glNamedFramebufferDrawBuffer as *const ())),
-    (b"glNamedFramebufferDrawBuffers", 1082, crate::Address(glNamedFramebufferDrawBuffers as *const ())),
-    (b"glNamedFramebufferReadBuffer", 1083, crate::Address(glNamedFramebufferReadBuffer as *const ())),
-    (b"glNamedFramebufferRenderbuffer", 1119, crate::Address(glNamedFramebufferRenderbuffer as *const ())),
-    (b"glNamedFramebufferTexture", 1117, crate::Address(glNamedFramebufferTexture as *const ())),
-    (b"glNamedFramebufferTextureLayer", 1118, crate::Address(glNamedFramebufferTextureLayer as *const ())),
-    (b"glNewList", 1058, crate::Address(glNewList as *const ())),
+    (b"glNamedFramebufferDrawBuffer", 1098, crate::Address(glNamedFramebufferDrawBuffer as *const ())),
+    (b"glNamedFramebufferDrawBuffers", 1099, crate::Address(glNamedFramebufferDrawBuffers as *const ())),
+    (b"glNamedFramebufferReadBuffer", 1100, crate::Address(glNamedFramebufferReadBuffer as *const ())),
+    (b"glNamedFramebufferRenderbuffer", 1136, crate::Address(glNamedFramebufferRenderbuffer as *const ())),
+    (b"glNamedFramebufferTexture", 1134, crate::Address(glNamedFramebufferTexture as *const ())),
+    (b"glNamedFramebufferTextureLayer", 1135, crate::Address(glNamedFramebufferTextureLayer as *const ())),
+    (b"glNewList", 1075, crate::Address(glNewList as *const ())),
     (b"glNormal3b", 66, crate::Address(glNormal3b as *const ())),
     (b"glNormal3bv", 67, crate::Address(glNormal3bv as *const ())),
     (b"glNormal3d", 68, crate::Address(glNormal3d as *const ())),
@@ -3373,14 +3434,14 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1318] = [
     (b"glNormal3sv", 75, crate::Address(glNormal3sv as *const ())),
     (b"glNormalP3ui", 438, crate::Address(glNormalP3ui as *const ())),
     (b"glNormalP3uiv", 439, crate::Address(glNormalP3uiv as *const ())),
-    (b"glNormalPointer", 1273, crate::Address(glNormalPointer as *const ())),
+    (b"glNormalPointer", 1293, crate::Address(glNormalPointer as *const ())),
     (b"glOrtho", 477, crate::Address(glOrtho as *const ())),
     (b"glPassThrough", 726, crate::Address(glPassThrough as *const ())),
     (b"glPixelMapfv", 738, crate::Address(glPixelMapfv as *const ())),
     (b"glPixelMapuiv", 739, crate::Address(glPixelMapuiv as *const ())),
     (b"glPixelMapusv", 740, crate::Address(glPixelMapusv as *const ())),
-    (b"glPixelStoref", 1255, crate::Address(glPixelStoref as *const ())),
-    (b"glPixelStorei", 1256, crate::Address(glPixelStorei as *const ())),
+    (b"glPixelStoref", 1275, crate::Address(glPixelStoref as *const ())),
+    (b"glPixelStorei", 1276, crate::Address(glPixelStorei as *const ())),
     (b"glPixelTransferf", 741, crate::Address(glPixelTransferf as *const ())),
     (b"glPixelTransferi", 742, crate::Address(glPixelTransferi as *const ())),
     (b"glPixelZoom", 743, crate::Address(glPixelZoom as *const ())),
@@ -3404,109 +3465,109 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1318] = [
     (b"glPolygonOffsetClampEXT", 746, crate::Address(glPolygonOffsetClampEXT as *const ())),
     (b"glPolygonStipple", 747, crate::Address(glPolygonStipple as *const ())),
     (b"glPopAttrib", 594, crate::Address(glPopAttrib as *const ())),
-    (b"glPopClientAttrib", 1258, crate::Address(glPopClientAttrib as *const ())),
+    (b"glPopClientAttrib", 1278, crate::Address(glPopClientAttrib as *const ())),
     (b"glPopMatrix", 479, crate::Address(glPopMatrix as *const ())),
     (b"glPopName", 725, crate::Address(glPopName as *const ())),
     (b"glPrimitiveRestartIndex", 762, crate::Address(glPrimitiveRestartIndex as *const ())),
     (b"glPrioritizeTextures", 748, crate::Address(glPrioritizeTextures as *const ())),
     (b"glPrioritizeTexturesEXT", 749, crate::Address(glPrioritizeTexturesEXT as *const ())),
-    (b"glProgramBinary", 982, crate::Address(glProgramBinary as *const ())),
-    (b"glProgramBinaryOES", 983, crate::Address(glProgramBinaryOES as *const ())),
-    (b"glProgramEnvParameter4dARB", 805, crate::Address(glProgramEnvParameter4dARB as *const ())),
-    (b"glProgramEnvParameter4dvARB", 806, crate::Address(glProgramEnvParameter4dvARB as *const ())),
-    (b"glProgramEnvParameter4fARB", 807, crate::Address(glProgramEnvParameter4fARB as *const ())),
-    (b"glProgramEnvParameter4fvARB", 808, crate::Address(glProgramEnvParameter4fvARB as *const ())),
-    (b"glProgramLocalParameter4dARB", 809, crate::Address(glProgramLocalParameter4dARB as *const ())),
-    (b"glProgramLocalParameter4dvARB", 810, crate::Address(glProgramLocalParameter4dvARB as *const ())),
-    (b"glProgramLocalParameter4fARB", 811, crate::Address(glProgramLocalParameter4fARB as *const ())),
-    (b"glProgramLocalParameter4fvARB", 812, crate::Address(glProgramLocalParameter4fvARB as *const ())),
-    (b"glProgramUniform1d", 896, crate::Address(glProgramUniform1d as *const ())),
-    (b"glProgramUniform1dv", 897, crate::Address(glProgramUniform1dv as *const ())),
-    (b"glProgramUniform1f", 898, crate::Address(glProgramUniform1f as *const ())),
-    (b"glProgramUniform1fEXT", 899, crate::Address(glProgramUniform1fEXT as *const ())),
-    (b"glProgramUniform1fv", 900, crate::Address(glProgramUniform1fv as *const ())),
-    (b"glProgramUniform1fvEXT", 901, crate::Address(glProgramUniform1fvEXT as *const ())),
-    (b"glProgramUniform1i", 902, crate::Address(glProgramUniform1i as *const ())),
-    (b"glProgramUniform1iEXT", 903, crate::Address(glProgramUniform1iEXT as *const ())),
-    (b"glProgramUniform1iv", 904, crate::Address(glProgramUniform1iv as *const ())),
-    (b"glProgramUniform1ivEXT", 905, crate::Address(glProgramUniform1ivEXT as *const ())),
-    (b"glProgramUniform1ui", 906, crate::Address(glProgramUniform1ui as *const ())),
-    (b"glProgramUniform1uiEXT", 907, crate::Address(glProgramUniform1uiEXT as *const ())),
-    (b"glProgramUniform1uiv", 908, crate::Address(glProgramUniform1uiv as *const ())),
-    (b"glProgramUniform1uivEXT", 909, crate::Address(glProgramUniform1uivEXT as *const ())),
-    (b"glProgramUniform2d", 910, crate::Address(glProgramUniform2d as *const ())),
-    (b"glProgramUniform2dv", 911, crate::Address(glProgramUniform2dv as *const ())),
-    (b"glProgramUniform2f", 912, crate::Address(glProgramUniform2f as *const ())),
-    (b"glProgramUniform2fEXT", 913, crate::Address(glProgramUniform2fEXT as *const ())),
-    (b"glProgramUniform2fv", 914, crate::Address(glProgramUniform2fv as *const ())),
-    (b"glProgramUniform2fvEXT", 915, crate::Address(glProgramUniform2fvEXT as *const ())),
-    (b"glProgramUniform2i", 916, crate::Address(glProgramUniform2i as *const ())),
-    (b"glProgramUniform2iEXT", 917, crate::Address(glProgramUniform2iEXT as *const ())),
-    (b"glProgramUniform2iv", 918, crate::Address(glProgramUniform2iv as *const ())),
-    (b"glProgramUniform2ivEXT", 919, crate::Address(glProgramUniform2ivEXT as *const ())),
-    (b"glProgramUniform2ui", 920, crate::Address(glProgramUniform2ui as *const ())),
-    (b"glProgramUniform2uiEXT", 921, crate::Address(glProgramUniform2uiEXT as *const ())),
-    (b"glProgramUniform2uiv", 922, crate::Address(glProgramUniform2uiv as *const ())),
-    (b"glProgramUniform2uivEXT", 923, crate::Address(glProgramUniform2uivEXT as *const ())),
-    (b"glProgramUniform3d", 924, crate::Address(glProgramUniform3d as *const ())),
-    (b"glProgramUniform3dv", 925, crate::Address(glProgramUniform3dv as *const ())),
-    (b"glProgramUniform3f", 926, crate::Address(glProgramUniform3f as *const ())),
-    (b"glProgramUniform3fEXT", 927, crate::Address(glProgramUniform3fEXT as *const ())),
-    (b"glProgramUniform3fv", 928, crate::Address(glProgramUniform3fv as *const ())),
-    (b"glProgramUniform3fvEXT", 929, crate::Address(glProgramUniform3fvEXT as *const ())),
-    (b"glProgramUniform3i", 930, crate::Address(glProgramUniform3i as *const ())),
-    (b"glProgramUniform3iEXT", 931, crate::Address(glProgramUniform3iEXT as *const ())),
-    (b"glProgramUniform3iv", 932, crate::Address(glProgramUniform3iv as *const ())),
-    (b"glProgramUniform3ivEXT", 933, crate::Address(glProgramUniform3ivEXT as *const ())),
-    (b"glProgramUniform3ui", 934, crate::Address(glProgramUniform3ui as *const ())),
-    (b"glProgramUniform3uiEXT", 935, crate::Address(glProgramUniform3uiEXT as *const ())),
-    (b"glProgramUniform3uiv", 936, crate::Address(glProgramUniform3uiv as *const ())),
-    (b"glProgramUniform3uivEXT", 937, crate::Address(glProgramUniform3uivEXT as *const ())),
-    (b"glProgramUniform4d", 938, crate::Address(glProgramUniform4d as *const ())),
-    (b"glProgramUniform4dv", 939, crate::Address(glProgramUniform4dv as *const ())),
-    (b"glProgramUniform4f", 940, crate::Address(glProgramUniform4f as *const ())),
-    (b"glProgramUniform4fEXT", 941, crate::Address(glProgramUniform4fEXT as *const ())),
-    (b"glProgramUniform4fv", 942, crate::Address(glProgramUniform4fv as *const ())),
-    (b"glProgramUniform4fvEXT", 943, crate::Address(glProgramUniform4fvEXT as *const ())),
-    (b"glProgramUniform4i", 944, crate::Address(glProgramUniform4i as *const ())),
-    (b"glProgramUniform4iEXT", 945, crate::Address(glProgramUniform4iEXT as *const ())),
-    (b"glProgramUniform4iv", 946, crate::Address(glProgramUniform4iv as *const ())),
-    (b"glProgramUniform4ivEXT", 947, crate::Address(glProgramUniform4ivEXT as *const ())),
-    (b"glProgramUniform4ui", 948, crate::Address(glProgramUniform4ui as *const ())),
-    (b"glProgramUniform4uiEXT", 949, crate::Address(glProgramUniform4uiEXT as *const ())),
-    (b"glProgramUniform4uiv", 950, crate::Address(glProgramUniform4uiv as *const ())),
-    (b"glProgramUniform4uivEXT", 951, crate::Address(glProgramUniform4uivEXT as *const ())),
-    (b"glProgramUniformMatrix2dv", 952, crate::Address(glProgramUniformMatrix2dv as *const ())),
-    (b"glProgramUniformMatrix2fv", 953, crate::Address(glProgramUniformMatrix2fv as *const ())),
-    (b"glProgramUniformMatrix2fvEXT", 954, crate::Address(glProgramUniformMatrix2fvEXT as *const ())),
-    (b"glProgramUniformMatrix2x3dv", 955, crate::Address(glProgramUniformMatrix2x3dv as *const ())),
-    (b"glProgramUniformMatrix2x3fv", 956, crate::Address(glProgramUniformMatrix2x3fv as *const ())),
-    (b"glProgramUniformMatrix2x3fvEXT", 957, crate::Address(glProgramUniformMatrix2x3fvEXT as *const ())),
-    (b"glProgramUniformMatrix2x4dv", 958, crate::Address(glProgramUniformMatrix2x4dv as *const ())),
-    (b"glProgramUniformMatrix2x4fv", 959, crate::Address(glProgramUniformMatrix2x4fv as *const ())),
-    (b"glProgramUniformMatrix2x4fvEXT", 960, crate::Address(glProgramUniformMatrix2x4fvEXT as *const ())),
-    (b"glProgramUniformMatrix3dv", 961, crate::Address(glProgramUniformMatrix3dv as *const ())),
-    (b"glProgramUniformMatrix3fv", 962, crate::Address(glProgramUniformMatrix3fv as *const ())),
-    (b"glProgramUniformMatrix3fvEXT", 963, crate::Address(glProgramUniformMatrix3fvEXT as *const ())),
-    (b"glProgramUniformMatrix3x2dv", 964, crate::Address(glProgramUniformMatrix3x2dv as *const ())),
-    (b"glProgramUniformMatrix3x2fv", 965, crate::Address(glProgramUniformMatrix3x2fv as *const ())),
-    (b"glProgramUniformMatrix3x2fvEXT", 966, crate::Address(glProgramUniformMatrix3x2fvEXT as *const ())),
-    (b"glProgramUniformMatrix3x4dv", 967, crate::Address(glProgramUniformMatrix3x4dv as *const ())),
-    (b"glProgramUniformMatrix3x4fv", 968, crate::Address(glProgramUniformMatrix3x4fv as *const ())),
-    (b"glProgramUniformMatrix3x4fvEXT", 969, crate::Address(glProgramUniformMatrix3x4fvEXT as *const ())),
-    (b"glProgramUniformMatrix4dv", 970, crate::Address(glProgramUniformMatrix4dv as *const ())),
-    (b"glProgramUniformMatrix4fv", 971, crate::Address(glProgramUniformMatrix4fv as *const ())),
-    (b"glProgramUniformMatrix4fvEXT", 972, crate::Address(glProgramUniformMatrix4fvEXT as *const ())),
-    (b"glProgramUniformMatrix4x2dv", 973, crate::Address(glProgramUniformMatrix4x2dv as *const ())),
-    (b"glProgramUniformMatrix4x2fv", 974, crate::Address(glProgramUniformMatrix4x2fv as *const ())),
-    (b"glProgramUniformMatrix4x2fvEXT", 975, crate::Address(glProgramUniformMatrix4x2fvEXT as *const ())),
-    (b"glProgramUniformMatrix4x3dv", 976, crate::Address(glProgramUniformMatrix4x3dv as *const ())),
-    (b"glProgramUniformMatrix4x3fv", 977, crate::Address(glProgramUniformMatrix4x3fv as *const ())),
-    (b"glProgramUniformMatrix4x3fvEXT", 978, crate::Address(glProgramUniformMatrix4x3fvEXT as *const ())),
+    (b"glProgramBinary", 999, crate::Address(glProgramBinary as *const ())),
+    (b"glProgramBinaryOES", 1000, crate::Address(glProgramBinaryOES as *const ())),
+    (b"glProgramEnvParameter4dARB", 822, crate::Address(glProgramEnvParameter4dARB as *const ())),
+    (b"glProgramEnvParameter4dvARB", 823, crate::Address(glProgramEnvParameter4dvARB as *const ())),
+    (b"glProgramEnvParameter4fARB", 824, crate::Address(glProgramEnvParameter4fARB as *const ())),
+    (b"glProgramEnvParameter4fvARB", 825, crate::Address(glProgramEnvParameter4fvARB as *const ())),
+    (b"glProgramLocalParameter4dARB", 826, crate::Address(glProgramLocalParameter4dARB as *const ())),
+    (b"glProgramLocalParameter4dvARB", 827, crate::Address(glProgramLocalParameter4dvARB as *const ())),
+    (b"glProgramLocalParameter4fARB", 828, crate::Address(glProgramLocalParameter4fARB as *const ())),
+    (b"glProgramLocalParameter4fvARB", 829, crate::Address(glProgramLocalParameter4fvARB as *const ())),
+    (b"glProgramUniform1d", 913, crate::Address(glProgramUniform1d as *const ())),
+    (b"glProgramUniform1dv", 914, crate::Address(glProgramUniform1dv as *const ())),
+    (b"glProgramUniform1f", 915, crate::Address(glProgramUniform1f as *const ())),
+    (b"glProgramUniform1fEXT", 916, crate::Address(glProgramUniform1fEXT as *const ())),
+    (b"glProgramUniform1fv", 917, crate::Address(glProgramUniform1fv as *const ())),
+    (b"glProgramUniform1fvEXT", 918, crate::Address(glProgramUniform1fvEXT as *const ())),
+    (b"glProgramUniform1i", 919, crate::Address(glProgramUniform1i as *const ())),
+    (b"glProgramUniform1iEXT", 920, crate::Address(glProgramUniform1iEXT as *const ())),
+    (b"glProgramUniform1iv", 921, crate::Address(glProgramUniform1iv as *const ())),
+    (b"glProgramUniform1ivEXT", 922, crate::Address(glProgramUniform1ivEXT as *const ())),
+    (b"glProgramUniform1ui", 923, crate::Address(glProgramUniform1ui as *const ())),
+    (b"glProgramUniform1uiEXT", 924, crate::Address(glProgramUniform1uiEXT as *const ())),
+    (b"glProgramUniform1uiv", 925, crate::Address(glProgramUniform1uiv as *const ())),
+    (b"glProgramUniform1uivEXT", 926, crate::Address(glProgramUniform1uivEXT as *const ())),
+    (b"glProgramUniform2d", 927, crate::Address(glProgramUniform2d as *const ())),
+    (b"glProgramUniform2dv", 928, crate::Address(glProgramUniform2dv as *const ())),
+    (b"glProgramUniform2f", 929, crate::Address(glProgramUniform2f as *const ())),
+    (b"glProgramUniform2fEXT", 930, crate::Address(glProgramUniform2fEXT as *const ())),
+    (b"glProgramUniform2fv", 931, crate::Address(glProgramUniform2fv as *const ())),
+    (b"glProgramUniform2fvEXT", 932, crate::Address(glProgramUniform2fvEXT as *const ())),
+    (b"glProgramUniform2i", 933, crate::Address(glProgramUniform2i as *const ())),
+    (b"glProgramUniform2iEXT", 934, crate::Address(glProgramUniform2iEXT as *const ())),
+    (b"glProgramUniform2iv", 935, crate::Address(glProgramUniform2iv as *const ())),
+    (b"glProgramUniform2ivEXT", 936, crate::Address(glProgramUniform2ivEXT as *const ())),
+    (b"glProgramUniform2ui", 937, crate::Address(glProgramUniform2ui as *const ())),
+    (b"glProgramUniform2uiEXT", 938, crate::Address(glProgramUniform2uiEXT as *const ())),
+    (b"glProgramUniform2uiv", 939, crate::Address(glProgramUniform2uiv as *const ())),
+    (b"glProgramUniform2uivEXT", 940, crate::Address(glProgramUniform2uivEXT as *const ())),
+    (b"glProgramUniform3d", 941, crate::Address(glProgramUniform3d as *const ())),
+    (b"glProgramUniform3dv", 942, crate::Address(glProgramUniform3dv as *const ())),
+    (b"glProgramUniform3f", 943, crate::Address(glProgramUniform3f as *const ())),
+    (b"glProgramUniform3fEXT", 944, crate::Address(glProgramUniform3fEXT as *const ())),
+    (b"glProgramUniform3fv", 945, crate::Address(glProgramUniform3fv as *const ())),
+    (b"glProgramUniform3fvEXT", 946, crate::Address(glProgramUniform3fvEXT as *const ())),
+    (b"glProgramUniform3i", 947, crate::Address(glProgramUniform3i as *const ())),
+    (b"glProgramUniform3iEXT", 948, crate::Address(glProgramUniform3iEXT as *const ())),
+    (b"glProgramUniform3iv", 949, crate::Address(glProgramUniform3iv as *const ())),
+    (b"glProgramUniform3ivEXT", 950, crate::Address(glProgramUniform3ivEXT as *const ())),
+    (b"glProgramUniform3ui", 951, crate::Address(glProgramUniform3ui as *const ())),
+    (b"glProgramUniform3uiEXT", 952, crate::Address(glProgramUniform3uiEXT as *const ())),
+    (b"glProgramUniform3uiv", 953, crate::Address(glProgramUniform3uiv as *const ())),
+    (b"glProgramUniform3uivEXT", 954, crate::Address(glProgramUniform3uivEXT as *const ())),
+    (b"glProgramUniform4d", 955, crate::Address(glProgramUniform4d as *const ())),
+    (b"glProgramUniform4dv", 956, crate::Address(glProgramUniform4dv as *const ())),
+    (b"glProgramUniform4f", 957, crate::Address(glProgramUniform4f as *const ())),
+    (b"glProgramUniform4fEXT", 958, crate::Address(glProgramUniform4fEXT as *const ())),
+    (b"glProgramUniform4fv", 959, crate::Address(glProgramUniform4fv as *const ())),
+    (b"glProgramUniform4fvEXT", 960, crate::Address(glProgramUniform4fvEXT as *const ())),
+    (b"glProgramUniform4i", 961, crate::Address(glProgramUniform4i as *const ())),
+    (b"glProgramUniform4iEXT", 962, crate::Address(glProgramUniform4iEXT as *const ())),
+    (b"glProgramUniform4iv", 963, crate::Address(glProgramUniform4iv as *const ())),
+    (b"glProgramUniform4ivEXT", 964, crate::Address(glProgramUniform4ivEXT as *const ())),
+    (b"glProgramUniform4ui", 965, crate::Address(glProgramUniform4ui as *const ())),
+    (b"glProgramUniform4uiEXT", 966, crate::Address(glProgramUniform4uiEXT as *const ())),
+    (b"glProgramUniform4uiv", 967, crate::Address(glProgramUniform4uiv as *const ())),
+    (b"glProgramUniform4uivEXT", 968, crate::Address(glProgramUniform4uivEXT as *const ())),
+    (b"glProgramUniformMatrix2dv", 969, crate::Address(glProgramUniformMatrix2dv as *const ())),
+    (b"glProgramUniformMatrix2fv", 970, crate::Address(glProgramUniformMatrix2fv as *const ())),
+    (b"glProgramUniformMatrix2fvEXT", 971, crate::Address(glProgramUniformMatrix2fvEXT as *const ())),
+    (b"glProgramUniformMatrix2x3dv", 972, crate::Address(glProgramUniformMatrix2x3dv as *const ())),
+    (b"glProgramUniformMatrix2x3fv", 973, crate::Address(glProgramUniformMatrix2x3fv as *const ())),
+    (b"glProgramUniformMatrix2x3fvEXT", 974, crate::Address(glProgramUniformMatrix2x3fvEXT as *const ())),
+    (b"glProgramUniformMatrix2x4dv", 975, crate::Address(glProgramUniformMatrix2x4dv as *const ())),
+    (b"glProgramUniformMatrix2x4fv", 976, crate::Address(glProgramUniformMatrix2x4fv as *const ())),
+    (b"glProgramUniformMatrix2x4fvEXT", 977, crate::Address(glProgramUniformMatrix2x4fvEXT as *const ())),
+    (b"glProgramUniformMatrix3dv", 978, crate::Address(glProgramUniformMatrix3dv as *const ())),
+    (b"glProgramUniformMatrix3fv", 979, crate::Address(glProgramUniformMatrix3fv as *const ())),
+    (b"glProgramUniformMatrix3fvEXT", 980, crate::Address(glProgramUniformMatrix3fvEXT as *const ())),
+    (b"glProgramUniformMatrix3x2dv", 981, crate::Address(glProgramUniformMatrix3x2dv as *const ())),
+    (b"glProgramUniformMatrix3x2fv", 982, crate::Address(glProgramUniformMatrix3x2fv as *const ())),
+    (b"glProgramUniformMatrix3x2fvEXT", 983, crate::Address(glProgramUniformMatrix3x2fvEXT as *const ())),
+    (b"glProgramUniformMatrix3x4dv", 984, crate::Address(glProgramUniformMatrix3x4dv as *const ())),
+    (b"glProgramUniformMatrix3x4fv", 985, crate::Address(glProgramUniformMatrix3x4fv as *const ())),
+    (b"glProgramUniformMatrix3x4fvEXT", 986, crate::Address(glProgramUniformMatrix3x4fvEXT as *const ())),
+    (b"glProgramUniformMatrix4dv", 987, crate::Address(glProgramUniformMatrix4dv as *const ())),
+    (b"glProgramUniformMatrix4fv", 988, crate::Address(glProgramUniformMatrix4fv as *const ())),
+    (b"glProgramUniformMatrix4fvEXT", 989, crate::Address(glProgramUniformMatrix4fvEXT as *const ())),
+    (b"glProgramUniformMatrix4x2dv", 990, crate::Address(glProgramUniformMatrix4x2dv as *const ())),
+    (b"glProgramUniformMatrix4x2fv", 991, crate::Address(glProgramUniformMatrix4x2fv as *const ())),
+    (b"glProgramUniformMatrix4x2fvEXT", 992, crate::Address(glProgramUniformMatrix4x2fvEXT as *const ())),
+    (b"glProgramUniformMatrix4x3dv", 993, crate::Address(glProgramUniformMatrix4x3dv as *const ())),
+    (b"glProgramUniformMatrix4x3fv", 994, crate::Address(glProgramUniformMatrix4x3fv as *const ())),
+    (b"glProgramUniformMatrix4x3fvEXT", 995, crate::Address(glProgramUniformMatrix4x3fvEXT as *const ())),
     (b"glProvokingVertex", 583, crate::Address(glProvokingVertex as *const ())),
     (b"glProvokingVertexEXT", 584, crate::Address(glProvokingVertexEXT as *const ())),
     (b"glPushAttrib", 593, crate::Address(glPushAttrib as *const ())),
-    (b"glPushClientAttrib", 1257, crate::Address(glPushClientAttrib as *const ())),
+    (b"glPushClientAttrib", 1277, crate::Address(glPushClientAttrib as *const ())),
     (b"glPushMatrix", 478, crate::Address(glPushMatrix as *const ())),
     (b"glPushName", 724, crate::Address(glPushName as *const ())),
     (b"glRasterPos2d", 595, crate::Address(glRasterPos2d as *const ())),
@@ -3533,26 +3594,26 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1318] = [
     (b"glRasterPos4iv", 616, crate::Address(glRasterPos4iv as *const ())),
     (b"glRasterPos4s", 617, crate::Address(glRasterPos4s as *const ())),
     (b"glRasterPos4sv", 618, crate::Address(glRasterPos4sv as *const ())),
-    (b"glReadBuffer", 1080, crate::Address(glReadBuffer as *const ())),
-    (b"glReadPixels", 1137, crate::Address(glReadPixels as *const ())),
-    (b"glReadnPixels", 1138, crate::Address(glReadnPixels as *const ())),
-    (b"glReadnPixelsARB", 1139, crate::Address(glReadnPixelsARB as *const ())),
-    (b"glReadnPixelsEXT", 1140, crate::Address(glReadnPixelsEXT as *const ())),
-    (b"glReadnPixelsKHR", 1141, crate::Address(glReadnPixelsKHR as *const ())),
-    (b"glRectd", 1044, crate::Address(glRectd as *const ())),
-    (b"glRectdv", 1045, crate::Address(glRectdv as *const ())),
-    (b"glRectf", 1046, crate::Address(glRectf as *const ())),
-    (b"glRectfv", 1047, crate::Address(glRectfv as *const ())),
-    (b"glRecti", 1048, crate::Address(glRecti as *const ())),
-    (b"glRectiv", 1049, crate::Address(glRectiv as *const ())),
-    (b"glRects", 1050, crate::Address(glRects as *const ())),
-    (b"glRectsv", 1051, crate::Address(glRectsv as *const ())),
+    (b"glReadBuffer", 1097, crate::Address(glReadBuffer as *const ())),
+    (b"glReadPixels", 1154, crate::Address(glReadPixels as *const ())),
+    (b"glReadnPixels", 1155, crate::Address(glReadnPixels as *const ())),
+    (b"glReadnPixelsARB", 1156, crate::Address(glReadnPixelsARB as *const ())),
+    (b"glReadnPixelsEXT", 1157, crate::Address(glReadnPixelsEXT as *const ())),
+    (b"glReadnPixelsKHR", 1158, crate::Address(glReadnPixelsKHR as *const ())),
+    (b"glRectd", 1061, crate::Address(glRectd as *const ())),
+    (b"glRectdv", 1062, crate::Address(glRectdv as *const ())),
+    (b"glRectf", 1063, crate::Address(glRectf as *const ())),
+    (b"glRectfv", 1064, crate::Address(glRectfv as *const ())),
+    (b"glRecti", 1065, crate::Address(glRecti as *const ())),
+    (b"glRectiv", 1066, crate::Address(glRectiv as *const ())),
+    (b"glRects", 1067, crate::Address(glRects as *const ())),
+    (b"glRectsv", 1068, crate::Address(glRectsv as *const ())),
     (b"glRenderMode", 667, crate::Address(glRenderMode as *const ())),
-    (b"glRenderbufferStorage", 1240, crate::Address(glRenderbufferStorage as *const ())),
-    (b"glRenderbufferStorageEXT", 1241, crate::Address(glRenderbufferStorageEXT as *const ())),
-    (b"glRenderbufferStorageMultisample", 1242, crate::Address(glRenderbufferStorageMultisample as *const ())),
-    (b"glRenderbufferStorageMultisampleEXT", 1243, crate::Address(glRenderbufferStorageMultisampleEXT as *const ())),
-    (b"glRenderbufferStorageMultisampleNV", 1244, crate::Address(glRenderbufferStorageMultisampleNV as *const ())),
+    (b"glRenderbufferStorage", 1260, crate::Address(glRenderbufferStorage as *const ())),
+    (b"glRenderbufferStorageEXT", 1261, crate::Address(glRenderbufferStorageEXT as *const ())),
+    (b"glRenderbufferStorageMultisample", 1262, crate::Address(glRenderbufferStorageMultisample as *const ())),
+    (b"glRenderbufferStorageMultisampleEXT", 1263, crate::Address(glRenderbufferStorageMultisampleEXT as *const ())),
+    (b"glRenderbufferStorageMultisampleNV", 1264, crate::Address(glRenderbufferStorageMultisampleNV as *const ())),
     (b"glRotated", 470, crate::Address(glRotated as *const ())),
     (b"glRotatef", 471, crate::Address(glRotatef as *const ())),
     (b"glSampleCoverage", 750, crate::Address(glSampleCoverage as *const ())),
@@ -3605,9 +3666,9 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1318] = [
     (b"glSecondaryColor3usvEXT", 221, crate::Address(glSecondaryColor3usvEXT as *const ())),
     (b"glSecondaryColorP3ui", 444, crate::Address(glSecondaryColorP3ui as *const ())),
     (b"glSecondaryColorP3uiv", 445, crate::Address(glSecondaryColorP3uiv as *const ())),
-    (b"glSecondaryColorPointer", 1265, crate::Address(glSecondaryColorPointer as *const ())),
-    (b"glSecondaryColorPointerEXT", 1266, crate::Address(glSecondaryColorPointerEXT as *const ())),
-    (b"glSelectBuffer", 1233, crate::Address(glSelectBuffer as *const ())),
+    (b"glSecondaryColorPointer", 1285, crate::Address(glSecondaryColorPointer as *const ())),
+    (b"glSecondaryColorPointerEXT", 1286, crate::Address(glSecondaryColorPointerEXT as *const ())),
+    (b"glSelectBuffer", 1253, crate::Address(glSelectBuffer as *const ())),
     (b"glShadeModel", 574, crate::Address(glShadeModel as *const ())),
     (b"glStencilFunc", 755, crate::Address(glStencilFunc as *const ())),
     (b"glStencilFuncSeparate", 756, crate::Address(glStencilFuncSeparate as *const ())),
@@ -3664,7 +3725,7 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1318] = [
     (b"glTexCoordP3uiv", 429, crate::Address(glTexCoordP3uiv as *const ())),
     (b"glTexCoordP4ui", 430, crate::Address(glTexCoordP4ui as *const ())),
     (b"glTexCoordP4uiv", 431, crate::Address(glTexCoordP4uiv as *const ())),
-    (b"glTexCoordPointer", 1267, crate::Address(glTexCoordPointer as *const ())),
+    (b"glTexCoordPointer", 1287, crate::Address(glTexCoordPointer as *const ())),
     (b"glTexEnvf", 577, crate::Address(glTexEnvf as *const ())),
     (b"glTexEnvfv", 578, crate::Address(glTexEnvfv as *const ())),
     (b"glTexEnvi", 579, crate::Address(glTexEnvi as *const ())),
@@ -3703,94 +3764,97 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1318] = [
     (b"glTextureParameterfv", 798, crate::Address(glTextureParameterfv as *const ())),
     (b"glTextureParameteri", 799, crate::Address(glTextureParameteri as *const ())),
     (b"glTextureParameteriv", 800, crate::Address(glTextureParameteriv as *const ())),
+    (b"glTextureSubImage1D", 811, crate::Address(glTextureSubImage1D as *const ())),
+    (b"glTextureSubImage2D", 812, crate::Address(glTextureSubImage2D as *const ())),
+    (b"glTextureSubImage3D", 813, crate::Address(glTextureSubImage3D as *const ())),
     (b"glTranslated", 474, crate::Address(glTranslated as *const ())),
     (b"glTranslatef", 475, crate::Address(glTranslatef as *const ())),
-    (b"glUniform1d", 813, crate::Address(glUniform1d as *const ())),
-    (b"glUniform1dv", 814, crate::Address(glUniform1dv as *const ())),
-    (b"glUniform1f", 815, crate::Address(glUniform1f as *const ())),
-    (b"glUniform1fARB", 816, crate::Address(glUniform1fARB as *const ())),
-    (b"glUniform1fv", 817, crate::Address(glUniform1fv as *const ())),
-    (b"glUniform1fvARB", 818, crate::Address(glUniform1fvARB as *const ())),
-    (b"glUniform1i", 819, crate::Address(glUniform1i as *const ())),
-    (b"glUniform1iARB", 820, crate::Address(glUniform1iARB as *const ())),
-    (b"glUniform1iv", 821, crate::Address(glUniform1iv as *const ())),
-    (b"glUniform1ivARB", 822, crate::Address(glUniform1ivARB as *const ())),
-    (b"glUniform1ui", 823, crate::Address(glUniform1ui as *const ())),
-    (b"glUniform1uiEXT", 824, crate::Address(glUniform1uiEXT as *const ())),
-    (b"glUniform1uiv", 825, crate::Address(glUniform1uiv as *const ())),
-    (b"glUniform1uivEXT", 826, crate::Address(glUniform1uivEXT as *const ())),
-    (b"glUniform2d", 827, crate::Address(glUniform2d as *const ())),
-    (b"glUniform2dv", 828, crate::Address(glUniform2dv as *const ())),
-    (b"glUniform2f", 829, crate::Address(glUniform2f as *const ())),
-    (b"glUniform2fARB", 830, crate::Address(glUniform2fARB as *const ())),
-    (b"glUniform2fv", 831, crate::Address(glUniform2fv as *const ())),
-    (b"glUniform2fvARB", 832, crate::Address(glUniform2fvARB as *const ())),
-    (b"glUniform2i", 833, crate::Address(glUniform2i as *const ())),
-    (b"glUniform2iARB", 834, crate::Address(glUniform2iARB as *const ())),
-    (b"glUniform2iv", 835, crate::Address(glUniform2iv as *const ())),
-    (b"glUniform2ivARB", 836, crate::Address(glUniform2ivARB as *const ())),
-    (b"glUniform2ui", 837, crate::Address(glUniform2ui as *const ())),
-    (b"glUniform2uiEXT", 838, crate::Address(glUniform2uiEXT as *const ())),
-    (b"glUniform2uiv", 839, crate::Address(glUniform2uiv as *const ())),
-    (b"glUniform2uivEXT", 840, crate::Address(glUniform2uivEXT as *const ())),
-    (b"glUniform3d", 841, crate::Address(glUniform3d as *const ())),
-    (b"glUniform3dv", 842, crate::Address(glUniform3dv as *const ())),
-    (b"glUniform3f", 843, crate::Address(glUniform3f as *const ())),
-    (b"glUniform3fARB", 844, crate::Address(glUniform3fARB as *const ())),
-    (b"glUniform3fv", 845, crate::Address(glUniform3fv as *const ())),
-    (b"glUniform3fvARB", 846, crate::Address(glUniform3fvARB as *const ())),
-    (b"glUniform3i", 847, crate::Address(glUniform3i as *const ())),
-    (b"glUniform3iARB", 848, crate::Address(glUniform3iARB as *const ())),
-    (b"glUniform3iv", 849, crate::Address(glUniform3iv as *const ())),
-    (b"glUniform3ivARB", 850, crate::Address(glUniform3ivARB as *const ())),
-    (b"glUniform3ui", 851, crate::Address(glUniform3ui as *const ())),
-    (b"glUniform3uiEXT", 852, crate::Address(glUniform3uiEXT as *const ())),
-    (b"glUniform3uiv", 853, crate::Address(glUniform3uiv as *const ())),
-    (b"glUniform3uivEXT", 854, crate::Address(glUniform3uivEXT as *const ())),
-    (b"glUniform4d", 855, crate::Address(glUniform4d as *const ())),
-    (b"glUniform4dv", 856, crate::Address(glUniform4dv as *const ())),
-    (b"glUniform4f", 857, crate::Address(glUniform4f as *const ())),
-    (b"glUniform4fARB", 858, crate::Address(glUniform4fARB as *const ())),
-    (b"glUniform4fv", 859, crate::Address(glUniform4fv as *const ())),
-    (b"glUniform4fvARB", 860, crate::Address(glUniform4fvARB as *const ())),
-    (b"glUniform4i", 861, crate::Address(glUniform4i as *const ())),
-    (b"glUniform4iARB", 862, crate::Address(glUniform4iARB as *const ())),
-    (b"glUniform4iv", 863, crate::Address(glUniform4iv as *const ())),
-    (b"glUniform4ivARB", 864, crate::Address(glUniform4ivARB as *const ())),
-    (b"glUniform4ui", 865, crate::Address(glUniform4ui as *const ())),
-    (b"glUniform4uiEXT", 866, crate::Address(glUniform4uiEXT as *const ())),
-    (b"glUniform4uiv", 867, crate::Address(glUniform4uiv as *const ())),
-    (b"glUniform4uivEXT", 868, crate::Address(glUniform4uivEXT as *const ())),
-    (b"glUniformBlockBinding", 979, crate::Address(glUniformBlockBinding as *const ())),
-    (b"glUniformMatrix2dv", 869, crate::Address(glUniformMatrix2dv as *const ())),
-    (b"glUniformMatrix2fv", 870, crate::Address(glUniformMatrix2fv as *const ())),
-    (b"glUniformMatrix2fvARB", 871, crate::Address(glUniformMatrix2fvARB as *const ())),
-    (b"glUniformMatrix2x3dv", 872, crate::Address(glUniformMatrix2x3dv as *const ())),
-    (b"glUniformMatrix2x3fv", 873, crate::Address(glUniformMatrix2x3fv as *const ())),
-    (b"glUniformMatrix2x3fvNV", 874, crate::Address(glUniformMatrix2x3fvNV as *const ())),
-    (b"glUniformMatrix2x4dv", 875, crate::Address(glUniformMatrix2x4dv as *const ())),
-    (b"glUniformMatrix2x4fv", 876, crate::Address(glUniformMatrix2x4fv as *const ())),
-    (b"glUniformMatrix2x4fvNV", 877, crate::Address(glUniformMatrix2x4fvNV as *const ())),
-    (b"glUniformMatrix3dv", 878, crate::Address(glUniformMatrix3dv as *const ())),
-    (b"glUniformMatrix3fv", 879, crate::Address(glUniformMatrix3fv as *const ())),
-    (b"glUniformMatrix3fvARB", 880, crate::Address(glUniformMatrix3fvARB as *const ())),
-    (b"glUniformMatrix3x2dv", 881, crate::Address(glUniformMatrix3x2dv as *const ())),
-    (b"glUniformMatrix3x2fv", 882, crate::Address(glUniformMatrix3x2fv as *const ())),
-    (b"glUniformMatrix3x2fvNV", 883, crate::Address(glUniformMatrix3x2fvNV as *const ())),
-    (b"glUniformMatrix3x4dv", 884, crate::Address(glUniformMatrix3x4dv as *const ())),
-    (b"glUniformMatrix3x4fv", 885, crate::Address(glUniformMatrix3x4fv as *const ())),
-    (b"glUniformMatrix3x4fvNV", 886, crate::Address(glUniformMatrix3x4fvNV as *const ())),
-    (b"glUniformMatrix4dv", 887, crate::Address(glUniformMatrix4dv as *const ())),
-    (b"glUniformMatrix4fv", 888, crate::Address(glUniformMatrix4fv as *const ())),
-    (b"glUniformMatrix4fvARB", 889, crate::Address(glUniformMatrix4fvARB as *const ())),
-    (b"glUniformMatrix4x2dv", 890, crate::Address(glUniformMatrix4x2dv as *const ())),
-    (b"glUniformMatrix4x2fv", 891, crate::Address(glUniformMatrix4x2fv as *const ())),
-    (b"glUniformMatrix4x2fvNV", 892, crate::Address(glUniformMatrix4x2fvNV as *const ())),
-    (b"glUniformMatrix4x3dv", 893, crate::Address(glUniformMatrix4x3dv as *const ())),
-    (b"glUniformMatrix4x3fv", 894, crate::Address(glUniformMatrix4x3fv as *const ())),
-    (b"glUniformMatrix4x3fvNV", 895, crate::Address(glUniformMatrix4x3fvNV as *const ())),
-    (b"glUseProgram", 984, crate::Address(glUseProgram as *const ())),
-    (b"glUseProgramObjectARB", 985, crate::Address(glUseProgramObjectARB as *const ())),
+    (b"glUniform1d", 830, crate::Address(glUniform1d as *const ())),
+    (b"glUniform1dv", 831, crate::Address(glUniform1dv as *const ())),
+    (b"glUniform1f", 832, crate::Address(glUniform1f as *const ())),
+    (b"glUniform1fARB", 833, crate::Address(glUniform1fARB as *const ())),
+    (b"glUniform1fv", 834, crate::Address(glUniform1fv as *const ())),
+    (b"glUniform1fvARB", 835, crate::Address(glUniform1fvARB as *const ())),
+    (b"glUniform1i", 836, crate::Address(glUniform1i as *const ())),
+    (b"glUniform1iARB", 837, crate::Address(glUniform1iARB as *const ())),
+    (b"glUniform1iv", 838, crate::Address(glUniform1iv as *const ())),
+    (b"glUniform1ivARB", 839, crate::Address(glUniform1ivARB as *const ())),
+    (b"glUniform1ui", 840, crate::Address(glUniform1ui as *const ())),
+    (b"glUniform1uiEXT", 841, crate::Address(glUniform1uiEXT as *const ())),
+    (b"glUniform1uiv", 842, crate::Address(glUniform1uiv as *const ())),
+    (b"glUniform1uivEXT", 843, crate::Address(glUniform1uivEXT as *const ())),
+    (b"glUniform2d", 844, crate::Address(glUniform2d as *const ())),
+    (b"glUniform2dv", 845, crate::Address(glUniform2dv as *const ())),
+    (b"glUniform2f", 846, crate::Address(glUniform2f as *const ())),
+    (b"glUniform2fARB", 847, crate::Address(glUniform2fARB as *const ())),
+    (b"glUniform2fv", 848, crate::Address(glUniform2fv as *const ())),
+    (b"glUniform2fvARB", 849, crate::Address(glUniform2fvARB as *const ())),
+    (b"glUniform2i", 850, crate::Address(glUniform2i as *const ())),
+    (b"glUniform2iARB", 851, crate::Address(glUniform2iARB as *const ())),
+    (b"glUniform2iv", 852, crate::Address(glUniform2iv as *const ())),
+    (b"glUniform2ivARB", 853, crate::Address(glUniform2ivARB as *const ())),
+    (b"glUniform2ui", 854, crate::Address(glUniform2ui as *const ())),
+    (b"glUniform2uiEXT", 855, crate::Address(glUniform2uiEXT as *const ())),
+    (b"glUniform2uiv", 856, crate::Address(glUniform2uiv as *const ())),
+    (b"glUniform2uivEXT", 857, crate::Address(glUniform2uivEXT as *const ())),
+    (b"glUniform3d", 858, crate::Address(glUniform3d as *const ())),
+    (b"glUniform3dv", 859, crate::Address(glUniform3dv as *const ())),
+    (b"glUniform3f", 860, crate::Address(glUniform3f as *const ())),
+    (b"glUniform3fARB", 861, crate::Address(glUniform3fARB as *const ())),
+    (b"glUniform3fv", 862, crate::Address(glUniform3fv as *const ())),
+    (b"glUniform3fvARB", 863, crate::Address(glUniform3fvARB as *const ())),
+    (b"glUniform3i", 864, crate::Address(glUniform3i as *const ())),
+    (b"glUniform3iARB", 865, crate::Address(glUniform3iARB as *const ())),
+    (b"glUniform3iv", 866, crate::Address(glUniform3iv as *const ())),
+    (b"glUniform3ivARB", 867, crate::Address(glUniform3ivARB as *const ())),
+    (b"glUniform3ui", 868, crate::Address(glUniform3ui as *const ())),
+    (b"glUniform3uiEXT", 869, crate::Address(glUniform3uiEXT as *const ())),
+    (b"glUniform3uiv", 870, crate::Address(glUniform3uiv as *const ())),
+    (b"glUniform3uivEXT", 871, crate::Address(glUniform3uivEXT as *const ())),
+    (b"glUniform4d", 872, crate::Address(glUniform4d as *const ())),
+    (b"glUniform4dv", 873, crate::Address(glUniform4dv as *const ())),
+    (b"glUniform4f", 874, crate::Address(glUniform4f as *const ())),
+    (b"glUniform4fARB", 875, crate::Address(glUniform4fARB as *const ())),
+    (b"glUniform4fv", 876, crate::Address(glUniform4fv as *const ())),
+    (b"glUniform4fvARB", 877, crate::Address(glUniform4fvARB as *const ())),
+    (b"glUniform4i", 878, crate::Address(glUniform4i as *const ())),
+    (b"glUniform4iARB", 879, crate::Address(glUniform4iARB as *const ())),
+    (b"glUniform4iv", 880, crate::Address(glUniform4iv as *const ())),
+    (b"glUniform4ivARB", 881, crate::Address(glUniform4ivARB as *const ())),
+    (b"glUniform4ui", 882, crate::Address(glUniform4ui as *const ())),
+    (b"glUniform4uiEXT", 883, crate::Address(glUniform4uiEXT as *const ())),
+    (b"glUniform4uiv", 884, crate::Address(glUniform4uiv as *const ())),
+    (b"glUniform4uivEXT", 885, crate::Address(glUniform4uivEXT as *const ())),
+    (b"glUniformBlockBinding", 996, crate::Address(glUniformBlockBinding as *const ())),
+    (b"glUniformMatrix2dv", 886, crate::Address(glUniformMatrix2dv as *const ())),
+    (b"glUniformMatrix2fv", 887, crate::Address(glUniformMatrix2fv as *const ())),
+    (b"glUniformMatrix2fvARB", 888, crate::Address(glUniformMatrix2fvARB as *const ())),
+    (b"glUniformMatrix2x3dv", 889, crate::Address(glUniformMatrix2x3dv as *const ())),
+    (b"glUniformMatrix2x3fv", 890, crate::Address(glUniformMatrix2x3fv as *const ())),
+    (b"glUniformMatrix2x3fvNV", 891, crate::Address(glUniformMatrix2x3fvNV as *const ())),
+    (b"glUniformMatrix2x4dv", 892, crate::Address(glUniformMatrix2x4dv as *const ())),
+    (b"glUniformMatrix2x4fv", 893, crate::Address(glUniformMatrix2x4fv as *const ())),
+    (b"glUniformMatrix2x4fvNV", 894, crate::Address(glUniformMatrix2x4fvNV as *const ())),
+    (b"glUniformMatrix3dv", 895, crate::Address(glUniformMatrix3dv as *const ())),
+    (b"glUniformMatrix3fv", 896, crate::Address(glUniformMatrix3fv as *const ())),
+    (b"glUniformMatrix3fvARB", 897, crate::Address(glUniformMatrix3fvARB as *const ())),
+    (b"glUniformMatrix3x2dv", 898, crate::Address(glUniformMatrix3x2dv as *const ())),
+    (b"glUniformMatrix3x2fv", 899, crate::Address(glUniformMatrix3x2fv as *const ())),
+    (b"glUniformMatrix3x2fvNV", 900, crate::Address(glUniformMatrix3x2fvNV as *const ())),
+    (b"glUniformMatrix3x4dv", 901, crate::Address(glUniformMatrix3x4dv as *const ())),
+    (b"glUniformMatrix3x4fv", 902, crate::Address(glUniformMatrix3x4fv as *const ())),
+    (b"glUniformMatrix3x4fvNV", 903, crate::Address(glUniformMatrix3x4fvNV as *const ())),
+    (b"glUniformMatrix4dv", 904, crate::Address(glUniformMatrix4dv as *const ())),
+    (b"glUniformMatrix4fv", 905, crate::Address(glUniformMatrix4fv as *const ())),
+    (b"glUniformMatrix4fvARB", 906, crate::Address(glUniformMatrix4fvARB as *const ())),
+    (b"glUniformMatrix4x2dv", 907, crate::Address(glUniformMatrix4x2dv as *const ())),
+    (b"glUniformMatrix4x2fv", 908, crate::Address(glUniformMatrix4x2fv as *const ())),
+    (b"glUniformMatrix4x2fvNV", 909, crate::Address(glUniformMatrix4x2fvNV as *const ())),
+    (b"glUniformMatrix4x3dv", 910, crate::Address(glUniformMatrix4x3dv as *const ())),
+    (b"glUniformMatrix4x3fv", 911, crate::Address(glUniformMatrix4x3fv as *const ())),
+    (b"glUniformMatrix4x3fvNV", 912, crate::Address(glUniformMatrix4x3fvNV as *const ())),
+    (b"glUseProgram", 1001, crate::Address(glUseProgram as *const ())),
+    (b"glUseProgramObjectARB", 1002, crate::Address(glUseProgramObjectARB as *const ())),
     (b"glUseProgramStages", 589, crate::Address(glUseProgramStages as *const ())),
     (b"glVertex2d", 0, crate::Address(glVertex2d as *const ())),
     (b"glVertex2dv", 1, crate::Address(glVertex2dv as *const ())),
@@ -3984,15 +4048,15 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1318] = [
     (b"glVertexAttribP3uiv", 451, crate::Address(glVertexAttribP3uiv as *const ())),
     (b"glVertexAttribP4ui", 452, crate::Address(glVertexAttribP4ui as *const ())),
     (b"glVertexAttribP4uiv", 453, crate::Address(glVertexAttribP4uiv as *const ())),
-    (b"glVertexAttribPointer", 1274, crate::Address(glVertexAttribPointer as *const ())),
-    (b"glVertexAttribPointerARB", 1275, crate::Address(glVertexAttribPointerARB as *const ())),
+    (b"glVertexAttribPointer", 1294, crate::Address(glVertexAttribPointer as *const ())),
+    (b"glVertexAttribPointerARB", 1295, crate::Address(glVertexAttribPointerARB as *const ())),
     (b"glVertexP2ui", 432, crate::Address(glVertexP2ui as *const ())),
     (b"glVertexP2uiv", 433, crate::Address(glVertexP2uiv as *const ())),
     (b"glVertexP3ui", 434, crate::Address(glVertexP3ui as *const ())),
     (b"glVertexP3uiv", 435, crate::Address(glVertexP3uiv as *const ())),
     (b"glVertexP4ui", 436, crate::Address(glVertexP4ui as *const ())),
     (b"glVertexP4uiv", 437, crate::Address(glVertexP4uiv as *const ())),
-    (b"glVertexPointer", 1268, crate::Address(glVertexPointer as *const ())),
+    (b"glVertexPointer", 1288, crate::Address(glVertexPointer as *const ())),
     (b"glViewport", 498, crate::Address(glViewport as *const ())),
     (b"glViewportArrayv", 509, crate::Address(glViewportArrayv as *const ())),
     (b"glViewportArrayvNV", 510, crate::Address(glViewportArrayvNV as *const ())),
@@ -4051,23 +4115,23 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1318] = [
     (b"glWindowPos3sv", 664, crate::Address(glWindowPos3sv as *const ())),
     (b"glWindowPos3svARB", 665, crate::Address(glWindowPos3svARB as *const ())),
     (b"glWindowPos3svMESA", 666, crate::Address(glWindowPos3svMESA as *const ())),
-    (b"glXChooseFBConfig", 1281, crate::Address(glXChooseFBConfig as *const ())),
-    (b"glXChooseFBConfigSGIX", 1282, crate::Address(glXChooseFBConfigSGIX as *const ())),
-    (b"glXChooseVisual", 1280, crate::Address(glXChooseVisual as *const ())),
-    (b"glXCreateContext", 1288, crate::Address(glXCreateContext as *const ())),
-    (b"glXCreateContextAttribsARB", 1290, crate::Address(glXCreateContextAttribsARB as *const ())),
-    (b"glXCreateContextWithConfigSGIX", 1291, crate::Address(glXCreateContextWithConfigSGIX as *const ())),
-    (b"glXCreateNewContext", 1289, crate::Address(glXCreateNewContext as *const ())),
-    (b"glXCreateWindow", 1293, crate::Address(glXCreateWindow as *const ())),
-    (b"glXDestroyContext", 1292, crate::Address(glXDestroyContext as *const ())),
-    (b"glXDestroyWindow", 1294, crate::Address(glXDestroyWindow as *const ())),
-    (b"glXGetProcAddress", 1295, crate::Address(glXGetProcAddress as *const ())),
-    (b"glXGetProcAddressARB", 1296, crate::Address(glXGetProcAddressARB as *const ())),
-    (b"glXMakeContextCurrent", 1286, crate::Address(glXMakeContextCurrent as *const ())),
-    (b"glXMakeCurrent", 1285, crate::Address(glXMakeCurrent as *const ())),
-    (b"glXMakeCurrentReadSGI", 1287, crate::Address(glXMakeCurrentReadSGI as *const ())),
-    (b"glXSwapBuffers", 1283, crate::Address(glXSwapBuffers as *const ())),
-    (b"glXSwapBuffersMscOML", 1284, crate::Address(glXSwapBuffersMscOML as *const ())),
+    (b"glXChooseFBConfig", 1301, crate::Address(glXChooseFBConfig as *const ())),
+    (b"glXChooseFBConfigSGIX", 1302, crate::Address(glXChooseFBConfigSGIX as *const ())),
+    (b"glXChooseVisual", 1300, crate::Address(glXChooseVisual as *const ())),
+    (b"glXCreateContext", 1308, crate::Address(glXCreateContext as *const ())),
+    (b"glXCreateContextAttribsARB", 1310, crate::Address(glXCreateContextAttribsARB as *const ())),
+    (b"glXCreateContextWithConfigSGIX", 1311, crate::Address(glXCreateContextWithConfigSGIX as *const ())),
+    (b"glXCreateNewContext", 1309, crate::Address(glXCreateNewContext as *const ())),
+    (b"glXCreateWindow", 1313, crate::Address(glXCreateWindow as *const ())),
+    (b"glXDestroyContext", 1312, crate::Address(glXDestroyContext as *const ())),
+    (b"glXDestroyWindow", 1314, crate::Address(glXDestroyWindow as *const ())),
+    (b"glXGetProcAddress", 1315, crate::Address(glXGetProcAddress as *const ())),
+    (b"glXGetProcAddressARB", 1316, crate::Address(glXGetProcAddressARB as *const ())),
+    (b"glXMakeContextCurrent", 1306, crate::Address(glXMakeContextCurrent as *const ())),
+    (b"glXMakeCurrent", 1305, crate::Address(glXMakeCurrent as *const ())),
+    (b"glXMakeCurrentReadSGI", 1307, crate::Address(glXMakeCurrentReadSGI as *const ())),
+    (b"glXSwapBuffers", 1303, crate::Address(glXSwapBuffers as *const ())),
+    (b"glXSwapBuffersMscOML", 1304, crate::Address(glXSwapBuffersMscOML as *const ())),
 ];
 
 export! { 0, glVertex2d, first_glVertex2d, hook_glVertex2d, (x: f64, y: f64) -> (), {
@@ -11388,2603 +11452,2723 @@ export! { 804, glGenerateMipmapEXT, first_glGenerateMipmapEXT, hook_glGenerateMi
     // SAFETY: the program's own call.
     hooks::mipmap(target, &mut |gl| unsafe { gl.glGenerateMipmapEXT(target) })
 } }
-export! { 805, glProgramEnvParameter4dARB, first_glProgramEnvParameter4dARB, hook_glProgramEnvParameter4dARB, (target: u32, index: u32, x: f64, y: f64, z: f64, w: f64) -> (), {
+export! { 805, glCopyImageSubData, first_glCopyImageSubData, hook_glCopyImageSubData, (srcName: u32, srcTarget: u32, srcLevel: i32, srcX: i32, srcY: i32, srcZ: i32, dstName: u32, dstTarget: u32, dstLevel: i32, dstX: i32, dstY: i32, dstZ: i32, srcWidth: i32, srcHeight: i32, srcDepth: i32) -> (), {
+    hooks::settle();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glCopyImageSubData(srcName, srcTarget, srcLevel, srcX, srcY, srcZ, dstName, dstTarget, dstLevel, dstX, dstY, dstZ, srcWidth, srcHeight, srcDepth) };
+} }
+export! { 806, glCopyImageSubDataEXT, first_glCopyImageSubDataEXT, hook_glCopyImageSubDataEXT, (srcName: u32, srcTarget: u32, srcLevel: i32, srcX: i32, srcY: i32, srcZ: i32, dstName: u32, dstTarget: u32, dstLevel: i32, dstX: i32, dstY: i32, dstZ: i32, srcWidth: i32, srcHeight: i32, srcDepth: i32) -> (), {
+    hooks::settle();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glCopyImageSubDataEXT(srcName, srcTarget, srcLevel, srcX, srcY, srcZ, dstName, dstTarget, dstLevel, dstX, dstY, dstZ, srcWidth, srcHeight, srcDepth) };
+} }
+export! { 807, glCopyImageSubDataOES, first_glCopyImageSubDataOES, hook_glCopyImageSubDataOES, (srcName: u32, srcTarget: u32, srcLevel: i32, srcX: i32, srcY: i32, srcZ: i32, dstName: u32, dstTarget: u32, dstLevel: i32, dstX: i32, dstY: i32, dstZ: i32, srcWidth: i32, srcHeight: i32, srcDepth: i32) -> (), {
+    hooks::settle();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glCopyImageSubDataOES(srcName, srcTarget, srcLevel, srcX, srcY, srcZ, dstName, dstTarget, dstLevel, dstX, dstY, dstZ, srcWidth, srcHeight, srcDepth) };
+} }
+export! { 808, glGetTextureImage, first_glGetTextureImage, hook_glGetTextureImage, (texture: u32, level: i32, format: u32, type_: u32, bufSize: i32, pixels: Ptr) -> (), {
+    hooks::settle();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glGetTextureImage(texture, level, format, type_, bufSize, pixels) };
+} }
+export! { 809, glGetTextureSubImage, first_glGetTextureSubImage, hook_glGetTextureSubImage, (texture: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, format: u32, type_: u32, bufSize: i32, pixels: Ptr) -> (), {
+    hooks::settle();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glGetTextureSubImage(texture, level, xoffset, yoffset, zoffset, width, height, depth, format, type_, bufSize, pixels) };
+} }
+export! { 810, glGetCompressedTextureImage, first_glGetCompressedTextureImage, hook_glGetCompressedTextureImage, (texture: u32, level: i32, bufSize: i32, pixels: Ptr) -> (), {
+    hooks::settle();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glGetCompressedTextureImage(texture, level, bufSize, pixels) };
+} }
+export! { 811, glTextureSubImage1D, first_glTextureSubImage1D, hook_glTextureSubImage1D, (texture: u32, level: i32, xoffset: i32, width: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
+    hooks::settle();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glTextureSubImage1D(texture, level, xoffset, width, format, type_, pixels) };
+} }
+export! { 812, glTextureSubImage2D, first_glTextureSubImage2D, hook_glTextureSubImage2D, (texture: u32, level: i32, xoffset: i32, yoffset: i32, width: i32, height: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
+    hooks::settle();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glTextureSubImage2D(texture, level, xoffset, yoffset, width, height, format, type_, pixels) };
+} }
+export! { 813, glTextureSubImage3D, first_glTextureSubImage3D, hook_glTextureSubImage3D, (texture: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
+    hooks::settle();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glTextureSubImage3D(texture, level, xoffset, yoffset, zoffset, width, height, depth, format, type_, pixels) };
+} }
+export! { 814, glClearTexImage, first_glClearTexImage, hook_glClearTexImage, (texture: u32, level: i32, format: u32, type_: u32, data: Ptr) -> (), {
+    hooks::settle();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glClearTexImage(texture, level, format, type_, data) };
+} }
+export! { 815, glClearTexImageEXT, first_glClearTexImageEXT, hook_glClearTexImageEXT, (texture: u32, level: i32, format: u32, type_: u32, data: Ptr) -> (), {
+    hooks::settle();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glClearTexImageEXT(texture, level, format, type_, data) };
+} }
+export! { 816, glClearTexSubImage, first_glClearTexSubImage, hook_glClearTexSubImage, (texture: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, format: u32, type_: u32, data: Ptr) -> (), {
+    hooks::settle();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glClearTexSubImage(texture, level, xoffset, yoffset, zoffset, width, height, depth, format, type_, data) };
+} }
+export! { 817, glClearTexSubImageEXT, first_glClearTexSubImageEXT, hook_glClearTexSubImageEXT, (texture: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, format: u32, type_: u32, data: Ptr) -> (), {
+    hooks::settle();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glClearTexSubImageEXT(texture, level, xoffset, yoffset, zoffset, width, height, depth, format, type_, data) };
+} }
+export! { 818, glBindImageTexture, first_glBindImageTexture, hook_glBindImageTexture, (unit: u32, texture: u32, level: i32, layered: u8, layer: i32, access: u32, format: u32) -> (), {
+    hooks::settle();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glBindImageTexture(unit, texture, level, layered, layer, access, format) };
+} }
+export! { 819, glBindImageTextures, first_glBindImageTextures, hook_glBindImageTextures, (first: u32, count: i32, textures: Ptr) -> (), {
+    hooks::settle();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glBindImageTextures(first, count, textures) };
+} }
+export! { 820, glDispatchCompute, first_glDispatchCompute, hook_glDispatchCompute, (num_groups_x: u32, num_groups_y: u32, num_groups_z: u32) -> (), {
+    hooks::settle();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glDispatchCompute(num_groups_x, num_groups_y, num_groups_z) };
+} }
+export! { 821, glDispatchComputeIndirect, first_glDispatchComputeIndirect, hook_glDispatchComputeIndirect, (indirect: isize) -> (), {
+    hooks::settle();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glDispatchComputeIndirect(indirect) };
+} }
+export! { 822, glProgramEnvParameter4dARB, first_glProgramEnvParameter4dARB, hook_glProgramEnvParameter4dARB, (target: u32, index: u32, x: f64, y: f64, z: f64, w: f64) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramEnvParameter4dARB(target, index, x, y, z, w) };
 } }
-export! { 806, glProgramEnvParameter4dvARB, first_glProgramEnvParameter4dvARB, hook_glProgramEnvParameter4dvARB, (target: u32, index: u32, params: Ptr) -> (), {
+export! { 823, glProgramEnvParameter4dvARB, first_glProgramEnvParameter4dvARB, hook_glProgramEnvParameter4dvARB, (target: u32, index: u32, params: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramEnvParameter4dvARB(target, index, params) };
 } }
-export! { 807, glProgramEnvParameter4fARB, first_glProgramEnvParameter4fARB, hook_glProgramEnvParameter4fARB, (target: u32, index: u32, x: f32, y: f32, z: f32, w: f32) -> (), {
+export! { 824, glProgramEnvParameter4fARB, first_glProgramEnvParameter4fARB, hook_glProgramEnvParameter4fARB, (target: u32, index: u32, x: f32, y: f32, z: f32, w: f32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramEnvParameter4fARB(target, index, x, y, z, w) };
 } }
-export! { 808, glProgramEnvParameter4fvARB, first_glProgramEnvParameter4fvARB, hook_glProgramEnvParameter4fvARB, (target: u32, index: u32, params: Ptr) -> (), {
+export! { 825, glProgramEnvParameter4fvARB, first_glProgramEnvParameter4fvARB, hook_glProgramEnvParameter4fvARB, (target: u32, index: u32, params: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramEnvParameter4fvARB(target, index, params) };
 } }
-export! { 809, glProgramLocalParameter4dARB, first_glProgramLocalParameter4dARB, hook_glProgramLocalParameter4dARB, (target: u32, index: u32, x: f64, y: f64, z: f64, w: f64) -> (), {
+export! { 826, glProgramLocalParameter4dARB, first_glProgramLocalParameter4dARB, hook_glProgramLocalParameter4dARB, (target: u32, index: u32, x: f64, y: f64, z: f64, w: f64) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramLocalParameter4dARB(target, index, x, y, z, w) };
 } }
-export! { 810, glProgramLocalParameter4dvARB, first_glProgramLocalParameter4dvARB, hook_glProgramLocalParameter4dvARB, (target: u32, index: u32, params: Ptr) -> (), {
+export! { 827, glProgramLocalParameter4dvARB, first_glProgramLocalParameter4dvARB, hook_glProgramLocalParameter4dvARB, (target: u32, index: u32, params: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramLocalParameter4dvARB(target, index, params) };
 } }
-export! { 811, glProgramLocalParameter4fARB, first_glProgramLocalParameter4fARB, hook_glProgramLocalParameter4fARB, (target: u32, index: u32, x: f32, y: f32, z: f32, w: f32) -> (), {
+export! { 828, glProgramLocalParameter4fARB, first_glProgramLocalParameter4fARB, hook_glProgramLocalParameter4fARB, (target: u32, index: u32, x: f32, y: f32, z: f32, w: f32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramLocalParameter4fARB(target, index, x, y, z, w) };
 } }
-export! { 812, glProgramLocalParameter4fvARB, first_glProgramLocalParameter4fvARB, hook_glProgramLocalParameter4fvARB, (target: u32, index: u32, params: Ptr) -> (), {
+export! { 829, glProgramLocalParameter4fvARB, first_glProgramLocalParameter4fvARB, hook_glProgramLocalParameter4fvARB, (target: u32, index: u32, params: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramLocalParameter4fvARB(target, index, params) };
 } }
-export! { 813, glUniform1d, first_glUniform1d, hook_glUniform1d, (location: i32, x: f64) -> (), {
+export! { 830, glUniform1d, first_glUniform1d, hook_glUniform1d, (location: i32, x: f64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1d(location, x) };
 } }
-export! { 814, glUniform1dv, first_glUniform1dv, hook_glUniform1dv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 831, glUniform1dv, first_glUniform1dv, hook_glUniform1dv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1dv(location, count, value) };
 } }
-export! { 815, glUniform1f, first_glUniform1f, hook_glUniform1f, (location: i32, v0: f32) -> (), {
+export! { 832, glUniform1f, first_glUniform1f, hook_glUniform1f, (location: i32, v0: f32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1f(location, v0) };
 } }
-export! { 816, glUniform1fARB, first_glUniform1fARB, hook_glUniform1fARB, (location: i32, v0: f32) -> (), {
+export! { 833, glUniform1fARB, first_glUniform1fARB, hook_glUniform1fARB, (location: i32, v0: f32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1fARB(location, v0) };
 } }
-export! { 817, glUniform1fv, first_glUniform1fv, hook_glUniform1fv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 834, glUniform1fv, first_glUniform1fv, hook_glUniform1fv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1fv(location, count, value) };
 } }
-export! { 818, glUniform1fvARB, first_glUniform1fvARB, hook_glUniform1fvARB, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 835, glUniform1fvARB, first_glUniform1fvARB, hook_glUniform1fvARB, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1fvARB(location, count, value) };
 } }
-export! { 819, glUniform1i, first_glUniform1i, hook_glUniform1i, (location: i32, v0: i32) -> (), {
+export! { 836, glUniform1i, first_glUniform1i, hook_glUniform1i, (location: i32, v0: i32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1i(location, v0) };
 } }
-export! { 820, glUniform1iARB, first_glUniform1iARB, hook_glUniform1iARB, (location: i32, v0: i32) -> (), {
+export! { 837, glUniform1iARB, first_glUniform1iARB, hook_glUniform1iARB, (location: i32, v0: i32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1iARB(location, v0) };
 } }
-export! { 821, glUniform1iv, first_glUniform1iv, hook_glUniform1iv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 838, glUniform1iv, first_glUniform1iv, hook_glUniform1iv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1iv(location, count, value) };
 } }
-export! { 822, glUniform1ivARB, first_glUniform1ivARB, hook_glUniform1ivARB, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 839, glUniform1ivARB, first_glUniform1ivARB, hook_glUniform1ivARB, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1ivARB(location, count, value) };
 } }
-export! { 823, glUniform1ui, first_glUniform1ui, hook_glUniform1ui, (location: i32, v0: u32) -> (), {
+export! { 840, glUniform1ui, first_glUniform1ui, hook_glUniform1ui, (location: i32, v0: u32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1ui(location, v0) };
 } }
-export! { 824, glUniform1uiEXT, first_glUniform1uiEXT, hook_glUniform1uiEXT, (location: i32, v0: u32) -> (), {
+export! { 841, glUniform1uiEXT, first_glUniform1uiEXT, hook_glUniform1uiEXT, (location: i32, v0: u32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1uiEXT(location, v0) };
 } }
-export! { 825, glUniform1uiv, first_glUniform1uiv, hook_glUniform1uiv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 842, glUniform1uiv, first_glUniform1uiv, hook_glUniform1uiv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1uiv(location, count, value) };
 } }
-export! { 826, glUniform1uivEXT, first_glUniform1uivEXT, hook_glUniform1uivEXT, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 843, glUniform1uivEXT, first_glUniform1uivEXT, hook_glUniform1uivEXT, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1uivEXT(location, count, value) };
 } }
-export! { 827, glUniform2d, first_glUniform2d, hook_glUniform2d, (location: i32, x: f64, y: f64) -> (), {
+export! { 844, glUniform2d, first_glUniform2d, hook_glUniform2d, (location: i32, x: f64, y: f64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2d(location, x, y) };
 } }
-export! { 828, glUniform2dv, first_glUniform2dv, hook_glUniform2dv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 845, glUniform2dv, first_glUniform2dv, hook_glUniform2dv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2dv(location, count, value) };
 } }
-export! { 829, glUniform2f, first_glUniform2f, hook_glUniform2f, (location: i32, v0: f32, v1: f32) -> (), {
+export! { 846, glUniform2f, first_glUniform2f, hook_glUniform2f, (location: i32, v0: f32, v1: f32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2f(location, v0, v1) };
 } }
-export! { 830, glUniform2fARB, first_glUniform2fARB, hook_glUniform2fARB, (location: i32, v0: f32, v1: f32) -> (), {
+export! { 847, glUniform2fARB, first_glUniform2fARB, hook_glUniform2fARB, (location: i32, v0: f32, v1: f32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2fARB(location, v0, v1) };
 } }
-export! { 831, glUniform2fv, first_glUniform2fv, hook_glUniform2fv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 848, glUniform2fv, first_glUniform2fv, hook_glUniform2fv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2fv(location, count, value) };
 } }
-export! { 832, glUniform2fvARB, first_glUniform2fvARB, hook_glUniform2fvARB, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 849, glUniform2fvARB, first_glUniform2fvARB, hook_glUniform2fvARB, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2fvARB(location, count, value) };
 } }
-export! { 833, glUniform2i, first_glUniform2i, hook_glUniform2i, (location: i32, v0: i32, v1: i32) -> (), {
+export! { 850, glUniform2i, first_glUniform2i, hook_glUniform2i, (location: i32, v0: i32, v1: i32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2i(location, v0, v1) };
 } }
-export! { 834, glUniform2iARB, first_glUniform2iARB, hook_glUniform2iARB, (location: i32, v0: i32, v1: i32) -> (), {
+export! { 851, glUniform2iARB, first_glUniform2iARB, hook_glUniform2iARB, (location: i32, v0: i32, v1: i32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2iARB(location, v0, v1) };
 } }
-export! { 835, glUniform2iv, first_glUniform2iv, hook_glUniform2iv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 852, glUniform2iv, first_glUniform2iv, hook_glUniform2iv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2iv(location, count, value) };
 } }
-export! { 836, glUniform2ivARB, first_glUniform2ivARB, hook_glUniform2ivARB, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 853, glUniform2ivARB, first_glUniform2ivARB, hook_glUniform2ivARB, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2ivARB(location, count, value) };
 } }
-export! { 837, glUniform2ui, first_glUniform2ui, hook_glUniform2ui, (location: i32, v0: u32, v1: u32) -> (), {
+export! { 854, glUniform2ui, first_glUniform2ui, hook_glUniform2ui, (location: i32, v0: u32, v1: u32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2ui(location, v0, v1) };
 } }
-export! { 838, glUniform2uiEXT, first_glUniform2uiEXT, hook_glUniform2uiEXT, (location: i32, v0: u32, v1: u32) -> (), {
+export! { 855, glUniform2uiEXT, first_glUniform2uiEXT, hook_glUniform2uiEXT, (location: i32, v0: u32, v1: u32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2uiEXT(location, v0, v1) };
 } }
-export! { 839, glUniform2uiv, first_glUniform2uiv, hook_glUniform2uiv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 856, glUniform2uiv, first_glUniform2uiv, hook_glUniform2uiv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2uiv(location, count, value) };
 } }
-export! { 840, glUniform2uivEXT, first_glUniform2uivEXT, hook_glUniform2uivEXT, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 857, glUniform2uivEXT, first_glUniform2uivEXT, hook_glUniform2uivEXT, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2uivEXT(location, count, value) };
 } }
-export! { 841, glUniform3d, first_glUniform3d, hook_glUniform3d, (location: i32, x: f64, y: f64, z: f64) -> (), {
+export! { 858, glUniform3d, first_glUniform3d, hook_glUniform3d, (location: i32, x: f64, y: f64, z: f64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3d(location, x, y, z) };
 } }
-export! { 842, glUniform3dv, first_glUniform3dv, hook_glUniform3dv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 859, glUniform3dv, first_glUniform3dv, hook_glUniform3dv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3dv(location, count, value) };
 } }
-export! { 843, glUniform3f, first_glUniform3f, hook_glUniform3f, (location: i32, v0: f32, v1: f32, v2: f32) -> (), {
+export! { 860, glUniform3f, first_glUniform3f, hook_glUniform3f, (location: i32, v0: f32, v1: f32, v2: f32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3f(location, v0, v1, v2) };
 } }
-export! { 844, glUniform3fARB, first_glUniform3fARB, hook_glUniform3fARB, (location: i32, v0: f32, v1: f32, v2: f32) -> (), {
+export! { 861, glUniform3fARB, first_glUniform3fARB, hook_glUniform3fARB, (location: i32, v0: f32, v1: f32, v2: f32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3fARB(location, v0, v1, v2) };
 } }
-export! { 845, glUniform3fv, first_glUniform3fv, hook_glUniform3fv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 862, glUniform3fv, first_glUniform3fv, hook_glUniform3fv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3fv(location, count, value) };
 } }
-export! { 846, glUniform3fvARB, first_glUniform3fvARB, hook_glUniform3fvARB, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 863, glUniform3fvARB, first_glUniform3fvARB, hook_glUniform3fvARB, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3fvARB(location, count, value) };
 } }
-export! { 847, glUniform3i, first_glUniform3i, hook_glUniform3i, (location: i32, v0: i32, v1: i32, v2: i32) -> (), {
+export! { 864, glUniform3i, first_glUniform3i, hook_glUniform3i, (location: i32, v0: i32, v1: i32, v2: i32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3i(location, v0, v1, v2) };
 } }
-export! { 848, glUniform3iARB, first_glUniform3iARB, hook_glUniform3iARB, (location: i32, v0: i32, v1: i32, v2: i32) -> (), {
+export! { 865, glUniform3iARB, first_glUniform3iARB, hook_glUniform3iARB, (location: i32, v0: i32, v1: i32, v2: i32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3iARB(location, v0, v1, v2) };
 } }
-export! { 849, glUniform3iv, first_glUniform3iv, hook_glUniform3iv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 866, glUniform3iv, first_glUniform3iv, hook_glUniform3iv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3iv(location, count, value) };
 } }
-export! { 850, glUniform3ivARB, first_glUniform3ivARB, hook_glUniform3ivARB, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 867, glUniform3ivARB, first_glUniform3ivARB, hook_glUniform3ivARB, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3ivARB(location, count, value) };
 } }
-export! { 851, glUniform3ui, first_glUniform3ui, hook_glUniform3ui, (location: i32, v0: u32, v1: u32, v2: u32) -> (), {
+export! { 868, glUniform3ui, first_glUniform3ui, hook_glUniform3ui, (location: i32, v0: u32, v1: u32, v2: u32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3ui(location, v0, v1, v2) };
 } }
-export! { 852, glUniform3uiEXT, first_glUniform3uiEXT, hook_glUniform3uiEXT, (location: i32, v0: u32, v1: u32, v2: u32) -> (), {
+export! { 869, glUniform3uiEXT, first_glUniform3uiEXT, hook_glUniform3uiEXT, (location: i32, v0: u32, v1: u32, v2: u32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3uiEXT(location, v0, v1, v2) };
 } }
-export! { 853, glUniform3uiv, first_glUniform3uiv, hook_glUniform3uiv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 870, glUniform3uiv, first_glUniform3uiv, hook_glUniform3uiv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3uiv(location, count, value) };
 } }
-export! { 854, glUniform3uivEXT, first_glUniform3uivEXT, hook_glUniform3uivEXT, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 871, glUniform3uivEXT, first_glUniform3uivEXT, hook_glUniform3uivEXT, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3uivEXT(location, count, value) };
 } }
-export! { 855, glUniform4d, first_glUniform4d, hook_glUniform4d, (location: i32, x: f64, y: f64, z: f64, w: f64) -> (), {
+export! { 872, glUniform4d, first_glUniform4d, hook_glUniform4d, (location: i32, x: f64, y: f64, z: f64, w: f64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4d(location, x, y, z, w) };
 } }
-export! { 856, glUniform4dv, first_glUniform4dv, hook_glUniform4dv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 873, glUniform4dv, first_glUniform4dv, hook_glUniform4dv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4dv(location, count, value) };
 } }
-export! { 857, glUniform4f, first_glUniform4f, hook_glUniform4f, (location: i32, v0: f32, v1: f32, v2: f32, v3: f32) -> (), {
+export! { 874, glUniform4f, first_glUniform4f, hook_glUniform4f, (location: i32, v0: f32, v1: f32, v2: f32, v3: f32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4f(location, v0, v1, v2, v3) };
 } }
-export! { 858, glUniform4fARB, first_glUniform4fARB, hook_glUniform4fARB, (location: i32, v0: f32, v1: f32, v2: f32, v3: f32) -> (), {
+export! { 875, glUniform4fARB, first_glUniform4fARB, hook_glUniform4fARB, (location: i32, v0: f32, v1: f32, v2: f32, v3: f32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4fARB(location, v0, v1, v2, v3) };
 } }
-export! { 859, glUniform4fv, first_glUniform4fv, hook_glUniform4fv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 876, glUniform4fv, first_glUniform4fv, hook_glUniform4fv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4fv(location, count, value) };
 } }
-export! { 860, glUniform4fvARB, first_glUniform4fvARB, hook_glUniform4fvARB, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 877, glUniform4fvARB, first_glUniform4fvARB, hook_glUniform4fvARB, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4fvARB(location, count, value) };
 } }
-export! { 861, glUniform4i, first_glUniform4i, hook_glUniform4i, (location: i32, v0: i32, v1: i32, v2: i32, v3: i32) -> (), {
+export! { 878, glUniform4i, first_glUniform4i, hook_glUniform4i, (location: i32, v0: i32, v1: i32, v2: i32, v3: i32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4i(location, v0, v1, v2, v3) };
 } }
-export! { 862, glUniform4iARB, first_glUniform4iARB, hook_glUniform4iARB, (location: i32, v0: i32, v1: i32, v2: i32, v3: i32) -> (), {
+export! { 879, glUniform4iARB, first_glUniform4iARB, hook_glUniform4iARB, (location: i32, v0: i32, v1: i32, v2: i32, v3: i32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4iARB(location, v0, v1, v2, v3) };
 } }
-export! { 863, glUniform4iv, first_glUniform4iv, hook_glUniform4iv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 880, glUniform4iv, first_glUniform4iv, hook_glUniform4iv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4iv(location, count, value) };
 } }
-export! { 864, glUniform4ivARB, first_glUniform4ivARB, hook_glUniform4ivARB, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 881, glUniform4ivARB, first_glUniform4ivARB, hook_glUniform4ivARB, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4ivARB(location, count, value) };
 } }
-export! { 865, glUniform4ui, first_glUniform4ui, hook_glUniform4ui, (location: i32, v0: u32, v1: u32, v2: u32, v3: u32) -> (), {
+export! { 882, glUniform4ui, first_glUniform4ui, hook_glUniform4ui, (location: i32, v0: u32, v1: u32, v2: u32, v3: u32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4ui(location, v0, v1, v2, v3) };
 } }
-export! { 866, glUniform4uiEXT, first_glUniform4uiEXT, hook_glUniform4uiEXT, (location: i32, v0: u32, v1: u32, v2: u32, v3: u32) -> (), {
+export! { 883, glUniform4uiEXT, first_glUniform4uiEXT, hook_glUniform4uiEXT, (location: i32, v0: u32, v1: u32, v2: u32, v3: u32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4uiEXT(location, v0, v1, v2, v3) };
 } }
-export! { 867, glUniform4uiv, first_glUniform4uiv, hook_glUniform4uiv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 884, glUniform4uiv, first_glUniform4uiv, hook_glUniform4uiv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4uiv(location, count, value) };
 } }
-export! { 868, glUniform4uivEXT, first_glUniform4uivEXT, hook_glUniform4uivEXT, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 885, glUniform4uivEXT, first_glUniform4uivEXT, hook_glUniform4uivEXT, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4uivEXT(location, count, value) };
 } }
-export! { 869, glUniformMatrix2dv, first_glUniformMatrix2dv, hook_glUniformMatrix2dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 886, glUniformMatrix2dv, first_glUniformMatrix2dv, hook_glUniformMatrix2dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix2dv(location, count, transpose, value) };
 } }
-export! { 870, glUniformMatrix2fv, first_glUniformMatrix2fv, hook_glUniformMatrix2fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 887, glUniformMatrix2fv, first_glUniformMatrix2fv, hook_glUniformMatrix2fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix2fv(location, count, transpose, value) };
 } }
-export! { 871, glUniformMatrix2fvARB, first_glUniformMatrix2fvARB, hook_glUniformMatrix2fvARB, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 888, glUniformMatrix2fvARB, first_glUniformMatrix2fvARB, hook_glUniformMatrix2fvARB, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix2fvARB(location, count, transpose, value) };
 } }
-export! { 872, glUniformMatrix2x3dv, first_glUniformMatrix2x3dv, hook_glUniformMatrix2x3dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 889, glUniformMatrix2x3dv, first_glUniformMatrix2x3dv, hook_glUniformMatrix2x3dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix2x3dv(location, count, transpose, value) };
 } }
-export! { 873, glUniformMatrix2x3fv, first_glUniformMatrix2x3fv, hook_glUniformMatrix2x3fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 890, glUniformMatrix2x3fv, first_glUniformMatrix2x3fv, hook_glUniformMatrix2x3fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix2x3fv(location, count, transpose, value) };
 } }
-export! { 874, glUniformMatrix2x3fvNV, first_glUniformMatrix2x3fvNV, hook_glUniformMatrix2x3fvNV, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 891, glUniformMatrix2x3fvNV, first_glUniformMatrix2x3fvNV, hook_glUniformMatrix2x3fvNV, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix2x3fvNV(location, count, transpose, value) };
 } }
-export! { 875, glUniformMatrix2x4dv, first_glUniformMatrix2x4dv, hook_glUniformMatrix2x4dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 892, glUniformMatrix2x4dv, first_glUniformMatrix2x4dv, hook_glUniformMatrix2x4dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix2x4dv(location, count, transpose, value) };
 } }
-export! { 876, glUniformMatrix2x4fv, first_glUniformMatrix2x4fv, hook_glUniformMatrix2x4fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 893, glUniformMatrix2x4fv, first_glUniformMatrix2x4fv, hook_glUniformMatrix2x4fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix2x4fv(location, count, transpose, value) };
 } }
-export! { 877, glUniformMatrix2x4fvNV, first_glUniformMatrix2x4fvNV, hook_glUniformMatrix2x4fvNV, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 894, glUniformMatrix2x4fvNV, first_glUniformMatrix2x4fvNV, hook_glUniformMatrix2x4fvNV, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix2x4fvNV(location, count, transpose, value) };
 } }
-export! { 878, glUniformMatrix3dv, first_glUniformMatrix3dv, hook_glUniformMatrix3dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 895, glUniformMatrix3dv, first_glUniformMatrix3dv, hook_glUniformMatrix3dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix3dv(location, count, transpose, value) };
 } }
-export! { 879, glUniformMatrix3fv, first_glUniformMatrix3fv, hook_glUniformMatrix3fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 896, glUniformMatrix3fv, first_glUniformMatrix3fv, hook_glUniformMatrix3fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix3fv(location, count, transpose, value) };
 } }
-export! { 880, glUniformMatrix3fvARB, first_glUniformMatrix3fvARB, hook_glUniformMatrix3fvARB, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 897, glUniformMatrix3fvARB, first_glUniformMatrix3fvARB, hook_glUniformMatrix3fvARB, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix3fvARB(location, count, transpose, value) };
 } }
-export! { 881, glUniformMatrix3x2dv, first_glUniformMatrix3x2dv, hook_glUniformMatrix3x2dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 898, glUniformMatrix3x2dv, first_glUniformMatrix3x2dv, hook_glUniformMatrix3x2dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix3x2dv(location, count, transpose, value) };
 } }
-export! { 882, glUniformMatrix3x2fv, first_glUniformMatrix3x2fv, hook_glUniformMatrix3x2fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 899, glUniformMatrix3x2fv, first_glUniformMatrix3x2fv, hook_glUniformMatrix3x2fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix3x2fv(location, count, transpose, value) };
 } }
-export! { 883, glUniformMatrix3x2fvNV, first_glUniformMatrix3x2fvNV, hook_glUniformMatrix3x2fvNV, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 900, glUniformMatrix3x2fvNV, first_glUniformMatrix3x2fvNV, hook_glUniformMatrix3x2fvNV, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix3x2fvNV(location, count, transpose, value) };
 } }
-export! { 884, glUniformMatrix3x4dv, first_glUniformMatrix3x4dv, hook_glUniformMatrix3x4dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 901, glUniformMatrix3x4dv, first_glUniformMatrix3x4dv, hook_glUniformMatrix3x4dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix3x4dv(location, count, transpose, value) };
 } }
-export! { 885, glUniformMatrix3x4fv, first_glUniformMatrix3x4fv, hook_glUniformMatrix3x4fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 902, glUniformMatrix3x4fv, first_glUniformMatrix3x4fv, hook_glUniformMatrix3x4fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix3x4fv(location, count, transpose, value) };
 } }
-export! { 886, glUniformMatrix3x4fvNV, first_glUniformMatrix3x4fvNV, hook_glUniformMatrix3x4fvNV, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 903, glUniformMatrix3x4fvNV, first_glUniformMatrix3x4fvNV, hook_glUniformMatrix3x4fvNV, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix3x4fvNV(location, count, transpose, value) };
 } }
-export! { 887, glUniformMatrix4dv, first_glUniformMatrix4dv, hook_glUniformMatrix4dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 904, glUniformMatrix4dv, first_glUniformMatrix4dv, hook_glUniformMatrix4dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix4dv(location, count, transpose, value) };
 } }
-export! { 888, glUniformMatrix4fv, first_glUniformMatrix4fv, hook_glUniformMatrix4fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 905, glUniformMatrix4fv, first_glUniformMatrix4fv, hook_glUniformMatrix4fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix4fv(location, count, transpose, value) };
 } }
-export! { 889, glUniformMatrix4fvARB, first_glUniformMatrix4fvARB, hook_glUniformMatrix4fvARB, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 906, glUniformMatrix4fvARB, first_glUniformMatrix4fvARB, hook_glUniformMatrix4fvARB, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix4fvARB(location, count, transpose, value) };
 } }
-export! { 890, glUniformMatrix4x2dv, first_glUniformMatrix4x2dv, hook_glUniformMatrix4x2dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 907, glUniformMatrix4x2dv, first_glUniformMatrix4x2dv, hook_glUniformMatrix4x2dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix4x2dv(location, count, transpose, value) };
 } }
-export! { 891, glUniformMatrix4x2fv, first_glUniformMatrix4x2fv, hook_glUniformMatrix4x2fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 908, glUniformMatrix4x2fv, first_glUniformMatrix4x2fv, hook_glUniformMatrix4x2fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix4x2fv(location, count, transpose, value) };
 } }
-export! { 892, glUniformMatrix4x2fvNV, first_glUniformMatrix4x2fvNV, hook_glUniformMatrix4x2fvNV, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 909, glUniformMatrix4x2fvNV, first_glUniformMatrix4x2fvNV, hook_glUniformMatrix4x2fvNV, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix4x2fvNV(location, count, transpose, value) };
 } }
-export! { 893, glUniformMatrix4x3dv, first_glUniformMatrix4x3dv, hook_glUniformMatrix4x3dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 910, glUniformMatrix4x3dv, first_glUniformMatrix4x3dv, hook_glUniformMatrix4x3dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix4x3dv(location, count, transpose, value) };
 } }
-export! { 894, glUniformMatrix4x3fv, first_glUniformMatrix4x3fv, hook_glUniformMatrix4x3fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 911, glUniformMatrix4x3fv, first_glUniformMatrix4x3fv, hook_glUniformMatrix4x3fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix4x3fv(location, count, transpose, value) };
 } }
-export! { 895, glUniformMatrix4x3fvNV, first_glUniformMatrix4x3fvNV, hook_glUniformMatrix4x3fvNV, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 912, glUniformMatrix4x3fvNV, first_glUniformMatrix4x3fvNV, hook_glUniformMatrix4x3fvNV, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix4x3fvNV(location, count, transpose, value) };
 } }
-export! { 896, glProgramUniform1d, first_glProgramUniform1d, hook_glProgramUniform1d, (program: u32, location: i32, v0: f64) -> (), {
+export! { 913, glProgramUniform1d, first_glProgramUniform1d, hook_glProgramUniform1d, (program: u32, location: i32, v0: f64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform1d(program, location, v0) };
 } }
-export! { 897, glProgramUniform1dv, first_glProgramUniform1dv, hook_glProgramUniform1dv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 914, glProgramUniform1dv, first_glProgramUniform1dv, hook_glProgramUniform1dv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform1dv(program, location, count, value) };
 } }
-export! { 898, glProgramUniform1f, first_glProgramUniform1f, hook_glProgramUniform1f, (program: u32, location: i32, v0: f32) -> (), {
+export! { 915, glProgramUniform1f, first_glProgramUniform1f, hook_glProgramUniform1f, (program: u32, location: i32, v0: f32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform1f(program, location, v0) };
 } }
-export! { 899, glProgramUniform1fEXT, first_glProgramUniform1fEXT, hook_glProgramUniform1fEXT, (program: u32, location: i32, v0: f32) -> (), {
+export! { 916, glProgramUniform1fEXT, first_glProgramUniform1fEXT, hook_glProgramUniform1fEXT, (program: u32, location: i32, v0: f32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform1fEXT(program, location, v0) };
 } }
-export! { 900, glProgramUniform1fv, first_glProgramUniform1fv, hook_glProgramUniform1fv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 917, glProgramUniform1fv, first_glProgramUniform1fv, hook_glProgramUniform1fv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform1fv(program, location, count, value) };
 } }
-export! { 901, glProgramUniform1fvEXT, first_glProgramUniform1fvEXT, hook_glProgramUniform1fvEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 918, glProgramUniform1fvEXT, first_glProgramUniform1fvEXT, hook_glProgramUniform1fvEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform1fvEXT(program, location, count, value) };
 } }
-export! { 902, glProgramUniform1i, first_glProgramUniform1i, hook_glProgramUniform1i, (program: u32, location: i32, v0: i32) -> (), {
+export! { 919, glProgramUniform1i, first_glProgramUniform1i, hook_glProgramUniform1i, (program: u32, location: i32, v0: i32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform1i(program, location, v0) };
 } }
-export! { 903, glProgramUniform1iEXT, first_glProgramUniform1iEXT, hook_glProgramUniform1iEXT, (program: u32, location: i32, v0: i32) -> (), {
+export! { 920, glProgramUniform1iEXT, first_glProgramUniform1iEXT, hook_glProgramUniform1iEXT, (program: u32, location: i32, v0: i32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform1iEXT(program, location, v0) };
 } }
-export! { 904, glProgramUniform1iv, first_glProgramUniform1iv, hook_glProgramUniform1iv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 921, glProgramUniform1iv, first_glProgramUniform1iv, hook_glProgramUniform1iv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform1iv(program, location, count, value) };
 } }
-export! { 905, glProgramUniform1ivEXT, first_glProgramUniform1ivEXT, hook_glProgramUniform1ivEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 922, glProgramUniform1ivEXT, first_glProgramUniform1ivEXT, hook_glProgramUniform1ivEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform1ivEXT(program, location, count, value) };
 } }
-export! { 906, glProgramUniform1ui, first_glProgramUniform1ui, hook_glProgramUniform1ui, (program: u32, location: i32, v0: u32) -> (), {
+export! { 923, glProgramUniform1ui, first_glProgramUniform1ui, hook_glProgramUniform1ui, (program: u32, location: i32, v0: u32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform1ui(program, location, v0) };
 } }
-export! { 907, glProgramUniform1uiEXT, first_glProgramUniform1uiEXT, hook_glProgramUniform1uiEXT, (program: u32, location: i32, v0: u32) -> (), {
+export! { 924, glProgramUniform1uiEXT, first_glProgramUniform1uiEXT, hook_glProgramUniform1uiEXT, (program: u32, location: i32, v0: u32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform1uiEXT(program, location, v0) };
 } }
-export! { 908, glProgramUniform1uiv, first_glProgramUniform1uiv, hook_glProgramUniform1uiv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 925, glProgramUniform1uiv, first_glProgramUniform1uiv, hook_glProgramUniform1uiv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform1uiv(program, location, count, value) };
 } }
-export! { 909, glProgramUniform1uivEXT, first_glProgramUniform1uivEXT, hook_glProgramUniform1uivEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 926, glProgramUniform1uivEXT, first_glProgramUniform1uivEXT, hook_glProgramUniform1uivEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform1uivEXT(program, location, count, value) };
 } }
-export! { 910, glProgramUniform2d, first_glProgramUniform2d, hook_glProgramUniform2d, (program: u32, location: i32, v0: f64, v1: f64) -> (), {
+export! { 927, glProgramUniform2d, first_glProgramUniform2d, hook_glProgramUniform2d, (program: u32, location: i32, v0: f64, v1: f64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform2d(program, location, v0, v1) };
 } }
-export! { 911, glProgramUniform2dv, first_glProgramUniform2dv, hook_glProgramUniform2dv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 928, glProgramUniform2dv, first_glProgramUniform2dv, hook_glProgramUniform2dv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform2dv(program, location, count, value) };
 } }
-export! { 912, glProgramUniform2f, first_glProgramUniform2f, hook_glProgramUniform2f, (program: u32, location: i32, v0: f32, v1: f32) -> (), {
+export! { 929, glProgramUniform2f, first_glProgramUniform2f, hook_glProgramUniform2f, (program: u32, location: i32, v0: f32, v1: f32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform2f(program, location, v0, v1) };
 } }
-export! { 913, glProgramUniform2fEXT, first_glProgramUniform2fEXT, hook_glProgramUniform2fEXT, (program: u32, location: i32, v0: f32, v1: f32) -> (), {
+export! { 930, glProgramUniform2fEXT, first_glProgramUniform2fEXT, hook_glProgramUniform2fEXT, (program: u32, location: i32, v0: f32, v1: f32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform2fEXT(program, location, v0, v1) };
 } }
-export! { 914, glProgramUniform2fv, first_glProgramUniform2fv, hook_glProgramUniform2fv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 931, glProgramUniform2fv, first_glProgramUniform2fv, hook_glProgramUniform2fv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform2fv(program, location, count, value) };
 } }
-export! { 915, glProgramUniform2fvEXT, first_glProgramUniform2fvEXT, hook_glProgramUniform2fvEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 932, glProgramUniform2fvEXT, first_glProgramUniform2fvEXT, hook_glProgramUniform2fvEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform2fvEXT(program, location, count, value) };
 } }
-export! { 916, glProgramUniform2i, first_glProgramUniform2i, hook_glProgramUniform2i, (program: u32, location: i32, v0: i32, v1: i32) -> (), {
+export! { 933, glProgramUniform2i, first_glProgramUniform2i, hook_glProgramUniform2i, (program: u32, location: i32, v0: i32, v1: i32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform2i(program, location, v0, v1) };
 } }
-export! { 917, glProgramUniform2iEXT, first_glProgramUniform2iEXT, hook_glProgramUniform2iEXT, (program: u32, location: i32, v0: i32, v1: i32) -> (), {
+export! { 934, glProgramUniform2iEXT, first_glProgramUniform2iEXT, hook_glProgramUniform2iEXT, (program: u32, location: i32, v0: i32, v1: i32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform2iEXT(program, location, v0, v1) };
 } }
-export! { 918, glProgramUniform2iv, first_glProgramUniform2iv, hook_glProgramUniform2iv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 935, glProgramUniform2iv, first_glProgramUniform2iv, hook_glProgramUniform2iv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform2iv(program, location, count, value) };
 } }
-export! { 919, glProgramUniform2ivEXT, first_glProgramUniform2ivEXT, hook_glProgramUniform2ivEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 936, glProgramUniform2ivEXT, first_glProgramUniform2ivEXT, hook_glProgramUniform2ivEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform2ivEXT(program, location, count, value) };
 } }
-export! { 920, glProgramUniform2ui, first_glProgramUniform2ui, hook_glProgramUniform2ui, (program: u32, location: i32, v0: u32, v1: u32) -> (), {
+export! { 937, glProgramUniform2ui, first_glProgramUniform2ui, hook_glProgramUniform2ui, (program: u32, location: i32, v0: u32, v1: u32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform2ui(program, location, v0, v1) };
 } }
-export! { 921, glProgramUniform2uiEXT, first_glProgramUniform2uiEXT, hook_glProgramUniform2uiEXT, (program: u32, location: i32, v0: u32, v1: u32) -> (), {
+export! { 938, glProgramUniform2uiEXT, first_glProgramUniform2uiEXT, hook_glProgramUniform2uiEXT, (program: u32, location: i32, v0: u32, v1: u32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform2uiEXT(program, location, v0, v1) };
 } }
-export! { 922, glProgramUniform2uiv, first_glProgramUniform2uiv, hook_glProgramUniform2uiv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 939, glProgramUniform2uiv, first_glProgramUniform2uiv, hook_glProgramUniform2uiv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform2uiv(program, location, count, value) };
 } }
-export! { 923, glProgramUniform2uivEXT, first_glProgramUniform2uivEXT, hook_glProgramUniform2uivEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 940, glProgramUniform2uivEXT, first_glProgramUniform2uivEXT, hook_glProgramUniform2uivEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform2uivEXT(program, location, count, value) };
 } }
-export! { 924, glProgramUniform3d, first_glProgramUniform3d, hook_glProgramUniform3d, (program: u32, location: i32, v0: f64, v1: f64, v2: f64) -> (), {
+export! { 941, glProgramUniform3d, first_glProgramUniform3d, hook_glProgramUniform3d, (program: u32, location: i32, v0: f64, v1: f64, v2: f64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform3d(program, location, v0, v1, v2) };
 } }
-export! { 925, glProgramUniform3dv, first_glProgramUniform3dv, hook_glProgramUniform3dv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 942, glProgramUniform3dv, first_glProgramUniform3dv, hook_glProgramUniform3dv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform3dv(program, location, count, value) };
 } }
-export! { 926, glProgramUniform3f, first_glProgramUniform3f, hook_glProgramUniform3f, (program: u32, location: i32, v0: f32, v1: f32, v2: f32) -> (), {
+export! { 943, glProgramUniform3f, first_glProgramUniform3f, hook_glProgramUniform3f, (program: u32, location: i32, v0: f32, v1: f32, v2: f32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform3f(program, location, v0, v1, v2) };
 } }
-export! { 927, glProgramUniform3fEXT, first_glProgramUniform3fEXT, hook_glProgramUniform3fEXT, (program: u32, location: i32, v0: f32, v1: f32, v2: f32) -> (), {
+export! { 944, glProgramUniform3fEXT, first_glProgramUniform3fEXT, hook_glProgramUniform3fEXT, (program: u32, location: i32, v0: f32, v1: f32, v2: f32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform3fEXT(program, location, v0, v1, v2) };
 } }
-export! { 928, glProgramUniform3fv, first_glProgramUniform3fv, hook_glProgramUniform3fv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 945, glProgramUniform3fv, first_glProgramUniform3fv, hook_glProgramUniform3fv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform3fv(program, location, count, value) };
 } }
-export! { 929, glProgramUniform3fvEXT, first_glProgramUniform3fvEXT, hook_glProgramUniform3fvEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 946, glProgramUniform3fvEXT, first_glProgramUniform3fvEXT, hook_glProgramUniform3fvEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform3fvEXT(program, location, count, value) };
 } }
-export! { 930, glProgramUniform3i, first_glProgramUniform3i, hook_glProgramUniform3i, (program: u32, location: i32, v0: i32, v1: i32, v2: i32) -> (), {
+export! { 947, glProgramUniform3i, first_glProgramUniform3i, hook_glProgramUniform3i, (program: u32, location: i32, v0: i32, v1: i32, v2: i32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform3i(program, location, v0, v1, v2) };
 } }
-export! { 931, glProgramUniform3iEXT, first_glProgramUniform3iEXT, hook_glProgramUniform3iEXT, (program: u32, location: i32, v0: i32, v1: i32, v2: i32) -> (), {
+export! { 948, glProgramUniform3iEXT, first_glProgramUniform3iEXT, hook_glProgramUniform3iEXT, (program: u32, location: i32, v0: i32, v1: i32, v2: i32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform3iEXT(program, location, v0, v1, v2) };
 } }
-export! { 932, glProgramUniform3iv, first_glProgramUniform3iv, hook_glProgramUniform3iv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 949, glProgramUniform3iv, first_glProgramUniform3iv, hook_glProgramUniform3iv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform3iv(program, location, count, value) };
 } }
-export! { 933, glProgramUniform3ivEXT, first_glProgramUniform3ivEXT, hook_glProgramUniform3ivEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 950, glProgramUniform3ivEXT, first_glProgramUniform3ivEXT, hook_glProgramUniform3ivEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform3ivEXT(program, location, count, value) };
 } }
-export! { 934, glProgramUniform3ui, first_glProgramUniform3ui, hook_glProgramUniform3ui, (program: u32, location: i32, v0: u32, v1: u32, v2: u32) -> (), {
+export! { 951, glProgramUniform3ui, first_glProgramUniform3ui, hook_glProgramUniform3ui, (program: u32, location: i32, v0: u32, v1: u32, v2: u32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform3ui(program, location, v0, v1, v2) };
 } }
-export! { 935, glProgramUniform3uiEXT, first_glProgramUniform3uiEXT, hook_glProgramUniform3uiEXT, (program: u32, location: i32, v0: u32, v1: u32, v2: u32) -> (), {
+export! { 952, glProgramUniform3uiEXT, first_glProgramUniform3uiEXT, hook_glProgramUniform3uiEXT, (program: u32, location: i32, v0: u32, v1: u32, v2: u32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform3uiEXT(program, location, v0, v1, v2) };
 } }
-export! { 936, glProgramUniform3uiv, first_glProgramUniform3uiv, hook_glProgramUniform3uiv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 953, glProgramUniform3uiv, first_glProgramUniform3uiv, hook_glProgramUniform3uiv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform3uiv(program, location, count, value) };
 } }
-export! { 937, glProgramUniform3uivEXT, first_glProgramUniform3uivEXT, hook_glProgramUniform3uivEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 954, glProgramUniform3uivEXT, first_glProgramUniform3uivEXT, hook_glProgramUniform3uivEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform3uivEXT(program, location, count, value) };
 } }
-export! { 938, glProgramUniform4d, first_glProgramUniform4d, hook_glProgramUniform4d, (program: u32, location: i32, v0: f64, v1: f64, v2: f64, v3: f64) -> (), {
+export! { 955, glProgramUniform4d, first_glProgramUniform4d, hook_glProgramUniform4d, (program: u32, location: i32, v0: f64, v1: f64, v2: f64, v3: f64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform4d(program, location, v0, v1, v2, v3) };
 } }
-export! { 939, glProgramUniform4dv, first_glProgramUniform4dv, hook_glProgramUniform4dv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 956, glProgramUniform4dv, first_glProgramUniform4dv, hook_glProgramUniform4dv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform4dv(program, location, count, value) };
 } }
-export! { 940, glProgramUniform4f, first_glProgramUniform4f, hook_glProgramUniform4f, (program: u32, location: i32, v0: f32, v1: f32, v2: f32, v3: f32) -> (), {
+export! { 957, glProgramUniform4f, first_glProgramUniform4f, hook_glProgramUniform4f, (program: u32, location: i32, v0: f32, v1: f32, v2: f32, v3: f32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform4f(program, location, v0, v1, v2, v3) };
 } }
-export! { 941, glProgramUniform4fEXT, first_glProgramUniform4fEXT, hook_glProgramUniform4fEXT, (program: u32, location: i32, v0: f32, v1: f32, v2: f32, v3: f32) -> (), {
+export! { 958, glProgramUniform4fEXT, first_glProgramUniform4fEXT, hook_glProgramUniform4fEXT, (program: u32, location: i32, v0: f32, v1: f32, v2: f32, v3: f32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform4fEXT(program, location, v0, v1, v2, v3) };
 } }
-export! { 942, glProgramUniform4fv, first_glProgramUniform4fv, hook_glProgramUniform4fv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 959, glProgramUniform4fv, first_glProgramUniform4fv, hook_glProgramUniform4fv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform4fv(program, location, count, value) };
 } }
-export! { 943, glProgramUniform4fvEXT, first_glProgramUniform4fvEXT, hook_glProgramUniform4fvEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 960, glProgramUniform4fvEXT, first_glProgramUniform4fvEXT, hook_glProgramUniform4fvEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform4fvEXT(program, location, count, value) };
 } }
-export! { 944, glProgramUniform4i, first_glProgramUniform4i, hook_glProgramUniform4i, (program: u32, location: i32, v0: i32, v1: i32, v2: i32, v3: i32) -> (), {
+export! { 961, glProgramUniform4i, first_glProgramUniform4i, hook_glProgramUniform4i, (program: u32, location: i32, v0: i32, v1: i32, v2: i32, v3: i32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform4i(program, location, v0, v1, v2, v3) };
 } }
-export! { 945, glProgramUniform4iEXT, first_glProgramUniform4iEXT, hook_glProgramUniform4iEXT, (program: u32, location: i32, v0: i32, v1: i32, v2: i32, v3: i32) -> (), {
+export! { 962, glProgramUniform4iEXT, first_glProgramUniform4iEXT, hook_glProgramUniform4iEXT, (program: u32, location: i32, v0: i32, v1: i32, v2: i32, v3: i32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform4iEXT(program, location, v0, v1, v2, v3) };
 } }
-export! { 946, glProgramUniform4iv, first_glProgramUniform4iv, hook_glProgramUniform4iv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 963, glProgramUniform4iv, first_glProgramUniform4iv, hook_glProgramUniform4iv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform4iv(program, location, count, value) };
 } }
-export! { 947, glProgramUniform4ivEXT, first_glProgramUniform4ivEXT, hook_glProgramUniform4ivEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 964, glProgramUniform4ivEXT, first_glProgramUniform4ivEXT, hook_glProgramUniform4ivEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform4ivEXT(program, location, count, value) };
 } }
-export! { 948, glProgramUniform4ui, first_glProgramUniform4ui, hook_glProgramUniform4ui, (program: u32, location: i32, v0: u32, v1: u32, v2: u32, v3: u32) -> (), {
+export! { 965, glProgramUniform4ui, first_glProgramUniform4ui, hook_glProgramUniform4ui, (program: u32, location: i32, v0: u32, v1: u32, v2: u32, v3: u32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform4ui(program, location, v0, v1, v2, v3) };
 } }
-export! { 949, glProgramUniform4uiEXT, first_glProgramUniform4uiEXT, hook_glProgramUniform4uiEXT, (program: u32, location: i32, v0: u32, v1: u32, v2: u32, v3: u32) -> (), {
+export! { 966, glProgramUniform4uiEXT, first_glProgramUniform4uiEXT, hook_glProgramUniform4uiEXT, (program: u32, location: i32, v0: u32, v1: u32, v2: u32, v3: u32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform4uiEXT(program, location, v0, v1, v2, v3) };
 } }
-export! { 950, glProgramUniform4uiv, first_glProgramUniform4uiv, hook_glProgramUniform4uiv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 967, glProgramUniform4uiv, first_glProgramUniform4uiv, hook_glProgramUniform4uiv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform4uiv(program, location, count, value) };
 } }
-export! { 951, glProgramUniform4uivEXT, first_glProgramUniform4uivEXT, hook_glProgramUniform4uivEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 968, glProgramUniform4uivEXT, first_glProgramUniform4uivEXT, hook_glProgramUniform4uivEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform4uivEXT(program, location, count, value) };
 } }
-export! { 952, glProgramUniformMatrix2dv, first_glProgramUniformMatrix2dv, hook_glProgramUniformMatrix2dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 969, glProgramUniformMatrix2dv, first_glProgramUniformMatrix2dv, hook_glProgramUniformMatrix2dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix2dv(program, location, count, transpose, value) };
 } }
-export! { 953, glProgramUniformMatrix2fv, first_glProgramUniformMatrix2fv, hook_glProgramUniformMatrix2fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 970, glProgramUniformMatrix2fv, first_glProgramUniformMatrix2fv, hook_glProgramUniformMatrix2fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix2fv(program, location, count, transpose, value) };
 } }
-export! { 954, glProgramUniformMatrix2fvEXT, first_glProgramUniformMatrix2fvEXT, hook_glProgramUniformMatrix2fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 971, glProgramUniformMatrix2fvEXT, first_glProgramUniformMatrix2fvEXT, hook_glProgramUniformMatrix2fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix2fvEXT(program, location, count, transpose, value) };
 } }
-export! { 955, glProgramUniformMatrix2x3dv, first_glProgramUniformMatrix2x3dv, hook_glProgramUniformMatrix2x3dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 972, glProgramUniformMatrix2x3dv, first_glProgramUniformMatrix2x3dv, hook_glProgramUniformMatrix2x3dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix2x3dv(program, location, count, transpose, value) };
 } }
-export! { 956, glProgramUniformMatrix2x3fv, first_glProgramUniformMatrix2x3fv, hook_glProgramUniformMatrix2x3fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 973, glProgramUniformMatrix2x3fv, first_glProgramUniformMatrix2x3fv, hook_glProgramUniformMatrix2x3fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix2x3fv(program, location, count, transpose, value) };
 } }
-export! { 957, glProgramUniformMatrix2x3fvEXT, first_glProgramUniformMatrix2x3fvEXT, hook_glProgramUniformMatrix2x3fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 974, glProgramUniformMatrix2x3fvEXT, first_glProgramUniformMatrix2x3fvEXT, hook_glProgramUniformMatrix2x3fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix2x3fvEXT(program, location, count, transpose, value) };
 } }
-export! { 958, glProgramUniformMatrix2x4dv, first_glProgramUniformMatrix2x4dv, hook_glProgramUniformMatrix2x4dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 975, glProgramUniformMatrix2x4dv, first_glProgramUniformMatrix2x4dv, hook_glProgramUniformMatrix2x4dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix2x4dv(program, location, count, transpose, value) };
 } }
-export! { 959, glProgramUniformMatrix2x4fv, first_glProgramUniformMatrix2x4fv, hook_glProgramUniformMatrix2x4fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 976, glProgramUniformMatrix2x4fv, first_glProgramUniformMatrix2x4fv, hook_glProgramUniformMatrix2x4fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix2x4fv(program, location, count, transpose, value) };
 } }
-export! { 960, glProgramUniformMatrix2x4fvEXT, first_glProgramUniformMatrix2x4fvEXT, hook_glProgramUniformMatrix2x4fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 977, glProgramUniformMatrix2x4fvEXT, first_glProgramUniformMatrix2x4fvEXT, hook_glProgramUniformMatrix2x4fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix2x4fvEXT(program, location, count, transpose, value) };
 } }
-export! { 961, glProgramUniformMatrix3dv, first_glProgramUniformMatrix3dv, hook_glProgramUniformMatrix3dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 978, glProgramUniformMatrix3dv, first_glProgramUniformMatrix3dv, hook_glProgramUniformMatrix3dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix3dv(program, location, count, transpose, value) };
 } }
-export! { 962, glProgramUniformMatrix3fv, first_glProgramUniformMatrix3fv, hook_glProgramUniformMatrix3fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 979, glProgramUniformMatrix3fv, first_glProgramUniformMatrix3fv, hook_glProgramUniformMatrix3fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix3fv(program, location, count, transpose, value) };
 } }
-export! { 963, glProgramUniformMatrix3fvEXT, first_glProgramUniformMatrix3fvEXT, hook_glProgramUniformMatrix3fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 980, glProgramUniformMatrix3fvEXT, first_glProgramUniformMatrix3fvEXT, hook_glProgramUniformMatrix3fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix3fvEXT(program, location, count, transpose, value) };
 } }
-export! { 964, glProgramUniformMatrix3x2dv, first_glProgramUniformMatrix3x2dv, hook_glProgramUniformMatrix3x2dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 981, glProgramUniformMatrix3x2dv, first_glProgramUniformMatrix3x2dv, hook_glProgramUniformMatrix3x2dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix3x2dv(program, location, count, transpose, value) };
 } }
-export! { 965, glProgramUniformMatrix3x2fv, first_glProgramUniformMatrix3x2fv, hook_glProgramUniformMatrix3x2fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 982, glProgramUniformMatrix3x2fv, first_glProgramUniformMatrix3x2fv, hook_glProgramUniformMatrix3x2fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix3x2fv(program, location, count, transpose, value) };
 } }
-export! { 966, glProgramUniformMatrix3x2fvEXT, first_glProgramUniformMatrix3x2fvEXT, hook_glProgramUniformMatrix3x2fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 983, glProgramUniformMatrix3x2fvEXT, first_glProgramUniformMatrix3x2fvEXT, hook_glProgramUniformMatrix3x2fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix3x2fvEXT(program, location, count, transpose, value) };
 } }
-export! { 967, glProgramUniformMatrix3x4dv, first_glProgramUniformMatrix3x4dv, hook_glProgramUniformMatrix3x4dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 984, glProgramUniformMatrix3x4dv, first_glProgramUniformMatrix3x4dv, hook_glProgramUniformMatrix3x4dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix3x4dv(program, location, count, transpose, value) };
 } }
-export! { 968, glProgramUniformMatrix3x4fv, first_glProgramUniformMatrix3x4fv, hook_glProgramUniformMatrix3x4fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 985, glProgramUniformMatrix3x4fv, first_glProgramUniformMatrix3x4fv, hook_glProgramUniformMatrix3x4fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix3x4fv(program, location, count, transpose, value) };
 } }
-export! { 969, glProgramUniformMatrix3x4fvEXT, first_glProgramUniformMatrix3x4fvEXT, hook_glProgramUniformMatrix3x4fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 986, glProgramUniformMatrix3x4fvEXT, first_glProgramUniformMatrix3x4fvEXT, hook_glProgramUniformMatrix3x4fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix3x4fvEXT(program, location, count, transpose, value) };
 } }
-export! { 970, glProgramUniformMatrix4dv, first_glProgramUniformMatrix4dv, hook_glProgramUniformMatrix4dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 987, glProgramUniformMatrix4dv, first_glProgramUniformMatrix4dv, hook_glProgramUniformMatrix4dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix4dv(program, location, count, transpose, value) };
 } }
-export! { 971, glProgramUniformMatrix4fv, first_glProgramUniformMatrix4fv, hook_glProgramUniformMatrix4fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 988, glProgramUniformMatrix4fv, first_glProgramUniformMatrix4fv, hook_glProgramUniformMatrix4fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix4fv(program, location, count, transpose, value) };
 } }
-export! { 972, glProgramUniformMatrix4fvEXT, first_glProgramUniformMatrix4fvEXT, hook_glProgramUniformMatrix4fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 989, glProgramUniformMatrix4fvEXT, first_glProgramUniformMatrix4fvEXT, hook_glProgramUniformMatrix4fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix4fvEXT(program, location, count, transpose, value) };
 } }
-export! { 973, glProgramUniformMatrix4x2dv, first_glProgramUniformMatrix4x2dv, hook_glProgramUniformMatrix4x2dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 990, glProgramUniformMatrix4x2dv, first_glProgramUniformMatrix4x2dv, hook_glProgramUniformMatrix4x2dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix4x2dv(program, location, count, transpose, value) };
 } }
-export! { 974, glProgramUniformMatrix4x2fv, first_glProgramUniformMatrix4x2fv, hook_glProgramUniformMatrix4x2fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 991, glProgramUniformMatrix4x2fv, first_glProgramUniformMatrix4x2fv, hook_glProgramUniformMatrix4x2fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix4x2fv(program, location, count, transpose, value) };
 } }
-export! { 975, glProgramUniformMatrix4x2fvEXT, first_glProgramUniformMatrix4x2fvEXT, hook_glProgramUniformMatrix4x2fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 992, glProgramUniformMatrix4x2fvEXT, first_glProgramUniformMatrix4x2fvEXT, hook_glProgramUniformMatrix4x2fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix4x2fvEXT(program, location, count, transpose, value) };
 } }
-export! { 976, glProgramUniformMatrix4x3dv, first_glProgramUniformMatrix4x3dv, hook_glProgramUniformMatrix4x3dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 993, glProgramUniformMatrix4x3dv, first_glProgramUniformMatrix4x3dv, hook_glProgramUniformMatrix4x3dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix4x3dv(program, location, count, transpose, value) };
 } }
-export! { 977, glProgramUniformMatrix4x3fv, first_glProgramUniformMatrix4x3fv, hook_glProgramUniformMatrix4x3fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 994, glProgramUniformMatrix4x3fv, first_glProgramUniformMatrix4x3fv, hook_glProgramUniformMatrix4x3fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix4x3fv(program, location, count, transpose, value) };
 } }
-export! { 978, glProgramUniformMatrix4x3fvEXT, first_glProgramUniformMatrix4x3fvEXT, hook_glProgramUniformMatrix4x3fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 995, glProgramUniformMatrix4x3fvEXT, first_glProgramUniformMatrix4x3fvEXT, hook_glProgramUniformMatrix4x3fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix4x3fvEXT(program, location, count, transpose, value) };
 } }
-export! { 979, glUniformBlockBinding, first_glUniformBlockBinding, hook_glUniformBlockBinding, (program: u32, uniformBlockIndex: u32, uniformBlockBinding: u32) -> (), {
+export! { 996, glUniformBlockBinding, first_glUniformBlockBinding, hook_glUniformBlockBinding, (program: u32, uniformBlockIndex: u32, uniformBlockBinding: u32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformBlockBinding(program, uniformBlockIndex, uniformBlockBinding) };
 } }
-export! { 980, glLinkProgram, first_glLinkProgram, hook_glLinkProgram, (program: u32) -> (), {
+export! { 997, glLinkProgram, first_glLinkProgram, hook_glLinkProgram, (program: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glLinkProgram(program) }
 } }
-export! { 981, glLinkProgramARB, first_glLinkProgramARB, hook_glLinkProgramARB, (programObj: u32) -> (), {
+export! { 998, glLinkProgramARB, first_glLinkProgramARB, hook_glLinkProgramARB, (programObj: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glLinkProgram(programObj) }
 } }
-export! { 982, glProgramBinary, first_glProgramBinary, hook_glProgramBinary, (program: u32, binaryFormat: u32, binary: Ptr, length: i32) -> (), {
+export! { 999, glProgramBinary, first_glProgramBinary, hook_glProgramBinary, (program: u32, binaryFormat: u32, binary: Ptr, length: i32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glProgramBinary(program, binaryFormat, binary, length) }
 } }
-export! { 983, glProgramBinaryOES, first_glProgramBinaryOES, hook_glProgramBinaryOES, (program: u32, binaryFormat: u32, binary: Ptr, length: i32) -> (), {
+export! { 1000, glProgramBinaryOES, first_glProgramBinaryOES, hook_glProgramBinaryOES, (program: u32, binaryFormat: u32, binary: Ptr, length: i32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glProgramBinary(program, binaryFormat, binary, length) }
 } }
-export! { 984, glUseProgram, first_glUseProgram, hook_glUseProgram, (program: u32) -> (), {
+export! { 1001, glUseProgram, first_glUseProgram, hook_glUseProgram, (program: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glUseProgram(program) }
 } }
-export! { 985, glUseProgramObjectARB, first_glUseProgramObjectARB, hook_glUseProgramObjectARB, (programObj: u32) -> (), {
+export! { 1002, glUseProgramObjectARB, first_glUseProgramObjectARB, hook_glUseProgramObjectARB, (programObj: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glUseProgram(programObj) }
 } }
-export! { 986, glDeleteProgram, first_glDeleteProgram, hook_glDeleteProgram, (program: u32) -> (), {
+export! { 1003, glDeleteProgram, first_glDeleteProgram, hook_glDeleteProgram, (program: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDeleteProgram(program) }
 } }
-export! { 987, glGetProgramiv, first_glGetProgramiv, hook_glGetProgramiv, (program: u32, pname: u32, params: Ptr) -> (), {
+export! { 1004, glGetProgramiv, first_glGetProgramiv, hook_glGetProgramiv, (program: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetProgramiv(program, pname, params) }
 } }
-export! { 988, glClear, first_glClear, hook_glClear, (mask: u32) -> (), {
+export! { 1005, glClear, first_glClear, hook_glClear, (mask: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glClear(mask) }
 } }
-export! { 989, glClearBufferfi, first_glClearBufferfi, hook_glClearBufferfi, (buffer: u32, drawbuffer: i32, depth: f32, stencil: i32) -> (), {
+export! { 1006, glClearBufferfi, first_glClearBufferfi, hook_glClearBufferfi, (buffer: u32, drawbuffer: i32, depth: f32, stencil: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::CLEAR, &mut |gl| unsafe { gl.glClearBufferfi(buffer, drawbuffer, depth, stencil) })
 } }
-export! { 990, glClearBufferfv, first_glClearBufferfv, hook_glClearBufferfv, (buffer: u32, drawbuffer: i32, value: Ptr) -> (), {
+export! { 1007, glClearBufferfv, first_glClearBufferfv, hook_glClearBufferfv, (buffer: u32, drawbuffer: i32, value: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::CLEAR, &mut |gl| unsafe { gl.glClearBufferfv(buffer, drawbuffer, value) })
 } }
-export! { 991, glClearBufferiv, first_glClearBufferiv, hook_glClearBufferiv, (buffer: u32, drawbuffer: i32, value: Ptr) -> (), {
+export! { 1008, glClearBufferiv, first_glClearBufferiv, hook_glClearBufferiv, (buffer: u32, drawbuffer: i32, value: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::CLEAR, &mut |gl| unsafe { gl.glClearBufferiv(buffer, drawbuffer, value) })
 } }
-export! { 992, glClearBufferuiv, first_glClearBufferuiv, hook_glClearBufferuiv, (buffer: u32, drawbuffer: i32, value: Ptr) -> (), {
+export! { 1009, glClearBufferuiv, first_glClearBufferuiv, hook_glClearBufferuiv, (buffer: u32, drawbuffer: i32, value: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::CLEAR, &mut |gl| unsafe { gl.glClearBufferuiv(buffer, drawbuffer, value) })
 } }
-export! { 993, glDrawArrays, first_glDrawArrays, hook_glDrawArrays, (mode: u32, first: i32, count: i32) -> (), {
+export! { 1010, glDrawArrays, first_glDrawArrays, hook_glDrawArrays, (mode: u32, first: i32, count: i32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDrawArrays(mode, first, count) }
 } }
-export! { 994, glDrawArraysEXT, first_glDrawArraysEXT, hook_glDrawArraysEXT, (mode: u32, first: i32, count: i32) -> (), {
+export! { 1011, glDrawArraysEXT, first_glDrawArraysEXT, hook_glDrawArraysEXT, (mode: u32, first: i32, count: i32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDrawArrays(mode, first, count) }
 } }
-export! { 995, glDrawElements, first_glDrawElements, hook_glDrawElements, (mode: u32, count: i32, type_: u32, indices: Ptr) -> (), {
+export! { 1012, glDrawElements, first_glDrawElements, hook_glDrawElements, (mode: u32, count: i32, type_: u32, indices: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDrawElements(mode, count, type_, indices) }
 } }
-export! { 996, glDrawRangeElements, first_glDrawRangeElements, hook_glDrawRangeElements, (mode: u32, start: u32, end: u32, count: i32, type_: u32, indices: Ptr) -> (), {
+export! { 1013, glDrawRangeElements, first_glDrawRangeElements, hook_glDrawRangeElements, (mode: u32, start: u32, end: u32, count: i32, type_: u32, indices: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDrawRangeElements(mode, start, end, count, type_, indices) }
 } }
-export! { 997, glDrawRangeElementsEXT, first_glDrawRangeElementsEXT, hook_glDrawRangeElementsEXT, (mode: u32, start: u32, end: u32, count: i32, type_: u32, indices: Ptr) -> (), {
+export! { 1014, glDrawRangeElementsEXT, first_glDrawRangeElementsEXT, hook_glDrawRangeElementsEXT, (mode: u32, start: u32, end: u32, count: i32, type_: u32, indices: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDrawRangeElements(mode, start, end, count, type_, indices) }
 } }
-export! { 998, glMultiDrawArrays, first_glMultiDrawArrays, hook_glMultiDrawArrays, (mode: u32, first: Ptr, count: Ptr, drawcount: i32) -> (), {
+export! { 1015, glMultiDrawArrays, first_glMultiDrawArrays, hook_glMultiDrawArrays, (mode: u32, first: Ptr, count: Ptr, drawcount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawArrays(mode, first, count, drawcount) })
 } }
-export! { 999, glMultiDrawArraysEXT, first_glMultiDrawArraysEXT, hook_glMultiDrawArraysEXT, (mode: u32, first: Ptr, count: Ptr, primcount: i32) -> (), {
+export! { 1016, glMultiDrawArraysEXT, first_glMultiDrawArraysEXT, hook_glMultiDrawArraysEXT, (mode: u32, first: Ptr, count: Ptr, primcount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawArraysEXT(mode, first, count, primcount) })
 } }
-export! { 1000, glMultiDrawElements, first_glMultiDrawElements, hook_glMultiDrawElements, (mode: u32, count: Ptr, type_: u32, indices: Ptr, drawcount: i32) -> (), {
+export! { 1017, glMultiDrawElements, first_glMultiDrawElements, hook_glMultiDrawElements, (mode: u32, count: Ptr, type_: u32, indices: Ptr, drawcount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawElements(mode, count, type_, indices, drawcount) })
 } }
-export! { 1001, glMultiDrawElementsEXT, first_glMultiDrawElementsEXT, hook_glMultiDrawElementsEXT, (mode: u32, count: Ptr, type_: u32, indices: Ptr, primcount: i32) -> (), {
+export! { 1018, glMultiDrawElementsEXT, first_glMultiDrawElementsEXT, hook_glMultiDrawElementsEXT, (mode: u32, count: Ptr, type_: u32, indices: Ptr, primcount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawElementsEXT(mode, count, type_, indices, primcount) })
 } }
-export! { 1002, glDrawElementsBaseVertex, first_glDrawElementsBaseVertex, hook_glDrawElementsBaseVertex, (mode: u32, count: i32, type_: u32, indices: Ptr, basevertex: i32) -> (), {
+export! { 1019, glDrawElementsBaseVertex, first_glDrawElementsBaseVertex, hook_glDrawElementsBaseVertex, (mode: u32, count: i32, type_: u32, indices: Ptr, basevertex: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsBaseVertex(mode, count, type_, indices, basevertex) })
 } }
-export! { 1003, glDrawElementsBaseVertexEXT, first_glDrawElementsBaseVertexEXT, hook_glDrawElementsBaseVertexEXT, (mode: u32, count: i32, type_: u32, indices: Ptr, basevertex: i32) -> (), {
+export! { 1020, glDrawElementsBaseVertexEXT, first_glDrawElementsBaseVertexEXT, hook_glDrawElementsBaseVertexEXT, (mode: u32, count: i32, type_: u32, indices: Ptr, basevertex: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsBaseVertexEXT(mode, count, type_, indices, basevertex) })
 } }
-export! { 1004, glDrawElementsBaseVertexOES, first_glDrawElementsBaseVertexOES, hook_glDrawElementsBaseVertexOES, (mode: u32, count: i32, type_: u32, indices: Ptr, basevertex: i32) -> (), {
+export! { 1021, glDrawElementsBaseVertexOES, first_glDrawElementsBaseVertexOES, hook_glDrawElementsBaseVertexOES, (mode: u32, count: i32, type_: u32, indices: Ptr, basevertex: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsBaseVertexOES(mode, count, type_, indices, basevertex) })
 } }
-export! { 1005, glDrawRangeElementsBaseVertex, first_glDrawRangeElementsBaseVertex, hook_glDrawRangeElementsBaseVertex, (mode: u32, start: u32, end: u32, count: i32, type_: u32, indices: Ptr, basevertex: i32) -> (), {
+export! { 1022, glDrawRangeElementsBaseVertex, first_glDrawRangeElementsBaseVertex, hook_glDrawRangeElementsBaseVertex, (mode: u32, start: u32, end: u32, count: i32, type_: u32, indices: Ptr, basevertex: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawRangeElementsBaseVertex(mode, start, end, count, type_, indices, basevertex) })
 } }
-export! { 1006, glDrawRangeElementsBaseVertexEXT, first_glDrawRangeElementsBaseVertexEXT, hook_glDrawRangeElementsBaseVertexEXT, (mode: u32, start: u32, end: u32, count: i32, type_: u32, indices: Ptr, basevertex: i32) -> (), {
+export! { 1023, glDrawRangeElementsBaseVertexEXT, first_glDrawRangeElementsBaseVertexEXT, hook_glDrawRangeElementsBaseVertexEXT, (mode: u32, start: u32, end: u32, count: i32, type_: u32, indices: Ptr, basevertex: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawRangeElementsBaseVertexEXT(mode, start, end, count, type_, indices, basevertex) })
 } }
-export! { 1007, glDrawRangeElementsBaseVertexOES, first_glDrawRangeElementsBaseVertexOES, hook_glDrawRangeElementsBaseVertexOES, (mode: u32, start: u32, end: u32, count: i32, type_: u32, indices: Ptr, basevertex: i32) -> (), {
+export! { 1024, glDrawRangeElementsBaseVertexOES, first_glDrawRangeElementsBaseVertexOES, hook_glDrawRangeElementsBaseVertexOES, (mode: u32, start: u32, end: u32, count: i32, type_: u32, indices: Ptr, basevertex: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawRangeElementsBaseVertexOES(mode, start, end, count, type_, indices, basevertex) })
 } }
-export! { 1008, glMultiDrawElementsBaseVertex, first_glMultiDrawElementsBaseVertex, hook_glMultiDrawElementsBaseVertex, (mode: u32, count: Ptr, type_: u32, indices: Ptr, drawcount: i32, basevertex: Ptr) -> (), {
+export! { 1025, glMultiDrawElementsBaseVertex, first_glMultiDrawElementsBaseVertex, hook_glMultiDrawElementsBaseVertex, (mode: u32, count: Ptr, type_: u32, indices: Ptr, drawcount: i32, basevertex: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawElementsBaseVertex(mode, count, type_, indices, drawcount, basevertex) })
 } }
-export! { 1009, glMultiDrawElementsBaseVertexEXT, first_glMultiDrawElementsBaseVertexEXT, hook_glMultiDrawElementsBaseVertexEXT, (mode: u32, count: Ptr, type_: u32, indices: Ptr, drawcount: i32, basevertex: Ptr) -> (), {
+export! { 1026, glMultiDrawElementsBaseVertexEXT, first_glMultiDrawElementsBaseVertexEXT, hook_glMultiDrawElementsBaseVertexEXT, (mode: u32, count: Ptr, type_: u32, indices: Ptr, drawcount: i32, basevertex: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawElementsBaseVertexEXT(mode, count, type_, indices, drawcount, basevertex) })
 } }
-export! { 1010, glDrawArraysInstanced, first_glDrawArraysInstanced, hook_glDrawArraysInstanced, (mode: u32, first: i32, count: i32, instancecount: i32) -> (), {
+export! { 1027, glDrawArraysInstanced, first_glDrawArraysInstanced, hook_glDrawArraysInstanced, (mode: u32, first: i32, count: i32, instancecount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawArraysInstanced(mode, first, count, instancecount) })
 } }
-export! { 1011, glDrawArraysInstancedANGLE, first_glDrawArraysInstancedANGLE, hook_glDrawArraysInstancedANGLE, (mode: u32, first: i32, count: i32, primcount: i32) -> (), {
+export! { 1028, glDrawArraysInstancedANGLE, first_glDrawArraysInstancedANGLE, hook_glDrawArraysInstancedANGLE, (mode: u32, first: i32, count: i32, primcount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawArraysInstancedANGLE(mode, first, count, primcount) })
 } }
-export! { 1012, glDrawArraysInstancedARB, first_glDrawArraysInstancedARB, hook_glDrawArraysInstancedARB, (mode: u32, first: i32, count: i32, primcount: i32) -> (), {
+export! { 1029, glDrawArraysInstancedARB, first_glDrawArraysInstancedARB, hook_glDrawArraysInstancedARB, (mode: u32, first: i32, count: i32, primcount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawArraysInstancedARB(mode, first, count, primcount) })
 } }
-export! { 1013, glDrawArraysInstancedEXT, first_glDrawArraysInstancedEXT, hook_glDrawArraysInstancedEXT, (mode: u32, start: i32, count: i32, primcount: i32) -> (), {
+export! { 1030, glDrawArraysInstancedEXT, first_glDrawArraysInstancedEXT, hook_glDrawArraysInstancedEXT, (mode: u32, start: i32, count: i32, primcount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawArraysInstancedEXT(mode, start, count, primcount) })
 } }
-export! { 1014, glDrawArraysInstancedNV, first_glDrawArraysInstancedNV, hook_glDrawArraysInstancedNV, (mode: u32, first: i32, count: i32, primcount: i32) -> (), {
+export! { 1031, glDrawArraysInstancedNV, first_glDrawArraysInstancedNV, hook_glDrawArraysInstancedNV, (mode: u32, first: i32, count: i32, primcount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawArraysInstancedNV(mode, first, count, primcount) })
 } }
-export! { 1015, glDrawElementsInstanced, first_glDrawElementsInstanced, hook_glDrawElementsInstanced, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32) -> (), {
+export! { 1032, glDrawElementsInstanced, first_glDrawElementsInstanced, hook_glDrawElementsInstanced, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsInstanced(mode, count, type_, indices, instancecount) })
 } }
-export! { 1016, glDrawElementsInstancedANGLE, first_glDrawElementsInstancedANGLE, hook_glDrawElementsInstancedANGLE, (mode: u32, count: i32, type_: u32, indices: Ptr, primcount: i32) -> (), {
+export! { 1033, glDrawElementsInstancedANGLE, first_glDrawElementsInstancedANGLE, hook_glDrawElementsInstancedANGLE, (mode: u32, count: i32, type_: u32, indices: Ptr, primcount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsInstancedANGLE(mode, count, type_, indices, primcount) })
 } }
-export! { 1017, glDrawElementsInstancedARB, first_glDrawElementsInstancedARB, hook_glDrawElementsInstancedARB, (mode: u32, count: i32, type_: u32, indices: Ptr, primcount: i32) -> (), {
+export! { 1034, glDrawElementsInstancedARB, first_glDrawElementsInstancedARB, hook_glDrawElementsInstancedARB, (mode: u32, count: i32, type_: u32, indices: Ptr, primcount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsInstancedARB(mode, count, type_, indices, primcount) })
 } }
-export! { 1018, glDrawElementsInstancedEXT, first_glDrawElementsInstancedEXT, hook_glDrawElementsInstancedEXT, (mode: u32, count: i32, type_: u32, indices: Ptr, primcount: i32) -> (), {
+export! { 1035, glDrawElementsInstancedEXT, first_glDrawElementsInstancedEXT, hook_glDrawElementsInstancedEXT, (mode: u32, count: i32, type_: u32, indices: Ptr, primcount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsInstancedEXT(mode, count, type_, indices, primcount) })
 } }
-export! { 1019, glDrawElementsInstancedNV, first_glDrawElementsInstancedNV, hook_glDrawElementsInstancedNV, (mode: u32, count: i32, type_: u32, indices: Ptr, primcount: i32) -> (), {
+export! { 1036, glDrawElementsInstancedNV, first_glDrawElementsInstancedNV, hook_glDrawElementsInstancedNV, (mode: u32, count: i32, type_: u32, indices: Ptr, primcount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsInstancedNV(mode, count, type_, indices, primcount) })
 } }
-export! { 1020, glDrawElementsInstancedBaseVertex, first_glDrawElementsInstancedBaseVertex, hook_glDrawElementsInstancedBaseVertex, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32, basevertex: i32) -> (), {
+export! { 1037, glDrawElementsInstancedBaseVertex, first_glDrawElementsInstancedBaseVertex, hook_glDrawElementsInstancedBaseVertex, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32, basevertex: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsInstancedBaseVertex(mode, count, type_, indices, instancecount, basevertex) })
 } }
-export! { 1021, glDrawElementsInstancedBaseVertexEXT, first_glDrawElementsInstancedBaseVertexEXT, hook_glDrawElementsInstancedBaseVertexEXT, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32, basevertex: i32) -> (), {
+export! { 1038, glDrawElementsInstancedBaseVertexEXT, first_glDrawElementsInstancedBaseVertexEXT, hook_glDrawElementsInstancedBaseVertexEXT, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32, basevertex: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsInstancedBaseVertexEXT(mode, count, type_, indices, instancecount, basevertex) })
 } }
-export! { 1022, glDrawElementsInstancedBaseVertexOES, first_glDrawElementsInstancedBaseVertexOES, hook_glDrawElementsInstancedBaseVertexOES, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32, basevertex: i32) -> (), {
+export! { 1039, glDrawElementsInstancedBaseVertexOES, first_glDrawElementsInstancedBaseVertexOES, hook_glDrawElementsInstancedBaseVertexOES, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32, basevertex: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsInstancedBaseVertexOES(mode, count, type_, indices, instancecount, basevertex) })
 } }
-export! { 1023, glDrawArraysInstancedBaseInstance, first_glDrawArraysInstancedBaseInstance, hook_glDrawArraysInstancedBaseInstance, (mode: u32, first: i32, count: i32, instancecount: i32, baseinstance: u32) -> (), {
+export! { 1040, glDrawArraysInstancedBaseInstance, first_glDrawArraysInstancedBaseInstance, hook_glDrawArraysInstancedBaseInstance, (mode: u32, first: i32, count: i32, instancecount: i32, baseinstance: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawArraysInstancedBaseInstance(mode, first, count, instancecount, baseinstance) })
 } }
-export! { 1024, glDrawArraysInstancedBaseInstanceEXT, first_glDrawArraysInstancedBaseInstanceEXT, hook_glDrawArraysInstancedBaseInstanceEXT, (mode: u32, first: i32, count: i32, instancecount: i32, baseinstance: u32) -> (), {
+export! { 1041, glDrawArraysInstancedBaseInstanceEXT, first_glDrawArraysInstancedBaseInstanceEXT, hook_glDrawArraysInstancedBaseInstanceEXT, (mode: u32, first: i32, count: i32, instancecount: i32, baseinstance: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawArraysInstancedBaseInstanceEXT(mode, first, count, instancecount, baseinstance) })
 } }
-export! { 1025, glDrawElementsInstancedBaseInstance, first_glDrawElementsInstancedBaseInstance, hook_glDrawElementsInstancedBaseInstance, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32, baseinstance: u32) -> (), {
+export! { 1042, glDrawElementsInstancedBaseInstance, first_glDrawElementsInstancedBaseInstance, hook_glDrawElementsInstancedBaseInstance, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32, baseinstance: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsInstancedBaseInstance(mode, count, type_, indices, instancecount, baseinstance) })
 } }
-export! { 1026, glDrawElementsInstancedBaseInstanceEXT, first_glDrawElementsInstancedBaseInstanceEXT, hook_glDrawElementsInstancedBaseInstanceEXT, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32, baseinstance: u32) -> (), {
+export! { 1043, glDrawElementsInstancedBaseInstanceEXT, first_glDrawElementsInstancedBaseInstanceEXT, hook_glDrawElementsInstancedBaseInstanceEXT, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32, baseinstance: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsInstancedBaseInstanceEXT(mode, count, type_, indices, instancecount, baseinstance) })
 } }
-export! { 1027, glDrawElementsInstancedBaseVertexBaseInstance, first_glDrawElementsInstancedBaseVertexBaseInstance, hook_glDrawElementsInstancedBaseVertexBaseInstance, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32, basevertex: i32, baseinstance: u32) -> (), {
+export! { 1044, glDrawElementsInstancedBaseVertexBaseInstance, first_glDrawElementsInstancedBaseVertexBaseInstance, hook_glDrawElementsInstancedBaseVertexBaseInstance, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32, basevertex: i32, baseinstance: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsInstancedBaseVertexBaseInstance(mode, count, type_, indices, instancecount, basevertex, baseinstance) })
 } }
-export! { 1028, glDrawElementsInstancedBaseVertexBaseInstanceEXT, first_glDrawElementsInstancedBaseVertexBaseInstanceEXT, hook_glDrawElementsInstancedBaseVertexBaseInstanceEXT, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32, basevertex: i32, baseinstance: u32) -> (), {
+export! { 1045, glDrawElementsInstancedBaseVertexBaseInstanceEXT, first_glDrawElementsInstancedBaseVertexBaseInstanceEXT, hook_glDrawElementsInstancedBaseVertexBaseInstanceEXT, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32, basevertex: i32, baseinstance: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsInstancedBaseVertexBaseInstanceEXT(mode, count, type_, indices, instancecount, basevertex, baseinstance) })
 } }
-export! { 1029, glDrawArraysIndirect, first_glDrawArraysIndirect, hook_glDrawArraysIndirect, (mode: u32, indirect: Ptr) -> (), {
+export! { 1046, glDrawArraysIndirect, first_glDrawArraysIndirect, hook_glDrawArraysIndirect, (mode: u32, indirect: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawArraysIndirect(mode, indirect) })
 } }
-export! { 1030, glDrawElementsIndirect, first_glDrawElementsIndirect, hook_glDrawElementsIndirect, (mode: u32, type_: u32, indirect: Ptr) -> (), {
+export! { 1047, glDrawElementsIndirect, first_glDrawElementsIndirect, hook_glDrawElementsIndirect, (mode: u32, type_: u32, indirect: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsIndirect(mode, type_, indirect) })
 } }
-export! { 1031, glMultiDrawArraysIndirect, first_glMultiDrawArraysIndirect, hook_glMultiDrawArraysIndirect, (mode: u32, indirect: Ptr, drawcount: i32, stride: i32) -> (), {
+export! { 1048, glMultiDrawArraysIndirect, first_glMultiDrawArraysIndirect, hook_glMultiDrawArraysIndirect, (mode: u32, indirect: Ptr, drawcount: i32, stride: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawArraysIndirect(mode, indirect, drawcount, stride) })
 } }
-export! { 1032, glMultiDrawArraysIndirectAMD, first_glMultiDrawArraysIndirectAMD, hook_glMultiDrawArraysIndirectAMD, (mode: u32, indirect: Ptr, primcount: i32, stride: i32) -> (), {
+export! { 1049, glMultiDrawArraysIndirectAMD, first_glMultiDrawArraysIndirectAMD, hook_glMultiDrawArraysIndirectAMD, (mode: u32, indirect: Ptr, primcount: i32, stride: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawArraysIndirectAMD(mode, indirect, primcount, stride) })
 } }
-export! { 1033, glMultiDrawArraysIndirectEXT, first_glMultiDrawArraysIndirectEXT, hook_glMultiDrawArraysIndirectEXT, (mode: u32, indirect: Ptr, drawcount: i32, stride: i32) -> (), {
+export! { 1050, glMultiDrawArraysIndirectEXT, first_glMultiDrawArraysIndirectEXT, hook_glMultiDrawArraysIndirectEXT, (mode: u32, indirect: Ptr, drawcount: i32, stride: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawArraysIndirectEXT(mode, indirect, drawcount, stride) })
 } }
-export! { 1034, glMultiDrawElementsIndirect, first_glMultiDrawElementsIndirect, hook_glMultiDrawElementsIndirect, (mode: u32, type_: u32, indirect: Ptr, drawcount: i32, stride: i32) -> (), {
+export! { 1051, glMultiDrawElementsIndirect, first_glMultiDrawElementsIndirect, hook_glMultiDrawElementsIndirect, (mode: u32, type_: u32, indirect: Ptr, drawcount: i32, stride: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawElementsIndirect(mode, type_, indirect, drawcount, stride) })
 } }
-export! { 1035, glMultiDrawElementsIndirectAMD, first_glMultiDrawElementsIndirectAMD, hook_glMultiDrawElementsIndirectAMD, (mode: u32, type_: u32, indirect: Ptr, primcount: i32, stride: i32) -> (), {
+export! { 1052, glMultiDrawElementsIndirectAMD, first_glMultiDrawElementsIndirectAMD, hook_glMultiDrawElementsIndirectAMD, (mode: u32, type_: u32, indirect: Ptr, primcount: i32, stride: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawElementsIndirectAMD(mode, type_, indirect, primcount, stride) })
 } }
-export! { 1036, glMultiDrawElementsIndirectEXT, first_glMultiDrawElementsIndirectEXT, hook_glMultiDrawElementsIndirectEXT, (mode: u32, type_: u32, indirect: Ptr, drawcount: i32, stride: i32) -> (), {
+export! { 1053, glMultiDrawElementsIndirectEXT, first_glMultiDrawElementsIndirectEXT, hook_glMultiDrawElementsIndirectEXT, (mode: u32, type_: u32, indirect: Ptr, drawcount: i32, stride: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawElementsIndirectEXT(mode, type_, indirect, drawcount, stride) })
 } }
-export! { 1037, glDrawTransformFeedback, first_glDrawTransformFeedback, hook_glDrawTransformFeedback, (mode: u32, id: u32) -> (), {
+export! { 1054, glDrawTransformFeedback, first_glDrawTransformFeedback, hook_glDrawTransformFeedback, (mode: u32, id: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawTransformFeedback(mode, id) })
 } }
-export! { 1038, glDrawTransformFeedbackEXT, first_glDrawTransformFeedbackEXT, hook_glDrawTransformFeedbackEXT, (mode: u32, id: u32) -> (), {
+export! { 1055, glDrawTransformFeedbackEXT, first_glDrawTransformFeedbackEXT, hook_glDrawTransformFeedbackEXT, (mode: u32, id: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawTransformFeedbackEXT(mode, id) })
 } }
-export! { 1039, glDrawTransformFeedbackNV, first_glDrawTransformFeedbackNV, hook_glDrawTransformFeedbackNV, (mode: u32, id: u32) -> (), {
+export! { 1056, glDrawTransformFeedbackNV, first_glDrawTransformFeedbackNV, hook_glDrawTransformFeedbackNV, (mode: u32, id: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawTransformFeedbackNV(mode, id) })
 } }
-export! { 1040, glDrawTransformFeedbackInstanced, first_glDrawTransformFeedbackInstanced, hook_glDrawTransformFeedbackInstanced, (mode: u32, id: u32, instancecount: i32) -> (), {
+export! { 1057, glDrawTransformFeedbackInstanced, first_glDrawTransformFeedbackInstanced, hook_glDrawTransformFeedbackInstanced, (mode: u32, id: u32, instancecount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawTransformFeedbackInstanced(mode, id, instancecount) })
 } }
-export! { 1041, glDrawTransformFeedbackInstancedEXT, first_glDrawTransformFeedbackInstancedEXT, hook_glDrawTransformFeedbackInstancedEXT, (mode: u32, id: u32, instancecount: i32) -> (), {
+export! { 1058, glDrawTransformFeedbackInstancedEXT, first_glDrawTransformFeedbackInstancedEXT, hook_glDrawTransformFeedbackInstancedEXT, (mode: u32, id: u32, instancecount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawTransformFeedbackInstancedEXT(mode, id, instancecount) })
 } }
-export! { 1042, glDrawTransformFeedbackStream, first_glDrawTransformFeedbackStream, hook_glDrawTransformFeedbackStream, (mode: u32, id: u32, stream: u32) -> (), {
+export! { 1059, glDrawTransformFeedbackStream, first_glDrawTransformFeedbackStream, hook_glDrawTransformFeedbackStream, (mode: u32, id: u32, stream: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawTransformFeedbackStream(mode, id, stream) })
 } }
-export! { 1043, glDrawTransformFeedbackStreamInstanced, first_glDrawTransformFeedbackStreamInstanced, hook_glDrawTransformFeedbackStreamInstanced, (mode: u32, id: u32, stream: u32, instancecount: i32) -> (), {
+export! { 1060, glDrawTransformFeedbackStreamInstanced, first_glDrawTransformFeedbackStreamInstanced, hook_glDrawTransformFeedbackStreamInstanced, (mode: u32, id: u32, stream: u32, instancecount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawTransformFeedbackStreamInstanced(mode, id, stream, instancecount) })
 } }
-export! { 1044, glRectd, first_glRectd, hook_glRectd, (x1: f64, y1: f64, x2: f64, y2: f64) -> (), {
+export! { 1061, glRectd, first_glRectd, hook_glRectd, (x1: f64, y1: f64, x2: f64, y2: f64) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glRectd(x1, y1, x2, y2) })
 } }
-export! { 1045, glRectdv, first_glRectdv, hook_glRectdv, (v1: Ptr, v2: Ptr) -> (), {
+export! { 1062, glRectdv, first_glRectdv, hook_glRectdv, (v1: Ptr, v2: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glRectdv(v1, v2) })
 } }
-export! { 1046, glRectf, first_glRectf, hook_glRectf, (x1: f32, y1: f32, x2: f32, y2: f32) -> (), {
+export! { 1063, glRectf, first_glRectf, hook_glRectf, (x1: f32, y1: f32, x2: f32, y2: f32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glRectf(x1, y1, x2, y2) })
 } }
-export! { 1047, glRectfv, first_glRectfv, hook_glRectfv, (v1: Ptr, v2: Ptr) -> (), {
+export! { 1064, glRectfv, first_glRectfv, hook_glRectfv, (v1: Ptr, v2: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glRectfv(v1, v2) })
 } }
-export! { 1048, glRecti, first_glRecti, hook_glRecti, (x1: i32, y1: i32, x2: i32, y2: i32) -> (), {
+export! { 1065, glRecti, first_glRecti, hook_glRecti, (x1: i32, y1: i32, x2: i32, y2: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glRecti(x1, y1, x2, y2) })
 } }
-export! { 1049, glRectiv, first_glRectiv, hook_glRectiv, (v1: Ptr, v2: Ptr) -> (), {
+export! { 1066, glRectiv, first_glRectiv, hook_glRectiv, (v1: Ptr, v2: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glRectiv(v1, v2) })
 } }
-export! { 1050, glRects, first_glRects, hook_glRects, (x1: i16, y1: i16, x2: i16, y2: i16) -> (), {
+export! { 1067, glRects, first_glRects, hook_glRects, (x1: i16, y1: i16, x2: i16, y2: i16) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glRects(x1, y1, x2, y2) })
 } }
-export! { 1051, glRectsv, first_glRectsv, hook_glRectsv, (v1: Ptr, v2: Ptr) -> (), {
+export! { 1068, glRectsv, first_glRectsv, hook_glRectsv, (v1: Ptr, v2: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glRectsv(v1, v2) })
 } }
-export! { 1052, glEvalMesh1, first_glEvalMesh1, hook_glEvalMesh1, (mode: u32, i1: i32, i2: i32) -> (), {
+export! { 1069, glEvalMesh1, first_glEvalMesh1, hook_glEvalMesh1, (mode: u32, i1: i32, i2: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glEvalMesh1(mode, i1, i2) })
 } }
-export! { 1053, glEvalMesh2, first_glEvalMesh2, hook_glEvalMesh2, (mode: u32, i1: i32, i2: i32, j1: i32, j2: i32) -> (), {
+export! { 1070, glEvalMesh2, first_glEvalMesh2, hook_glEvalMesh2, (mode: u32, i1: i32, i2: i32, j1: i32, j2: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glEvalMesh2(mode, i1, i2, j1, j2) })
 } }
-export! { 1054, glAccum, first_glAccum, hook_glAccum, (op: u32, value: f32) -> (), {
+export! { 1071, glAccum, first_glAccum, hook_glAccum, (op: u32, value: f32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glAccum(op, value) }
 } }
-export! { 1055, glBitmap, first_glBitmap, hook_glBitmap, (width: i32, height: i32, xorig: f32, yorig: f32, xmove: f32, ymove: f32, bitmap: Ptr) -> (), {
+export! { 1072, glBitmap, first_glBitmap, hook_glBitmap, (width: i32, height: i32, xorig: f32, yorig: f32, xmove: f32, ymove: f32, bitmap: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBitmap(width, height, xorig, yorig, xmove, ymove, bitmap) }
 } }
-export! { 1056, glDrawPixels, first_glDrawPixels, hook_glDrawPixels, (width: i32, height: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
+export! { 1073, glDrawPixels, first_glDrawPixels, hook_glDrawPixels, (width: i32, height: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDrawPixels(width, height, format, type_, pixels) }
 } }
-export! { 1057, glCopyPixels, first_glCopyPixels, hook_glCopyPixels, (x: i32, y: i32, width: i32, height: i32, type_: u32) -> (), {
+export! { 1074, glCopyPixels, first_glCopyPixels, hook_glCopyPixels, (x: i32, y: i32, width: i32, height: i32, type_: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glCopyPixels(x, y, width, height, type_) }
 } }
-export! { 1058, glNewList, first_glNewList, hook_glNewList, (list: u32, mode: u32) -> (), {
+export! { 1075, glNewList, first_glNewList, hook_glNewList, (list: u32, mode: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glNewList(list, mode) }
 } }
-export! { 1059, glEndList, first_glEndList, hook_glEndList, () -> (), {
+export! { 1076, glEndList, first_glEndList, hook_glEndList, () -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glEndList() }
 } }
-export! { 1060, glCallList, first_glCallList, hook_glCallList, (list: u32) -> (), {
+export! { 1077, glCallList, first_glCallList, hook_glCallList, (list: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glCallList(list) }
 } }
-export! { 1061, glCallLists, first_glCallLists, hook_glCallLists, (n: i32, type_: u32, lists: Ptr) -> (), {
+export! { 1078, glCallLists, first_glCallLists, hook_glCallLists, (n: i32, type_: u32, lists: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glCallLists(n, type_, lists) }
 } }
-export! { 1062, glDeleteLists, first_glDeleteLists, hook_glDeleteLists, (list: u32, range: i32) -> (), {
+export! { 1079, glDeleteLists, first_glDeleteLists, hook_glDeleteLists, (list: u32, range: i32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDeleteLists(list, range) }
 } }
-export! { 1063, glGenLists, first_glGenLists, hook_glGenLists, (range: i32) -> u32, {
+export! { 1080, glGenLists, first_glGenLists, hook_glGenLists, (range: i32) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::glGenLists(range) }
 } }
-export! { 1064, glIsList, first_glIsList, hook_glIsList, (list: u32) -> u8, {
+export! { 1081, glIsList, first_glIsList, hook_glIsList, (list: u32) -> u8, {
     // SAFETY: the program's own arguments.
     unsafe { special::glIsList(list) }
 } }
-export! { 1065, glBindTexture, first_glBindTexture, hook_glBindTexture, (target: u32, texture: u32) -> (), {
+export! { 1082, glBindTexture, first_glBindTexture, hook_glBindTexture, (target: u32, texture: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBindTexture(target, texture) }
 } }
-export! { 1066, glBindTextureEXT, first_glBindTextureEXT, hook_glBindTextureEXT, (target: u32, texture: u32) -> (), {
+export! { 1083, glBindTextureEXT, first_glBindTextureEXT, hook_glBindTextureEXT, (target: u32, texture: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBindTexture(target, texture) }
 } }
-export! { 1067, glDeleteTextures, first_glDeleteTextures, hook_glDeleteTextures, (n: i32, textures: Ptr) -> (), {
+export! { 1084, glDeleteTextures, first_glDeleteTextures, hook_glDeleteTextures, (n: i32, textures: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDeleteTextures(n, textures) }
 } }
-export! { 1068, glIsTexture, first_glIsTexture, hook_glIsTexture, (texture: u32) -> u8, {
+export! { 1085, glIsTexture, first_glIsTexture, hook_glIsTexture, (texture: u32) -> u8, {
     // SAFETY: the program's own arguments.
     unsafe { special::glIsTexture(texture) }
 } }
-export! { 1069, glIsFramebuffer, first_glIsFramebuffer, hook_glIsFramebuffer, (framebuffer: u32) -> u8, {
+export! { 1086, glIsFramebuffer, first_glIsFramebuffer, hook_glIsFramebuffer, (framebuffer: u32) -> u8, {
     // SAFETY: the program's own arguments.
     unsafe { special::glIsFramebuffer(framebuffer) }
 } }
-export! { 1070, glIsFramebufferEXT, first_glIsFramebufferEXT, hook_glIsFramebufferEXT, (framebuffer: u32) -> u8, {
+export! { 1087, glIsFramebufferEXT, first_glIsFramebufferEXT, hook_glIsFramebufferEXT, (framebuffer: u32) -> u8, {
     // SAFETY: the program's own arguments.
     unsafe { special::glIsFramebuffer(framebuffer) }
 } }
-export! { 1071, glBindFramebuffer, first_glBindFramebuffer, hook_glBindFramebuffer, (target: u32, framebuffer: u32) -> (), {
+export! { 1088, glBindFramebuffer, first_glBindFramebuffer, hook_glBindFramebuffer, (target: u32, framebuffer: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBindFramebuffer(target, framebuffer) }
 } }
-export! { 1072, glBindFramebufferEXT, first_glBindFramebufferEXT, hook_glBindFramebufferEXT, (target: u32, framebuffer: u32) -> (), {
+export! { 1089, glBindFramebufferEXT, first_glBindFramebufferEXT, hook_glBindFramebufferEXT, (target: u32, framebuffer: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBindFramebufferEXT(target, framebuffer) }
 } }
-export! { 1073, glDeleteFramebuffers, first_glDeleteFramebuffers, hook_glDeleteFramebuffers, (n: i32, framebuffers: Ptr) -> (), {
+export! { 1090, glDeleteFramebuffers, first_glDeleteFramebuffers, hook_glDeleteFramebuffers, (n: i32, framebuffers: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDeleteFramebuffers(n, framebuffers) }
 } }
-export! { 1074, glDeleteFramebuffersEXT, first_glDeleteFramebuffersEXT, hook_glDeleteFramebuffersEXT, (n: i32, framebuffers: Ptr) -> (), {
+export! { 1091, glDeleteFramebuffersEXT, first_glDeleteFramebuffersEXT, hook_glDeleteFramebuffersEXT, (n: i32, framebuffers: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDeleteFramebuffers(n, framebuffers) }
 } }
-export! { 1075, glDrawBuffer, first_glDrawBuffer, hook_glDrawBuffer, (buf: u32) -> (), {
+export! { 1092, glDrawBuffer, first_glDrawBuffer, hook_glDrawBuffer, (buf: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDrawBuffer(buf) }
 } }
-export! { 1076, glDrawBuffers, first_glDrawBuffers, hook_glDrawBuffers, (n: i32, bufs: Ptr) -> (), {
+export! { 1093, glDrawBuffers, first_glDrawBuffers, hook_glDrawBuffers, (n: i32, bufs: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDrawBuffers(n, bufs) }
 } }
-export! { 1077, glDrawBuffersARB, first_glDrawBuffersARB, hook_glDrawBuffersARB, (n: i32, bufs: Ptr) -> (), {
+export! { 1094, glDrawBuffersARB, first_glDrawBuffersARB, hook_glDrawBuffersARB, (n: i32, bufs: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDrawBuffers(n, bufs) }
 } }
-export! { 1078, glDrawBuffersATI, first_glDrawBuffersATI, hook_glDrawBuffersATI, (n: i32, bufs: Ptr) -> (), {
+export! { 1095, glDrawBuffersATI, first_glDrawBuffersATI, hook_glDrawBuffersATI, (n: i32, bufs: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDrawBuffers(n, bufs) }
 } }
-export! { 1079, glDrawBuffersEXT, first_glDrawBuffersEXT, hook_glDrawBuffersEXT, (n: i32, bufs: Ptr) -> (), {
+export! { 1096, glDrawBuffersEXT, first_glDrawBuffersEXT, hook_glDrawBuffersEXT, (n: i32, bufs: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDrawBuffers(n, bufs) }
 } }
-export! { 1080, glReadBuffer, first_glReadBuffer, hook_glReadBuffer, (src: u32) -> (), {
+export! { 1097, glReadBuffer, first_glReadBuffer, hook_glReadBuffer, (src: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glReadBuffer(src) }
 } }
-export! { 1081, glNamedFramebufferDrawBuffer, first_glNamedFramebufferDrawBuffer, hook_glNamedFramebufferDrawBuffer, (framebuffer: u32, buf: u32) -> (), {
+export! { 1098, glNamedFramebufferDrawBuffer, first_glNamedFramebufferDrawBuffer, hook_glNamedFramebufferDrawBuffer, (framebuffer: u32, buf: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glNamedFramebufferDrawBuffer(framebuffer, buf) }
 } }
-export! { 1082, glNamedFramebufferDrawBuffers, first_glNamedFramebufferDrawBuffers, hook_glNamedFramebufferDrawBuffers, (framebuffer: u32, n: i32, bufs: Ptr) -> (), {
+export! { 1099, glNamedFramebufferDrawBuffers, first_glNamedFramebufferDrawBuffers, hook_glNamedFramebufferDrawBuffers, (framebuffer: u32, n: i32, bufs: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glNamedFramebufferDrawBuffers(framebuffer, n, bufs) }
 } }
-export! { 1083, glNamedFramebufferReadBuffer, first_glNamedFramebufferReadBuffer, hook_glNamedFramebufferReadBuffer, (framebuffer: u32, src: u32) -> (), {
+export! { 1100, glNamedFramebufferReadBuffer, first_glNamedFramebufferReadBuffer, hook_glNamedFramebufferReadBuffer, (framebuffer: u32, src: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glNamedFramebufferReadBuffer(framebuffer, src) }
 } }
-export! { 1084, glFramebufferDrawBufferEXT, first_glFramebufferDrawBufferEXT, hook_glFramebufferDrawBufferEXT, (framebuffer: u32, mode: u32) -> (), {
+export! { 1101, glFramebufferDrawBufferEXT, first_glFramebufferDrawBufferEXT, hook_glFramebufferDrawBufferEXT, (framebuffer: u32, mode: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glFramebufferDrawBufferEXT(framebuffer, mode) }
 } }
-export! { 1085, glFramebufferDrawBuffersEXT, first_glFramebufferDrawBuffersEXT, hook_glFramebufferDrawBuffersEXT, (framebuffer: u32, n: i32, bufs: Ptr) -> (), {
+export! { 1102, glFramebufferDrawBuffersEXT, first_glFramebufferDrawBuffersEXT, hook_glFramebufferDrawBuffersEXT, (framebuffer: u32, n: i32, bufs: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glFramebufferDrawBuffersEXT(framebuffer, n, bufs) }
 } }
-export! { 1086, glFramebufferReadBufferEXT, first_glFramebufferReadBufferEXT, hook_glFramebufferReadBufferEXT, (framebuffer: u32, mode: u32) -> (), {
+export! { 1103, glFramebufferReadBufferEXT, first_glFramebufferReadBufferEXT, hook_glFramebufferReadBufferEXT, (framebuffer: u32, mode: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glFramebufferReadBufferEXT(framebuffer, mode) }
 } }
-export! { 1087, glBlitFramebuffer, first_glBlitFramebuffer, hook_glBlitFramebuffer, (srcX0: i32, srcY0: i32, srcX1: i32, srcY1: i32, dstX0: i32, dstY0: i32, dstX1: i32, dstY1: i32, mask: u32, filter: u32) -> (), {
+export! { 1104, glBlitFramebuffer, first_glBlitFramebuffer, hook_glBlitFramebuffer, (srcX0: i32, srcY0: i32, srcX1: i32, srcY1: i32, dstX0: i32, dstY0: i32, dstX1: i32, dstY1: i32, mask: u32, filter: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBlitFramebuffer(srcX0, srcY0, srcX1, srcY1, dstX0, dstY0, dstX1, dstY1, mask, filter) }
 } }
-export! { 1088, glBlitFramebufferEXT, first_glBlitFramebufferEXT, hook_glBlitFramebufferEXT, (srcX0: i32, srcY0: i32, srcX1: i32, srcY1: i32, dstX0: i32, dstY0: i32, dstX1: i32, dstY1: i32, mask: u32, filter: u32) -> (), {
+export! { 1105, glBlitFramebufferEXT, first_glBlitFramebufferEXT, hook_glBlitFramebufferEXT, (srcX0: i32, srcY0: i32, srcX1: i32, srcY1: i32, dstX0: i32, dstY0: i32, dstX1: i32, dstY1: i32, mask: u32, filter: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBlitFramebuffer(srcX0, srcY0, srcX1, srcY1, dstX0, dstY0, dstX1, dstY1, mask, filter) }
 } }
-export! { 1089, glBlitFramebufferNV, first_glBlitFramebufferNV, hook_glBlitFramebufferNV, (srcX0: i32, srcY0: i32, srcX1: i32, srcY1: i32, dstX0: i32, dstY0: i32, dstX1: i32, dstY1: i32, mask: u32, filter: u32) -> (), {
+export! { 1106, glBlitFramebufferNV, first_glBlitFramebufferNV, hook_glBlitFramebufferNV, (srcX0: i32, srcY0: i32, srcX1: i32, srcY1: i32, dstX0: i32, dstY0: i32, dstX1: i32, dstY1: i32, mask: u32, filter: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBlitFramebuffer(srcX0, srcY0, srcX1, srcY1, dstX0, dstY0, dstX1, dstY1, mask, filter) }
 } }
-export! { 1090, glBlitNamedFramebuffer, first_glBlitNamedFramebuffer, hook_glBlitNamedFramebuffer, (readFramebuffer: u32, drawFramebuffer: u32, srcX0: i32, srcY0: i32, srcX1: i32, srcY1: i32, dstX0: i32, dstY0: i32, dstX1: i32, dstY1: i32, mask: u32, filter: u32) -> (), {
+export! { 1107, glBlitNamedFramebuffer, first_glBlitNamedFramebuffer, hook_glBlitNamedFramebuffer, (readFramebuffer: u32, drawFramebuffer: u32, srcX0: i32, srcY0: i32, srcX1: i32, srcY1: i32, dstX0: i32, dstY0: i32, dstX1: i32, dstY1: i32, mask: u32, filter: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBlitNamedFramebuffer(readFramebuffer, drawFramebuffer, srcX0, srcY0, srcX1, srcY1, dstX0, dstY0, dstX1, dstY1, mask, filter) }
 } }
-export! { 1091, glClearNamedFramebufferfv, first_glClearNamedFramebufferfv, hook_glClearNamedFramebufferfv, (framebuffer: u32, buffer: u32, drawbuffer: i32, value: Ptr) -> (), {
+export! { 1108, glClearNamedFramebufferfv, first_glClearNamedFramebufferfv, hook_glClearNamedFramebufferfv, (framebuffer: u32, buffer: u32, drawbuffer: i32, value: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glClearNamedFramebufferfv(framebuffer, buffer, drawbuffer, value) }
 } }
-export! { 1092, glClearNamedFramebufferiv, first_glClearNamedFramebufferiv, hook_glClearNamedFramebufferiv, (framebuffer: u32, buffer: u32, drawbuffer: i32, value: Ptr) -> (), {
+export! { 1109, glClearNamedFramebufferiv, first_glClearNamedFramebufferiv, hook_glClearNamedFramebufferiv, (framebuffer: u32, buffer: u32, drawbuffer: i32, value: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glClearNamedFramebufferiv(framebuffer, buffer, drawbuffer, value) }
 } }
-export! { 1093, glClearNamedFramebufferuiv, first_glClearNamedFramebufferuiv, hook_glClearNamedFramebufferuiv, (framebuffer: u32, buffer: u32, drawbuffer: i32, value: Ptr) -> (), {
+export! { 1110, glClearNamedFramebufferuiv, first_glClearNamedFramebufferuiv, hook_glClearNamedFramebufferuiv, (framebuffer: u32, buffer: u32, drawbuffer: i32, value: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glClearNamedFramebufferuiv(framebuffer, buffer, drawbuffer, value) }
 } }
-export! { 1094, glClearNamedFramebufferfi, first_glClearNamedFramebufferfi, hook_glClearNamedFramebufferfi, (framebuffer: u32, buffer: u32, drawbuffer: i32, depth: f32, stencil: i32) -> (), {
+export! { 1111, glClearNamedFramebufferfi, first_glClearNamedFramebufferfi, hook_glClearNamedFramebufferfi, (framebuffer: u32, buffer: u32, drawbuffer: i32, depth: f32, stencil: i32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glClearNamedFramebufferfi(framebuffer, buffer, drawbuffer, depth, stencil) }
 } }
-export! { 1095, glGetIntegerv, first_glGetIntegerv, hook_glGetIntegerv, (pname: u32, data: Ptr) -> (), {
+export! { 1112, glGetIntegerv, first_glGetIntegerv, hook_glGetIntegerv, (pname: u32, data: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetIntegerv(pname, data) }
 } }
-export! { 1096, glGetBooleanv, first_glGetBooleanv, hook_glGetBooleanv, (pname: u32, data: Ptr) -> (), {
+export! { 1113, glGetBooleanv, first_glGetBooleanv, hook_glGetBooleanv, (pname: u32, data: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetBooleanv(pname, data) }
 } }
-export! { 1097, glGetFloatv, first_glGetFloatv, hook_glGetFloatv, (pname: u32, data: Ptr) -> (), {
+export! { 1114, glGetFloatv, first_glGetFloatv, hook_glGetFloatv, (pname: u32, data: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetFloatv(pname, data) }
 } }
-export! { 1098, glGetDoublev, first_glGetDoublev, hook_glGetDoublev, (pname: u32, data: Ptr) -> (), {
+export! { 1115, glGetDoublev, first_glGetDoublev, hook_glGetDoublev, (pname: u32, data: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetDoublev(pname, data) }
 } }
-export! { 1099, glGetInteger64v, first_glGetInteger64v, hook_glGetInteger64v, (pname: u32, data: Ptr) -> (), {
+export! { 1116, glGetInteger64v, first_glGetInteger64v, hook_glGetInteger64v, (pname: u32, data: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetInteger64v(pname, data) }
 } }
-export! { 1100, glGetInteger64vAPPLE, first_glGetInteger64vAPPLE, hook_glGetInteger64vAPPLE, (pname: u32, params: Ptr) -> (), {
+export! { 1117, glGetInteger64vAPPLE, first_glGetInteger64vAPPLE, hook_glGetInteger64vAPPLE, (pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetInteger64v(pname, params) }
 } }
-export! { 1101, glGetInteger64vEXT, first_glGetInteger64vEXT, hook_glGetInteger64vEXT, (pname: u32, data: Ptr) -> (), {
+export! { 1118, glGetInteger64vEXT, first_glGetInteger64vEXT, hook_glGetInteger64vEXT, (pname: u32, data: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetInteger64v(pname, data) }
 } }
-export! { 1102, glFramebufferTexture, first_glFramebufferTexture, hook_glFramebufferTexture, (target: u32, attachment: u32, texture: u32, level: i32) -> (), {
+export! { 1119, glFramebufferTexture, first_glFramebufferTexture, hook_glFramebufferTexture, (target: u32, attachment: u32, texture: u32, level: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferTexture(target, attachment, texture, level) })
 } }
-export! { 1103, glFramebufferTextureARB, first_glFramebufferTextureARB, hook_glFramebufferTextureARB, (target: u32, attachment: u32, texture: u32, level: i32) -> (), {
+export! { 1120, glFramebufferTextureARB, first_glFramebufferTextureARB, hook_glFramebufferTextureARB, (target: u32, attachment: u32, texture: u32, level: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferTextureARB(target, attachment, texture, level) })
 } }
-export! { 1104, glFramebufferTextureEXT, first_glFramebufferTextureEXT, hook_glFramebufferTextureEXT, (target: u32, attachment: u32, texture: u32, level: i32) -> (), {
+export! { 1121, glFramebufferTextureEXT, first_glFramebufferTextureEXT, hook_glFramebufferTextureEXT, (target: u32, attachment: u32, texture: u32, level: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferTextureEXT(target, attachment, texture, level) })
 } }
-export! { 1105, glFramebufferTextureOES, first_glFramebufferTextureOES, hook_glFramebufferTextureOES, (target: u32, attachment: u32, texture: u32, level: i32) -> (), {
+export! { 1122, glFramebufferTextureOES, first_glFramebufferTextureOES, hook_glFramebufferTextureOES, (target: u32, attachment: u32, texture: u32, level: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferTextureOES(target, attachment, texture, level) })
 } }
-export! { 1106, glFramebufferTexture1D, first_glFramebufferTexture1D, hook_glFramebufferTexture1D, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32) -> (), {
+export! { 1123, glFramebufferTexture1D, first_glFramebufferTexture1D, hook_glFramebufferTexture1D, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferTexture1D(target, attachment, textarget, texture, level) })
 } }
-export! { 1107, glFramebufferTexture1DEXT, first_glFramebufferTexture1DEXT, hook_glFramebufferTexture1DEXT, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32) -> (), {
+export! { 1124, glFramebufferTexture1DEXT, first_glFramebufferTexture1DEXT, hook_glFramebufferTexture1DEXT, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferTexture1DEXT(target, attachment, textarget, texture, level) })
 } }
-export! { 1108, glFramebufferTexture2D, first_glFramebufferTexture2D, hook_glFramebufferTexture2D, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32) -> (), {
+export! { 1125, glFramebufferTexture2D, first_glFramebufferTexture2D, hook_glFramebufferTexture2D, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferTexture2D(target, attachment, textarget, texture, level) })
 } }
-export! { 1109, glFramebufferTexture2DEXT, first_glFramebufferTexture2DEXT, hook_glFramebufferTexture2DEXT, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32) -> (), {
+export! { 1126, glFramebufferTexture2DEXT, first_glFramebufferTexture2DEXT, hook_glFramebufferTexture2DEXT, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferTexture2DEXT(target, attachment, textarget, texture, level) })
 } }
-export! { 1110, glFramebufferTexture3D, first_glFramebufferTexture3D, hook_glFramebufferTexture3D, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32, zoffset: i32) -> (), {
+export! { 1127, glFramebufferTexture3D, first_glFramebufferTexture3D, hook_glFramebufferTexture3D, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32, zoffset: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferTexture3D(target, attachment, textarget, texture, level, zoffset) })
 } }
-export! { 1111, glFramebufferTexture3DEXT, first_glFramebufferTexture3DEXT, hook_glFramebufferTexture3DEXT, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32, zoffset: i32) -> (), {
+export! { 1128, glFramebufferTexture3DEXT, first_glFramebufferTexture3DEXT, hook_glFramebufferTexture3DEXT, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32, zoffset: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferTexture3DEXT(target, attachment, textarget, texture, level, zoffset) })
 } }
-export! { 1112, glFramebufferTextureLayer, first_glFramebufferTextureLayer, hook_glFramebufferTextureLayer, (target: u32, attachment: u32, texture: u32, level: i32, layer: i32) -> (), {
+export! { 1129, glFramebufferTextureLayer, first_glFramebufferTextureLayer, hook_glFramebufferTextureLayer, (target: u32, attachment: u32, texture: u32, level: i32, layer: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferTextureLayer(target, attachment, texture, level, layer) })
 } }
-export! { 1113, glFramebufferTextureLayerARB, first_glFramebufferTextureLayerARB, hook_glFramebufferTextureLayerARB, (target: u32, attachment: u32, texture: u32, level: i32, layer: i32) -> (), {
+export! { 1130, glFramebufferTextureLayerARB, first_glFramebufferTextureLayerARB, hook_glFramebufferTextureLayerARB, (target: u32, attachment: u32, texture: u32, level: i32, layer: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferTextureLayerARB(target, attachment, texture, level, layer) })
 } }
-export! { 1114, glFramebufferTextureLayerEXT, first_glFramebufferTextureLayerEXT, hook_glFramebufferTextureLayerEXT, (target: u32, attachment: u32, texture: u32, level: i32, layer: i32) -> (), {
+export! { 1131, glFramebufferTextureLayerEXT, first_glFramebufferTextureLayerEXT, hook_glFramebufferTextureLayerEXT, (target: u32, attachment: u32, texture: u32, level: i32, layer: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferTextureLayerEXT(target, attachment, texture, level, layer) })
 } }
-export! { 1115, glFramebufferRenderbuffer, first_glFramebufferRenderbuffer, hook_glFramebufferRenderbuffer, (target: u32, attachment: u32, renderbuffertarget: u32, renderbuffer: u32) -> (), {
+export! { 1132, glFramebufferRenderbuffer, first_glFramebufferRenderbuffer, hook_glFramebufferRenderbuffer, (target: u32, attachment: u32, renderbuffertarget: u32, renderbuffer: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferRenderbuffer(target, attachment, renderbuffertarget, renderbuffer) })
 } }
-export! { 1116, glFramebufferRenderbufferEXT, first_glFramebufferRenderbufferEXT, hook_glFramebufferRenderbufferEXT, (target: u32, attachment: u32, renderbuffertarget: u32, renderbuffer: u32) -> (), {
+export! { 1133, glFramebufferRenderbufferEXT, first_glFramebufferRenderbufferEXT, hook_glFramebufferRenderbufferEXT, (target: u32, attachment: u32, renderbuffertarget: u32, renderbuffer: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferRenderbufferEXT(target, attachment, renderbuffertarget, renderbuffer) })
 } }
-export! { 1117, glNamedFramebufferTexture, first_glNamedFramebufferTexture, hook_glNamedFramebufferTexture, (framebuffer: u32, attachment: u32, texture: u32, level: i32) -> (), {
+export! { 1134, glNamedFramebufferTexture, first_glNamedFramebufferTexture, hook_glNamedFramebufferTexture, (framebuffer: u32, attachment: u32, texture: u32, level: i32) -> (), {
     hooks::attached();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glNamedFramebufferTexture(framebuffer, attachment, texture, level) };
 } }
-export! { 1118, glNamedFramebufferTextureLayer, first_glNamedFramebufferTextureLayer, hook_glNamedFramebufferTextureLayer, (framebuffer: u32, attachment: u32, texture: u32, level: i32, layer: i32) -> (), {
+export! { 1135, glNamedFramebufferTextureLayer, first_glNamedFramebufferTextureLayer, hook_glNamedFramebufferTextureLayer, (framebuffer: u32, attachment: u32, texture: u32, level: i32, layer: i32) -> (), {
     hooks::attached();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glNamedFramebufferTextureLayer(framebuffer, attachment, texture, level, layer) };
 } }
-export! { 1119, glNamedFramebufferRenderbuffer, first_glNamedFramebufferRenderbuffer, hook_glNamedFramebufferRenderbuffer, (framebuffer: u32, attachment: u32, renderbuffertarget: u32, renderbuffer: u32) -> (), {
+export! { 1136, glNamedFramebufferRenderbuffer, first_glNamedFramebufferRenderbuffer, hook_glNamedFramebufferRenderbuffer, (framebuffer: u32, attachment: u32, renderbuffertarget: u32, renderbuffer: u32) -> (), {
     hooks::attached();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glNamedFramebufferRenderbuffer(framebuffer, attachment, renderbuffertarget, renderbuffer) };
 } }
-export! { 1120, glGetFramebufferAttachmentParameteriv, first_glGetFramebufferAttachmentParameteriv, hook_glGetFramebufferAttachmentParameteriv, (target: u32, attachment: u32, pname: u32, params: Ptr) -> (), {
+export! { 1137, glGetFramebufferAttachmentParameteriv, first_glGetFramebufferAttachmentParameteriv, hook_glGetFramebufferAttachmentParameteriv, (target: u32, attachment: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glGetFramebufferAttachmentParameteriv(target, attachment, pname, params) })
 } }
-export! { 1121, glGetFramebufferAttachmentParameterivEXT, first_glGetFramebufferAttachmentParameterivEXT, hook_glGetFramebufferAttachmentParameterivEXT, (target: u32, attachment: u32, pname: u32, params: Ptr) -> (), {
+export! { 1138, glGetFramebufferAttachmentParameterivEXT, first_glGetFramebufferAttachmentParameterivEXT, hook_glGetFramebufferAttachmentParameterivEXT, (target: u32, attachment: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glGetFramebufferAttachmentParameterivEXT(target, attachment, pname, params) })
 } }
-export! { 1122, glCheckFramebufferStatus, first_glCheckFramebufferStatus, hook_glCheckFramebufferStatus, (target: u32) -> u32, {
+export! { 1139, glCheckFramebufferStatus, first_glCheckFramebufferStatus, hook_glCheckFramebufferStatus, (target: u32) -> u32, {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glCheckFramebufferStatus(target) })
 } }
-export! { 1123, glCheckFramebufferStatusEXT, first_glCheckFramebufferStatusEXT, hook_glCheckFramebufferStatusEXT, (target: u32) -> u32, {
+export! { 1140, glCheckFramebufferStatusEXT, first_glCheckFramebufferStatusEXT, hook_glCheckFramebufferStatusEXT, (target: u32) -> u32, {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glCheckFramebufferStatusEXT(target) })
 } }
-export! { 1124, glFramebufferParameteri, first_glFramebufferParameteri, hook_glFramebufferParameteri, (target: u32, pname: u32, param: i32) -> (), {
+export! { 1141, glFramebufferParameteri, first_glFramebufferParameteri, hook_glFramebufferParameteri, (target: u32, pname: u32, param: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glFramebufferParameteri(target, pname, param) })
 } }
-export! { 1125, glGetFramebufferParameteriv, first_glGetFramebufferParameteriv, hook_glGetFramebufferParameteriv, (target: u32, pname: u32, params: Ptr) -> (), {
+export! { 1142, glGetFramebufferParameteriv, first_glGetFramebufferParameteriv, hook_glGetFramebufferParameteriv, (target: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glGetFramebufferParameteriv(target, pname, params) })
 } }
-export! { 1126, glInvalidateFramebuffer, first_glInvalidateFramebuffer, hook_glInvalidateFramebuffer, (target: u32, numAttachments: i32, attachments: Ptr) -> (), {
+export! { 1143, glInvalidateFramebuffer, first_glInvalidateFramebuffer, hook_glInvalidateFramebuffer, (target: u32, numAttachments: i32, attachments: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glInvalidateFramebuffer(target, numAttachments, attachments) })
 } }
-export! { 1127, glInvalidateSubFramebuffer, first_glInvalidateSubFramebuffer, hook_glInvalidateSubFramebuffer, (target: u32, numAttachments: i32, attachments: Ptr, x: i32, y: i32, width: i32, height: i32) -> (), {
+export! { 1144, glInvalidateSubFramebuffer, first_glInvalidateSubFramebuffer, hook_glInvalidateSubFramebuffer, (target: u32, numAttachments: i32, attachments: Ptr, x: i32, y: i32, width: i32, height: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glInvalidateSubFramebuffer(target, numAttachments, attachments, x, y, width, height) })
 } }
-export! { 1128, glDiscardFramebufferEXT, first_glDiscardFramebufferEXT, hook_glDiscardFramebufferEXT, (target: u32, numAttachments: i32, attachments: Ptr) -> (), {
+export! { 1145, glDiscardFramebufferEXT, first_glDiscardFramebufferEXT, hook_glDiscardFramebufferEXT, (target: u32, numAttachments: i32, attachments: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glDiscardFramebufferEXT(target, numAttachments, attachments) })
 } }
-export! { 1129, glCopyTexImage1D, first_glCopyTexImage1D, hook_glCopyTexImage1D, (target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, border: i32) -> (), {
+export! { 1146, glCopyTexImage1D, first_glCopyTexImage1D, hook_glCopyTexImage1D, (target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, border: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::copy(target, x, width, &mut |gl| unsafe { gl.glCopyTexImage1D(target, level, internalformat, x, y, width, border) })
 } }
-export! { 1130, glCopyTexImage1DEXT, first_glCopyTexImage1DEXT, hook_glCopyTexImage1DEXT, (target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, border: i32) -> (), {
+export! { 1147, glCopyTexImage1DEXT, first_glCopyTexImage1DEXT, hook_glCopyTexImage1DEXT, (target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, border: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::copy(target, x, width, &mut |gl| unsafe { gl.glCopyTexImage1DEXT(target, level, internalformat, x, y, width, border) })
 } }
-export! { 1131, glCopyTexImage2D, first_glCopyTexImage2D, hook_glCopyTexImage2D, (target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, height: i32, border: i32) -> (), {
+export! { 1148, glCopyTexImage2D, first_glCopyTexImage2D, hook_glCopyTexImage2D, (target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, height: i32, border: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::copy(target, x, width, &mut |gl| unsafe { gl.glCopyTexImage2D(target, level, internalformat, x, y, width, height, border) })
 } }
-export! { 1132, glCopyTexImage2DEXT, first_glCopyTexImage2DEXT, hook_glCopyTexImage2DEXT, (target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, height: i32, border: i32) -> (), {
+export! { 1149, glCopyTexImage2DEXT, first_glCopyTexImage2DEXT, hook_glCopyTexImage2DEXT, (target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, height: i32, border: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::copy(target, x, width, &mut |gl| unsafe { gl.glCopyTexImage2DEXT(target, level, internalformat, x, y, width, height, border) })
 } }
-export! { 1133, glCopyTexSubImage1D, first_glCopyTexSubImage1D, hook_glCopyTexSubImage1D, (target: u32, level: i32, xoffset: i32, x: i32, y: i32, width: i32) -> (), {
+export! { 1150, glCopyTexSubImage1D, first_glCopyTexSubImage1D, hook_glCopyTexSubImage1D, (target: u32, level: i32, xoffset: i32, x: i32, y: i32, width: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::copy(target, x, width, &mut |gl| unsafe { gl.glCopyTexSubImage1D(target, level, xoffset, x, y, width) })
 } }
-export! { 1134, glCopyTexSubImage1DEXT, first_glCopyTexSubImage1DEXT, hook_glCopyTexSubImage1DEXT, (target: u32, level: i32, xoffset: i32, x: i32, y: i32, width: i32) -> (), {
+export! { 1151, glCopyTexSubImage1DEXT, first_glCopyTexSubImage1DEXT, hook_glCopyTexSubImage1DEXT, (target: u32, level: i32, xoffset: i32, x: i32, y: i32, width: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::copy(target, x, width, &mut |gl| unsafe { gl.glCopyTexSubImage1DEXT(target, level, xoffset, x, y, width) })
 } }
-export! { 1135, glCopyTexSubImage2D, first_glCopyTexSubImage2D, hook_glCopyTexSubImage2D, (target: u32, level: i32, xoffset: i32, yoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
+export! { 1152, glCopyTexSubImage2D, first_glCopyTexSubImage2D, hook_glCopyTexSubImage2D, (target: u32, level: i32, xoffset: i32, yoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::copy(target, x, width, &mut |gl| unsafe { gl.glCopyTexSubImage2D(target, level, xoffset, yoffset, x, y, width, height) })
 } }
-export! { 1136, glCopyTexSubImage2DEXT, first_glCopyTexSubImage2DEXT, hook_glCopyTexSubImage2DEXT, (target: u32, level: i32, xoffset: i32, yoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
+export! { 1153, glCopyTexSubImage2DEXT, first_glCopyTexSubImage2DEXT, hook_glCopyTexSubImage2DEXT, (target: u32, level: i32, xoffset: i32, yoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::copy(target, x, width, &mut |gl| unsafe { gl.glCopyTexSubImage2DEXT(target, level, xoffset, yoffset, x, y, width, height) })
 } }
-export! { 1137, glReadPixels, first_glReadPixels, hook_glReadPixels, (x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
+export! { 1154, glReadPixels, first_glReadPixels, hook_glReadPixels, (x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::read_now(x, width, &mut |gl| unsafe { gl.glReadPixels(x, y, width, height, format, type_, pixels) })
 } }
-export! { 1138, glReadnPixels, first_glReadnPixels, hook_glReadnPixels, (x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, bufSize: i32, data: Ptr) -> (), {
+export! { 1155, glReadnPixels, first_glReadnPixels, hook_glReadnPixels, (x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, bufSize: i32, data: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::read_now(x, width, &mut |gl| unsafe { gl.glReadnPixels(x, y, width, height, format, type_, bufSize, data) })
 } }
-export! { 1139, glReadnPixelsARB, first_glReadnPixelsARB, hook_glReadnPixelsARB, (x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, bufSize: i32, data: Ptr) -> (), {
+export! { 1156, glReadnPixelsARB, first_glReadnPixelsARB, hook_glReadnPixelsARB, (x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, bufSize: i32, data: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::read_now(x, width, &mut |gl| unsafe { gl.glReadnPixelsARB(x, y, width, height, format, type_, bufSize, data) })
 } }
-export! { 1140, glReadnPixelsEXT, first_glReadnPixelsEXT, hook_glReadnPixelsEXT, (x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, bufSize: i32, data: Ptr) -> (), {
+export! { 1157, glReadnPixelsEXT, first_glReadnPixelsEXT, hook_glReadnPixelsEXT, (x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, bufSize: i32, data: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::read_now(x, width, &mut |gl| unsafe { gl.glReadnPixelsEXT(x, y, width, height, format, type_, bufSize, data) })
 } }
-export! { 1141, glReadnPixelsKHR, first_glReadnPixelsKHR, hook_glReadnPixelsKHR, (x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, bufSize: i32, data: Ptr) -> (), {
+export! { 1158, glReadnPixelsKHR, first_glReadnPixelsKHR, hook_glReadnPixelsKHR, (x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, bufSize: i32, data: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::read_now(x, width, &mut |gl| unsafe { gl.glReadnPixelsKHR(x, y, width, height, format, type_, bufSize, data) })
 } }
-export! { 1142, glCopyTexSubImage3D, first_glCopyTexSubImage3D, hook_glCopyTexSubImage3D, (target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
+export! { 1159, glCopyTexSubImage3D, first_glCopyTexSubImage3D, hook_glCopyTexSubImage3D, (target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyTexSubImage3D(target, level, xoffset, yoffset, zoffset, x, y, width, height) })
 } }
-export! { 1143, glCopyTexSubImage3DEXT, first_glCopyTexSubImage3DEXT, hook_glCopyTexSubImage3DEXT, (target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
+export! { 1160, glCopyTexSubImage3DEXT, first_glCopyTexSubImage3DEXT, hook_glCopyTexSubImage3DEXT, (target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyTexSubImage3DEXT(target, level, xoffset, yoffset, zoffset, x, y, width, height) })
 } }
-export! { 1144, glCopyTextureSubImage1D, first_glCopyTextureSubImage1D, hook_glCopyTextureSubImage1D, (texture: u32, level: i32, xoffset: i32, x: i32, y: i32, width: i32) -> (), {
+export! { 1161, glCopyTextureSubImage1D, first_glCopyTextureSubImage1D, hook_glCopyTextureSubImage1D, (texture: u32, level: i32, xoffset: i32, x: i32, y: i32, width: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyTextureSubImage1D(texture, level, xoffset, x, y, width) })
 } }
-export! { 1145, glCopyTextureSubImage2D, first_glCopyTextureSubImage2D, hook_glCopyTextureSubImage2D, (texture: u32, level: i32, xoffset: i32, yoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
+export! { 1162, glCopyTextureSubImage2D, first_glCopyTextureSubImage2D, hook_glCopyTextureSubImage2D, (texture: u32, level: i32, xoffset: i32, yoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyTextureSubImage2D(texture, level, xoffset, yoffset, x, y, width, height) })
 } }
-export! { 1146, glCopyTextureSubImage3D, first_glCopyTextureSubImage3D, hook_glCopyTextureSubImage3D, (texture: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
+export! { 1163, glCopyTextureSubImage3D, first_glCopyTextureSubImage3D, hook_glCopyTextureSubImage3D, (texture: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyTextureSubImage3D(texture, level, xoffset, yoffset, zoffset, x, y, width, height) })
 } }
-export! { 1147, glCopyMultiTexImage1DEXT, first_glCopyMultiTexImage1DEXT, hook_glCopyMultiTexImage1DEXT, (texunit: u32, target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, border: i32) -> (), {
+export! { 1164, glCopyMultiTexImage1DEXT, first_glCopyMultiTexImage1DEXT, hook_glCopyMultiTexImage1DEXT, (texunit: u32, target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, border: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyMultiTexImage1DEXT(texunit, target, level, internalformat, x, y, width, border) })
 } }
-export! { 1148, glCopyMultiTexImage2DEXT, first_glCopyMultiTexImage2DEXT, hook_glCopyMultiTexImage2DEXT, (texunit: u32, target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, height: i32, border: i32) -> (), {
+export! { 1165, glCopyMultiTexImage2DEXT, first_glCopyMultiTexImage2DEXT, hook_glCopyMultiTexImage2DEXT, (texunit: u32, target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, height: i32, border: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyMultiTexImage2DEXT(texunit, target, level, internalformat, x, y, width, height, border) })
 } }
-export! { 1149, glCopyTextureImage1DEXT, first_glCopyTextureImage1DEXT, hook_glCopyTextureImage1DEXT, (texture: u32, target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, border: i32) -> (), {
+export! { 1166, glCopyTextureImage1DEXT, first_glCopyTextureImage1DEXT, hook_glCopyTextureImage1DEXT, (texture: u32, target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, border: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyTextureImage1DEXT(texture, target, level, internalformat, x, y, width, border) })
 } }
-export! { 1150, glCopyTextureImage2DEXT, first_glCopyTextureImage2DEXT, hook_glCopyTextureImage2DEXT, (texture: u32, target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, height: i32, border: i32) -> (), {
+export! { 1167, glCopyTextureImage2DEXT, first_glCopyTextureImage2DEXT, hook_glCopyTextureImage2DEXT, (texture: u32, target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, height: i32, border: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyTextureImage2DEXT(texture, target, level, internalformat, x, y, width, height, border) })
 } }
-export! { 1151, glCopyColorTable, first_glCopyColorTable, hook_glCopyColorTable, (target: u32, internalformat: u32, x: i32, y: i32, width: i32) -> (), {
+export! { 1168, glCopyColorTable, first_glCopyColorTable, hook_glCopyColorTable, (target: u32, internalformat: u32, x: i32, y: i32, width: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyColorTable(target, internalformat, x, y, width) })
 } }
-export! { 1152, glCopyColorTableSGI, first_glCopyColorTableSGI, hook_glCopyColorTableSGI, (target: u32, internalformat: u32, x: i32, y: i32, width: i32) -> (), {
+export! { 1169, glCopyColorTableSGI, first_glCopyColorTableSGI, hook_glCopyColorTableSGI, (target: u32, internalformat: u32, x: i32, y: i32, width: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyColorTableSGI(target, internalformat, x, y, width) })
 } }
-export! { 1153, glCopyConvolutionFilter1D, first_glCopyConvolutionFilter1D, hook_glCopyConvolutionFilter1D, (target: u32, internalformat: u32, x: i32, y: i32, width: i32) -> (), {
+export! { 1170, glCopyConvolutionFilter1D, first_glCopyConvolutionFilter1D, hook_glCopyConvolutionFilter1D, (target: u32, internalformat: u32, x: i32, y: i32, width: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyConvolutionFilter1D(target, internalformat, x, y, width) })
 } }
-export! { 1154, glCopyConvolutionFilter1DEXT, first_glCopyConvolutionFilter1DEXT, hook_glCopyConvolutionFilter1DEXT, (target: u32, internalformat: u32, x: i32, y: i32, width: i32) -> (), {
+export! { 1171, glCopyConvolutionFilter1DEXT, first_glCopyConvolutionFilter1DEXT, hook_glCopyConvolutionFilter1DEXT, (target: u32, internalformat: u32, x: i32, y: i32, width: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyConvolutionFilter1DEXT(target, internalformat, x, y, width) })
 } }
-export! { 1155, glCopyConvolutionFilter2D, first_glCopyConvolutionFilter2D, hook_glCopyConvolutionFilter2D, (target: u32, internalformat: u32, x: i32, y: i32, width: i32, height: i32) -> (), {
+export! { 1172, glCopyConvolutionFilter2D, first_glCopyConvolutionFilter2D, hook_glCopyConvolutionFilter2D, (target: u32, internalformat: u32, x: i32, y: i32, width: i32, height: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyConvolutionFilter2D(target, internalformat, x, y, width, height) })
 } }
-export! { 1156, glCopyConvolutionFilter2DEXT, first_glCopyConvolutionFilter2DEXT, hook_glCopyConvolutionFilter2DEXT, (target: u32, internalformat: u32, x: i32, y: i32, width: i32, height: i32) -> (), {
+export! { 1173, glCopyConvolutionFilter2DEXT, first_glCopyConvolutionFilter2DEXT, hook_glCopyConvolutionFilter2DEXT, (target: u32, internalformat: u32, x: i32, y: i32, width: i32, height: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyConvolutionFilter2DEXT(target, internalformat, x, y, width, height) })
 } }
-export! { 1157, glFinish, first_glFinish, hook_glFinish, () -> (), {
+export! { 1174, glFinish, first_glFinish, hook_glFinish, () -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glFinish() }
 } }
-export! { 1158, glFlush, first_glFlush, hook_glFlush, () -> (), {
+export! { 1175, glFlush, first_glFlush, hook_glFlush, () -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glFlush() }
 } }
-export! { 1159, glGetError, first_glGetError, hook_glGetError, () -> u32, {
+export! { 1176, glGetError, first_glGetError, hook_glGetError, () -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetError() }
 } }
-export! { 1160, glBeginConditionalRender, first_glBeginConditionalRender, hook_glBeginConditionalRender, (id: u32, mode: u32) -> (), {
+export! { 1177, glBeginConditionalRender, first_glBeginConditionalRender, hook_glBeginConditionalRender, (id: u32, mode: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBeginConditionalRender(id, mode) }
 } }
-export! { 1161, glBeginConditionalRenderNV, first_glBeginConditionalRenderNV, hook_glBeginConditionalRenderNV, (id: u32, mode: u32) -> (), {
+export! { 1178, glBeginConditionalRenderNV, first_glBeginConditionalRenderNV, hook_glBeginConditionalRenderNV, (id: u32, mode: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBeginConditionalRender(id, mode) }
 } }
-export! { 1162, glEndConditionalRender, first_glEndConditionalRender, hook_glEndConditionalRender, () -> (), {
+export! { 1179, glEndConditionalRender, first_glEndConditionalRender, hook_glEndConditionalRender, () -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glEndConditionalRender() }
 } }
-export! { 1163, glEndConditionalRenderNV, first_glEndConditionalRenderNV, hook_glEndConditionalRenderNV, () -> (), {
+export! { 1180, glEndConditionalRenderNV, first_glEndConditionalRenderNV, hook_glEndConditionalRenderNV, () -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glEndConditionalRender() }
 } }
-export! { 1164, glEndConditionalRenderNVX, first_glEndConditionalRenderNVX, hook_glEndConditionalRenderNVX, () -> (), {
+export! { 1181, glEndConditionalRenderNVX, first_glEndConditionalRenderNVX, hook_glEndConditionalRenderNVX, () -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glEndConditionalRender() }
 } }
-export! { 1165, glBeginQuery, first_glBeginQuery, hook_glBeginQuery, (target: u32, id: u32) -> (), {
+export! { 1182, glBeginQuery, first_glBeginQuery, hook_glBeginQuery, (target: u32, id: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBeginQuery(target, id) }
 } }
-export! { 1166, glBeginQueryARB, first_glBeginQueryARB, hook_glBeginQueryARB, (target: u32, id: u32) -> (), {
+export! { 1183, glBeginQueryARB, first_glBeginQueryARB, hook_glBeginQueryARB, (target: u32, id: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBeginQuery(target, id) }
 } }
-export! { 1167, glEndQuery, first_glEndQuery, hook_glEndQuery, (target: u32) -> (), {
+export! { 1184, glEndQuery, first_glEndQuery, hook_glEndQuery, (target: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glEndQuery(target) }
 } }
-export! { 1168, glEndQueryARB, first_glEndQueryARB, hook_glEndQueryARB, (target: u32) -> (), {
+export! { 1185, glEndQueryARB, first_glEndQueryARB, hook_glEndQueryARB, (target: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glEndQuery(target) }
 } }
-export! { 1169, glDeleteQueries, first_glDeleteQueries, hook_glDeleteQueries, (n: i32, ids: Ptr) -> (), {
+export! { 1186, glDeleteQueries, first_glDeleteQueries, hook_glDeleteQueries, (n: i32, ids: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDeleteQueries(n, ids) }
 } }
-export! { 1170, glDeleteQueriesARB, first_glDeleteQueriesARB, hook_glDeleteQueriesARB, (n: i32, ids: Ptr) -> (), {
+export! { 1187, glDeleteQueriesARB, first_glDeleteQueriesARB, hook_glDeleteQueriesARB, (n: i32, ids: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDeleteQueries(n, ids) }
 } }
-export! { 1171, glGetQueryiv, first_glGetQueryiv, hook_glGetQueryiv, (target: u32, pname: u32, params: Ptr) -> (), {
+export! { 1188, glGetQueryiv, first_glGetQueryiv, hook_glGetQueryiv, (target: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryiv(target, pname, params) }
 } }
-export! { 1172, glGetQueryivARB, first_glGetQueryivARB, hook_glGetQueryivARB, (target: u32, pname: u32, params: Ptr) -> (), {
+export! { 1189, glGetQueryivARB, first_glGetQueryivARB, hook_glGetQueryivARB, (target: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryiv(target, pname, params) }
 } }
-export! { 1173, glGetQueryObjectiv, first_glGetQueryObjectiv, hook_glGetQueryObjectiv, (id: u32, pname: u32, params: Ptr) -> (), {
+export! { 1190, glGetQueryObjectiv, first_glGetQueryObjectiv, hook_glGetQueryObjectiv, (id: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryObjectiv(id, pname, params) }
 } }
-export! { 1174, glGetQueryObjectivARB, first_glGetQueryObjectivARB, hook_glGetQueryObjectivARB, (id: u32, pname: u32, params: Ptr) -> (), {
+export! { 1191, glGetQueryObjectivARB, first_glGetQueryObjectivARB, hook_glGetQueryObjectivARB, (id: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryObjectiv(id, pname, params) }
 } }
-export! { 1175, glGetQueryObjectivEXT, first_glGetQueryObjectivEXT, hook_glGetQueryObjectivEXT, (id: u32, pname: u32, params: Ptr) -> (), {
+export! { 1192, glGetQueryObjectivEXT, first_glGetQueryObjectivEXT, hook_glGetQueryObjectivEXT, (id: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryObjectiv(id, pname, params) }
 } }
-export! { 1176, glGetQueryObjectuiv, first_glGetQueryObjectuiv, hook_glGetQueryObjectuiv, (id: u32, pname: u32, params: Ptr) -> (), {
+export! { 1193, glGetQueryObjectuiv, first_glGetQueryObjectuiv, hook_glGetQueryObjectuiv, (id: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryObjectuiv(id, pname, params) }
 } }
-export! { 1177, glGetQueryObjectuivARB, first_glGetQueryObjectuivARB, hook_glGetQueryObjectuivARB, (id: u32, pname: u32, params: Ptr) -> (), {
+export! { 1194, glGetQueryObjectuivARB, first_glGetQueryObjectuivARB, hook_glGetQueryObjectuivARB, (id: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryObjectuiv(id, pname, params) }
 } }
-export! { 1178, glGetQueryObjecti64v, first_glGetQueryObjecti64v, hook_glGetQueryObjecti64v, (id: u32, pname: u32, params: Ptr) -> (), {
+export! { 1195, glGetQueryObjecti64v, first_glGetQueryObjecti64v, hook_glGetQueryObjecti64v, (id: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryObjecti64v(id, pname, params) }
 } }
-export! { 1179, glGetQueryObjecti64vEXT, first_glGetQueryObjecti64vEXT, hook_glGetQueryObjecti64vEXT, (id: u32, pname: u32, params: Ptr) -> (), {
+export! { 1196, glGetQueryObjecti64vEXT, first_glGetQueryObjecti64vEXT, hook_glGetQueryObjecti64vEXT, (id: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryObjecti64v(id, pname, params) }
 } }
-export! { 1180, glGetQueryObjectui64v, first_glGetQueryObjectui64v, hook_glGetQueryObjectui64v, (id: u32, pname: u32, params: Ptr) -> (), {
+export! { 1197, glGetQueryObjectui64v, first_glGetQueryObjectui64v, hook_glGetQueryObjectui64v, (id: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryObjectui64v(id, pname, params) }
 } }
-export! { 1181, glGetQueryObjectui64vEXT, first_glGetQueryObjectui64vEXT, hook_glGetQueryObjectui64vEXT, (id: u32, pname: u32, params: Ptr) -> (), {
+export! { 1198, glGetQueryObjectui64vEXT, first_glGetQueryObjectui64vEXT, hook_glGetQueryObjectui64vEXT, (id: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryObjectui64v(id, pname, params) }
 } }
-export! { 1182, glIsEnabled, first_glIsEnabled, hook_glIsEnabled, (cap: u32) -> u8, {
+export! { 1199, glIsEnabled, first_glIsEnabled, hook_glIsEnabled, (cap: u32) -> u8, {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glIsEnabled(cap) }
 } }
-export! { 1183, glIsEnabledi, first_glIsEnabledi, hook_glIsEnabledi, (target: u32, index: u32) -> u8, {
+export! { 1200, glIsEnabledi, first_glIsEnabledi, hook_glIsEnabledi, (target: u32, index: u32) -> u8, {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glIsEnabledi(target, index) }
 } }
-export! { 1184, glIsEnabledIndexedEXT, first_glIsEnabledIndexedEXT, hook_glIsEnabledIndexedEXT, (target: u32, index: u32) -> u8, {
+export! { 1201, glIsEnabledIndexedEXT, first_glIsEnabledIndexedEXT, hook_glIsEnabledIndexedEXT, (target: u32, index: u32) -> u8, {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glIsEnabledIndexedEXT(target, index) }
 } }
-export! { 1185, glIsEnablediEXT, first_glIsEnablediEXT, hook_glIsEnablediEXT, (target: u32, index: u32) -> u8, {
+export! { 1202, glIsEnablediEXT, first_glIsEnablediEXT, hook_glIsEnablediEXT, (target: u32, index: u32) -> u8, {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glIsEnablediEXT(target, index) }
 } }
-export! { 1186, glIsEnablediNV, first_glIsEnablediNV, hook_glIsEnablediNV, (target: u32, index: u32) -> u8, {
+export! { 1203, glIsEnablediNV, first_glIsEnablediNV, hook_glIsEnablediNV, (target: u32, index: u32) -> u8, {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glIsEnablediNV(target, index) }
 } }
-export! { 1187, glIsEnablediOES, first_glIsEnablediOES, hook_glIsEnablediOES, (target: u32, index: u32) -> u8, {
+export! { 1204, glIsEnablediOES, first_glIsEnablediOES, hook_glIsEnablediOES, (target: u32, index: u32) -> u8, {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glIsEnablediOES(target, index) }
 } }
-export! { 1188, glGetTexGendv, first_glGetTexGendv, hook_glGetTexGendv, (coord: u32, pname: u32, params: Ptr) -> (), {
+export! { 1205, glGetTexGendv, first_glGetTexGendv, hook_glGetTexGendv, (coord: u32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetTexGendv(coord, pname, params) };
 } }
-export! { 1189, glGetTexGenfv, first_glGetTexGenfv, hook_glGetTexGenfv, (coord: u32, pname: u32, params: Ptr) -> (), {
+export! { 1206, glGetTexGenfv, first_glGetTexGenfv, hook_glGetTexGenfv, (coord: u32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetTexGenfv(coord, pname, params) };
 } }
-export! { 1190, glGetTexGeniv, first_glGetTexGeniv, hook_glGetTexGeniv, (coord: u32, pname: u32, params: Ptr) -> (), {
+export! { 1207, glGetTexGeniv, first_glGetTexGeniv, hook_glGetTexGeniv, (coord: u32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetTexGeniv(coord, pname, params) };
 } }
-export! { 1191, glGetTexEnvfv, first_glGetTexEnvfv, hook_glGetTexEnvfv, (target: u32, pname: u32, params: Ptr) -> (), {
+export! { 1208, glGetTexEnvfv, first_glGetTexEnvfv, hook_glGetTexEnvfv, (target: u32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetTexEnvfv(target, pname, params) };
 } }
-export! { 1192, glGetTexEnviv, first_glGetTexEnviv, hook_glGetTexEnviv, (target: u32, pname: u32, params: Ptr) -> (), {
+export! { 1209, glGetTexEnviv, first_glGetTexEnviv, hook_glGetTexEnviv, (target: u32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetTexEnviv(target, pname, params) };
 } }
-export! { 1193, glGetLightfv, first_glGetLightfv, hook_glGetLightfv, (light: u32, pname: u32, params: Ptr) -> (), {
+export! { 1210, glGetLightfv, first_glGetLightfv, hook_glGetLightfv, (light: u32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetLightfv(light, pname, params) };
 } }
-export! { 1194, glGetLightiv, first_glGetLightiv, hook_glGetLightiv, (light: u32, pname: u32, params: Ptr) -> (), {
+export! { 1211, glGetLightiv, first_glGetLightiv, hook_glGetLightiv, (light: u32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetLightiv(light, pname, params) };
 } }
-export! { 1195, glGetMaterialfv, first_glGetMaterialfv, hook_glGetMaterialfv, (face: u32, pname: u32, params: Ptr) -> (), {
+export! { 1212, glGetMaterialfv, first_glGetMaterialfv, hook_glGetMaterialfv, (face: u32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetMaterialfv(face, pname, params) };
 } }
-export! { 1196, glGetMaterialiv, first_glGetMaterialiv, hook_glGetMaterialiv, (face: u32, pname: u32, params: Ptr) -> (), {
+export! { 1213, glGetMaterialiv, first_glGetMaterialiv, hook_glGetMaterialiv, (face: u32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetMaterialiv(face, pname, params) };
 } }
-export! { 1197, glGetTexParameterfv, first_glGetTexParameterfv, hook_glGetTexParameterfv, (target: u32, pname: u32, params: Ptr) -> (), {
+export! { 1214, glGetTexParameterfv, first_glGetTexParameterfv, hook_glGetTexParameterfv, (target: u32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetTexParameterfv(target, pname, params) };
 } }
-export! { 1198, glGetTexParameteriv, first_glGetTexParameteriv, hook_glGetTexParameteriv, (target: u32, pname: u32, params: Ptr) -> (), {
+export! { 1215, glGetTexParameteriv, first_glGetTexParameteriv, hook_glGetTexParameteriv, (target: u32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetTexParameteriv(target, pname, params) };
 } }
-export! { 1199, glGetTexLevelParameterfv, first_glGetTexLevelParameterfv, hook_glGetTexLevelParameterfv, (target: u32, level: i32, pname: u32, params: Ptr) -> (), {
+export! { 1216, glGetTexLevelParameterfv, first_glGetTexLevelParameterfv, hook_glGetTexLevelParameterfv, (target: u32, level: i32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetTexLevelParameterfv(target, level, pname, params) };
 } }
-export! { 1200, glGetTexLevelParameteriv, first_glGetTexLevelParameteriv, hook_glGetTexLevelParameteriv, (target: u32, level: i32, pname: u32, params: Ptr) -> (), {
+export! { 1217, glGetTexLevelParameteriv, first_glGetTexLevelParameteriv, hook_glGetTexLevelParameteriv, (target: u32, level: i32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetTexLevelParameteriv(target, level, pname, params) };
 } }
-export! { 1201, glGetClipPlane, first_glGetClipPlane, hook_glGetClipPlane, (plane: u32, equation: Ptr) -> (), {
+export! { 1218, glGetClipPlane, first_glGetClipPlane, hook_glGetClipPlane, (plane: u32, equation: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetClipPlane(plane, equation) };
 } }
-export! { 1202, glGetMapdv, first_glGetMapdv, hook_glGetMapdv, (target: u32, query: u32, v: Ptr) -> (), {
+export! { 1219, glGetMapdv, first_glGetMapdv, hook_glGetMapdv, (target: u32, query: u32, v: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetMapdv(target, query, v) };
 } }
-export! { 1203, glGetMapfv, first_glGetMapfv, hook_glGetMapfv, (target: u32, query: u32, v: Ptr) -> (), {
+export! { 1220, glGetMapfv, first_glGetMapfv, hook_glGetMapfv, (target: u32, query: u32, v: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetMapfv(target, query, v) };
 } }
-export! { 1204, glGetMapiv, first_glGetMapiv, hook_glGetMapiv, (target: u32, query: u32, v: Ptr) -> (), {
+export! { 1221, glGetMapiv, first_glGetMapiv, hook_glGetMapiv, (target: u32, query: u32, v: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetMapiv(target, query, v) };
 } }
-export! { 1205, glGetPixelMapfv, first_glGetPixelMapfv, hook_glGetPixelMapfv, (map: u32, values: Ptr) -> (), {
+export! { 1222, glGetPixelMapfv, first_glGetPixelMapfv, hook_glGetPixelMapfv, (map: u32, values: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetPixelMapfv(map, values) };
 } }
-export! { 1206, glGetPixelMapuiv, first_glGetPixelMapuiv, hook_glGetPixelMapuiv, (map: u32, values: Ptr) -> (), {
+export! { 1223, glGetPixelMapuiv, first_glGetPixelMapuiv, hook_glGetPixelMapuiv, (map: u32, values: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetPixelMapuiv(map, values) };
 } }
-export! { 1207, glGetPixelMapusv, first_glGetPixelMapusv, hook_glGetPixelMapusv, (map: u32, values: Ptr) -> (), {
+export! { 1224, glGetPixelMapusv, first_glGetPixelMapusv, hook_glGetPixelMapusv, (map: u32, values: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetPixelMapusv(map, values) };
 } }
-export! { 1208, glGetPolygonStipple, first_glGetPolygonStipple, hook_glGetPolygonStipple, (mask: Ptr) -> (), {
+export! { 1225, glGetPolygonStipple, first_glGetPolygonStipple, hook_glGetPolygonStipple, (mask: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetPolygonStipple(mask) };
 } }
-export! { 1209, glGetTexImage, first_glGetTexImage, hook_glGetTexImage, (target: u32, level: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
-    hooks::ask();
-    let gl = hooks::real();
-    // SAFETY: the program's own call.
-    unsafe { gl.glGetTexImage(target, level, format, type_, pixels) };
-} }
-export! { 1210, glGetnTexImage, first_glGetnTexImage, hook_glGetnTexImage, (target: u32, level: i32, format: u32, type_: u32, bufSize: i32, pixels: Ptr) -> (), {
-    hooks::ask();
-    let gl = hooks::real();
-    // SAFETY: the program's own call.
-    unsafe { gl.glGetnTexImage(target, level, format, type_, bufSize, pixels) };
-} }
-export! { 1211, glGetPointerv, first_glGetPointerv, hook_glGetPointerv, (pname: u32, params: Ptr) -> (), {
+export! { 1226, glGetPointerv, first_glGetPointerv, hook_glGetPointerv, (pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetPointerv(pname, params) };
 } }
-export! { 1212, glGetPointervEXT, first_glGetPointervEXT, hook_glGetPointervEXT, (pname: u32, params: Ptr) -> (), {
+export! { 1227, glGetPointervEXT, first_glGetPointervEXT, hook_glGetPointervEXT, (pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetPointervEXT(pname, params) };
 } }
-export! { 1213, glGetPointervKHR, first_glGetPointervKHR, hook_glGetPointervKHR, (pname: u32, params: Ptr) -> (), {
+export! { 1228, glGetPointervKHR, first_glGetPointervKHR, hook_glGetPointervKHR, (pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetPointervKHR(pname, params) };
 } }
-export! { 1214, glGetIntegeri_v, first_glGetIntegeri_v, hook_glGetIntegeri_v, (target: u32, index: u32, data: Ptr) -> (), {
+export! { 1229, glGetIntegeri_v, first_glGetIntegeri_v, hook_glGetIntegeri_v, (target: u32, index: u32, data: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetIntegeri_v(target, index, data) };
 } }
-export! { 1215, glGetIntegerIndexedvEXT, first_glGetIntegerIndexedvEXT, hook_glGetIntegerIndexedvEXT, (target: u32, index: u32, data: Ptr) -> (), {
+export! { 1230, glGetIntegerIndexedvEXT, first_glGetIntegerIndexedvEXT, hook_glGetIntegerIndexedvEXT, (target: u32, index: u32, data: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetIntegerIndexedvEXT(target, index, data) };
 } }
-export! { 1216, glGetUniformfv, first_glGetUniformfv, hook_glGetUniformfv, (program: u32, location: i32, params: Ptr) -> (), {
+export! { 1231, glGetTexImage, first_glGetTexImage, hook_glGetTexImage, (target: u32, level: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
+    hooks::settle();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glGetTexImage(target, level, format, type_, pixels) };
+} }
+export! { 1232, glGetnTexImage, first_glGetnTexImage, hook_glGetnTexImage, (target: u32, level: i32, format: u32, type_: u32, bufSize: i32, pixels: Ptr) -> (), {
+    hooks::settle();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glGetnTexImage(target, level, format, type_, bufSize, pixels) };
+} }
+export! { 1233, glGetCompressedTexImage, first_glGetCompressedTexImage, hook_glGetCompressedTexImage, (target: u32, level: i32, img: Ptr) -> (), {
+    hooks::settle();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glGetCompressedTexImage(target, level, img) };
+} }
+export! { 1234, glGetCompressedTexImageARB, first_glGetCompressedTexImageARB, hook_glGetCompressedTexImageARB, (target: u32, level: i32, img: Ptr) -> (), {
+    hooks::settle();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glGetCompressedTexImageARB(target, level, img) };
+} }
+export! { 1235, glGetnCompressedTexImage, first_glGetnCompressedTexImage, hook_glGetnCompressedTexImage, (target: u32, lod: i32, bufSize: i32, pixels: Ptr) -> (), {
+    hooks::settle();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glGetnCompressedTexImage(target, lod, bufSize, pixels) };
+} }
+export! { 1236, glGetUniformfv, first_glGetUniformfv, hook_glGetUniformfv, (program: u32, location: i32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetUniformfv(program, location, params) };
 } }
-export! { 1217, glGetUniformfvARB, first_glGetUniformfvARB, hook_glGetUniformfvARB, (programObj: u32, location: i32, params: Ptr) -> (), {
+export! { 1237, glGetUniformfvARB, first_glGetUniformfvARB, hook_glGetUniformfvARB, (programObj: u32, location: i32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetUniformfvARB(programObj, location, params) };
 } }
-export! { 1218, glGetUniformiv, first_glGetUniformiv, hook_glGetUniformiv, (program: u32, location: i32, params: Ptr) -> (), {
+export! { 1238, glGetUniformiv, first_glGetUniformiv, hook_glGetUniformiv, (program: u32, location: i32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetUniformiv(program, location, params) };
 } }
-export! { 1219, glGetUniformivARB, first_glGetUniformivARB, hook_glGetUniformivARB, (programObj: u32, location: i32, params: Ptr) -> (), {
+export! { 1239, glGetUniformivARB, first_glGetUniformivARB, hook_glGetUniformivARB, (programObj: u32, location: i32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetUniformivARB(programObj, location, params) };
 } }
-export! { 1220, glGetVertexAttribdv, first_glGetVertexAttribdv, hook_glGetVertexAttribdv, (index: u32, pname: u32, params: Ptr) -> (), {
+export! { 1240, glGetVertexAttribdv, first_glGetVertexAttribdv, hook_glGetVertexAttribdv, (index: u32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribdv(index, pname, params) };
 } }
-export! { 1221, glGetVertexAttribdvARB, first_glGetVertexAttribdvARB, hook_glGetVertexAttribdvARB, (index: u32, pname: u32, params: Ptr) -> (), {
+export! { 1241, glGetVertexAttribdvARB, first_glGetVertexAttribdvARB, hook_glGetVertexAttribdvARB, (index: u32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribdvARB(index, pname, params) };
 } }
-export! { 1222, glGetVertexAttribdvNV, first_glGetVertexAttribdvNV, hook_glGetVertexAttribdvNV, (index: u32, pname: u32, params: Ptr) -> (), {
+export! { 1242, glGetVertexAttribdvNV, first_glGetVertexAttribdvNV, hook_glGetVertexAttribdvNV, (index: u32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribdvNV(index, pname, params) };
 } }
-export! { 1223, glGetVertexAttribfv, first_glGetVertexAttribfv, hook_glGetVertexAttribfv, (index: u32, pname: u32, params: Ptr) -> (), {
+export! { 1243, glGetVertexAttribfv, first_glGetVertexAttribfv, hook_glGetVertexAttribfv, (index: u32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribfv(index, pname, params) };
 } }
-export! { 1224, glGetVertexAttribfvARB, first_glGetVertexAttribfvARB, hook_glGetVertexAttribfvARB, (index: u32, pname: u32, params: Ptr) -> (), {
+export! { 1244, glGetVertexAttribfvARB, first_glGetVertexAttribfvARB, hook_glGetVertexAttribfvARB, (index: u32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribfvARB(index, pname, params) };
 } }
-export! { 1225, glGetVertexAttribfvNV, first_glGetVertexAttribfvNV, hook_glGetVertexAttribfvNV, (index: u32, pname: u32, params: Ptr) -> (), {
+export! { 1245, glGetVertexAttribfvNV, first_glGetVertexAttribfvNV, hook_glGetVertexAttribfvNV, (index: u32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribfvNV(index, pname, params) };
 } }
-export! { 1226, glGetVertexAttribiv, first_glGetVertexAttribiv, hook_glGetVertexAttribiv, (index: u32, pname: u32, params: Ptr) -> (), {
+export! { 1246, glGetVertexAttribiv, first_glGetVertexAttribiv, hook_glGetVertexAttribiv, (index: u32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribiv(index, pname, params) };
 } }
-export! { 1227, glGetVertexAttribivARB, first_glGetVertexAttribivARB, hook_glGetVertexAttribivARB, (index: u32, pname: u32, params: Ptr) -> (), {
+export! { 1247, glGetVertexAttribivARB, first_glGetVertexAttribivARB, hook_glGetVertexAttribivARB, (index: u32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribivARB(index, pname, params) };
 } }
-export! { 1228, glGetVertexAttribivNV, first_glGetVertexAttribivNV, hook_glGetVertexAttribivNV, (index: u32, pname: u32, params: Ptr) -> (), {
+export! { 1248, glGetVertexAttribivNV, first_glGetVertexAttribivNV, hook_glGetVertexAttribivNV, (index: u32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribivNV(index, pname, params) };
 } }
-export! { 1229, glGetVertexAttribPointerv, first_glGetVertexAttribPointerv, hook_glGetVertexAttribPointerv, (index: u32, pname: u32, pointer: Ptr) -> (), {
+export! { 1249, glGetVertexAttribPointerv, first_glGetVertexAttribPointerv, hook_glGetVertexAttribPointerv, (index: u32, pname: u32, pointer: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribPointerv(index, pname, pointer) };
 } }
-export! { 1230, glGetVertexAttribPointervARB, first_glGetVertexAttribPointervARB, hook_glGetVertexAttribPointervARB, (index: u32, pname: u32, pointer: Ptr) -> (), {
+export! { 1250, glGetVertexAttribPointervARB, first_glGetVertexAttribPointervARB, hook_glGetVertexAttribPointervARB, (index: u32, pname: u32, pointer: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribPointervARB(index, pname, pointer) };
 } }
-export! { 1231, glGetVertexAttribPointervNV, first_glGetVertexAttribPointervNV, hook_glGetVertexAttribPointervNV, (index: u32, pname: u32, pointer: Ptr) -> (), {
+export! { 1251, glGetVertexAttribPointervNV, first_glGetVertexAttribPointervNV, hook_glGetVertexAttribPointervNV, (index: u32, pname: u32, pointer: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribPointervNV(index, pname, pointer) };
 } }
-export! { 1232, glFeedbackBuffer, first_glFeedbackBuffer, hook_glFeedbackBuffer, (size: i32, type_: u32, buffer: Ptr) -> (), {
+export! { 1252, glFeedbackBuffer, first_glFeedbackBuffer, hook_glFeedbackBuffer, (size: i32, type_: u32, buffer: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glFeedbackBuffer(size, type_, buffer) };
 } }
-export! { 1233, glSelectBuffer, first_glSelectBuffer, hook_glSelectBuffer, (size: i32, buffer: Ptr) -> (), {
+export! { 1253, glSelectBuffer, first_glSelectBuffer, hook_glSelectBuffer, (size: i32, buffer: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glSelectBuffer(size, buffer) };
 } }
-export! { 1234, glGenTextures, first_glGenTextures, hook_glGenTextures, (n: i32, textures: Ptr) -> (), {
+export! { 1254, glGenTextures, first_glGenTextures, hook_glGenTextures, (n: i32, textures: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGenTextures(n, textures) };
 } }
-export! { 1235, glGenFramebuffers, first_glGenFramebuffers, hook_glGenFramebuffers, (n: i32, framebuffers: Ptr) -> (), {
+export! { 1255, glGenFramebuffers, first_glGenFramebuffers, hook_glGenFramebuffers, (n: i32, framebuffers: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGenFramebuffers(n, framebuffers) };
 } }
-export! { 1236, glGenFramebuffersEXT, first_glGenFramebuffersEXT, hook_glGenFramebuffersEXT, (n: i32, framebuffers: Ptr) -> (), {
+export! { 1256, glGenFramebuffersEXT, first_glGenFramebuffersEXT, hook_glGenFramebuffersEXT, (n: i32, framebuffers: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGenFramebuffersEXT(n, framebuffers) };
 } }
-export! { 1237, glGenRenderbuffers, first_glGenRenderbuffers, hook_glGenRenderbuffers, (n: i32, renderbuffers: Ptr) -> (), {
+export! { 1257, glGenRenderbuffers, first_glGenRenderbuffers, hook_glGenRenderbuffers, (n: i32, renderbuffers: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGenRenderbuffers(n, renderbuffers) };
 } }
-export! { 1238, glGenRenderbuffersEXT, first_glGenRenderbuffersEXT, hook_glGenRenderbuffersEXT, (n: i32, renderbuffers: Ptr) -> (), {
+export! { 1258, glGenRenderbuffersEXT, first_glGenRenderbuffersEXT, hook_glGenRenderbuffersEXT, (n: i32, renderbuffers: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGenRenderbuffersEXT(n, renderbuffers) };
 } }
-export! { 1239, glBindRenderbuffer, first_glBindRenderbuffer, hook_glBindRenderbuffer, (target: u32, renderbuffer: u32) -> (), {
+export! { 1259, glBindRenderbuffer, first_glBindRenderbuffer, hook_glBindRenderbuffer, (target: u32, renderbuffer: u32) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBindRenderbuffer(target, renderbuffer) };
 } }
-export! { 1240, glRenderbufferStorage, first_glRenderbufferStorage, hook_glRenderbufferStorage, (target: u32, internalformat: u32, width: i32, height: i32) -> (), {
+export! { 1260, glRenderbufferStorage, first_glRenderbufferStorage, hook_glRenderbufferStorage, (target: u32, internalformat: u32, width: i32, height: i32) -> (), {
     hooks::storage();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glRenderbufferStorage(target, internalformat, width, height) };
 } }
-export! { 1241, glRenderbufferStorageEXT, first_glRenderbufferStorageEXT, hook_glRenderbufferStorageEXT, (target: u32, internalformat: u32, width: i32, height: i32) -> (), {
+export! { 1261, glRenderbufferStorageEXT, first_glRenderbufferStorageEXT, hook_glRenderbufferStorageEXT, (target: u32, internalformat: u32, width: i32, height: i32) -> (), {
     hooks::storage();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glRenderbufferStorageEXT(target, internalformat, width, height) };
 } }
-export! { 1242, glRenderbufferStorageMultisample, first_glRenderbufferStorageMultisample, hook_glRenderbufferStorageMultisample, (target: u32, samples: i32, internalformat: u32, width: i32, height: i32) -> (), {
+export! { 1262, glRenderbufferStorageMultisample, first_glRenderbufferStorageMultisample, hook_glRenderbufferStorageMultisample, (target: u32, samples: i32, internalformat: u32, width: i32, height: i32) -> (), {
     hooks::storage();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glRenderbufferStorageMultisample(target, samples, internalformat, width, height) };
 } }
-export! { 1243, glRenderbufferStorageMultisampleEXT, first_glRenderbufferStorageMultisampleEXT, hook_glRenderbufferStorageMultisampleEXT, (target: u32, samples: i32, internalformat: u32, width: i32, height: i32) -> (), {
+export! { 1263, glRenderbufferStorageMultisampleEXT, first_glRenderbufferStorageMultisampleEXT, hook_glRenderbufferStorageMultisampleEXT, (target: u32, samples: i32, internalformat: u32, width: i32, height: i32) -> (), {
     hooks::storage();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glRenderbufferStorageMultisampleEXT(target, samples, internalformat, width, height) };
 } }
-export! { 1244, glRenderbufferStorageMultisampleNV, first_glRenderbufferStorageMultisampleNV, hook_glRenderbufferStorageMultisampleNV, (target: u32, samples: i32, internalformat: u32, width: i32, height: i32) -> (), {
+export! { 1264, glRenderbufferStorageMultisampleNV, first_glRenderbufferStorageMultisampleNV, hook_glRenderbufferStorageMultisampleNV, (target: u32, samples: i32, internalformat: u32, width: i32, height: i32) -> (), {
     hooks::storage();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glRenderbufferStorageMultisampleNV(target, samples, internalformat, width, height) };
 } }
-export! { 1245, glDeleteRenderbuffers, first_glDeleteRenderbuffers, hook_glDeleteRenderbuffers, (n: i32, renderbuffers: Ptr) -> (), {
+export! { 1265, glDeleteRenderbuffers, first_glDeleteRenderbuffers, hook_glDeleteRenderbuffers, (n: i32, renderbuffers: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDeleteRenderbuffers(n, renderbuffers) }
 } }
-export! { 1246, glDeleteRenderbuffersEXT, first_glDeleteRenderbuffersEXT, hook_glDeleteRenderbuffersEXT, (n: i32, renderbuffers: Ptr) -> (), {
+export! { 1266, glDeleteRenderbuffersEXT, first_glDeleteRenderbuffersEXT, hook_glDeleteRenderbuffersEXT, (n: i32, renderbuffers: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDeleteRenderbuffers(n, renderbuffers) }
 } }
-export! { 1247, glBindBuffer, first_glBindBuffer, hook_glBindBuffer, (target: u32, buffer: u32) -> (), {
+export! { 1267, glBindBuffer, first_glBindBuffer, hook_glBindBuffer, (target: u32, buffer: u32) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBindBuffer(target, buffer) };
 } }
-export! { 1248, glBindBufferARB, first_glBindBufferARB, hook_glBindBufferARB, (target: u32, buffer: u32) -> (), {
+export! { 1268, glBindBufferARB, first_glBindBufferARB, hook_glBindBufferARB, (target: u32, buffer: u32) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBindBufferARB(target, buffer) };
 } }
-export! { 1249, glBufferData, first_glBufferData, hook_glBufferData, (target: u32, size: isize, data: Ptr, usage: u32) -> (), {
+export! { 1269, glBufferData, first_glBufferData, hook_glBufferData, (target: u32, size: isize, data: Ptr, usage: u32) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBufferData(target, size, data, usage) };
 } }
-export! { 1250, glBufferDataARB, first_glBufferDataARB, hook_glBufferDataARB, (target: u32, size: isize, data: Ptr, usage: u32) -> (), {
+export! { 1270, glBufferDataARB, first_glBufferDataARB, hook_glBufferDataARB, (target: u32, size: isize, data: Ptr, usage: u32) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBufferDataARB(target, size, data, usage) };
 } }
-export! { 1251, glBufferSubData, first_glBufferSubData, hook_glBufferSubData, (target: u32, offset: isize, size: isize, data: Ptr) -> (), {
+export! { 1271, glBufferSubData, first_glBufferSubData, hook_glBufferSubData, (target: u32, offset: isize, size: isize, data: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBufferSubData(target, offset, size, data) };
 } }
-export! { 1252, glBufferSubDataARB, first_glBufferSubDataARB, hook_glBufferSubDataARB, (target: u32, offset: isize, size: isize, data: Ptr) -> (), {
+export! { 1272, glBufferSubDataARB, first_glBufferSubDataARB, hook_glBufferSubDataARB, (target: u32, offset: isize, size: isize, data: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBufferSubDataARB(target, offset, size, data) };
 } }
-export! { 1253, glDeleteBuffers, first_glDeleteBuffers, hook_glDeleteBuffers, (n: i32, buffers: Ptr) -> (), {
+export! { 1273, glDeleteBuffers, first_glDeleteBuffers, hook_glDeleteBuffers, (n: i32, buffers: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glDeleteBuffers(n, buffers) };
 } }
-export! { 1254, glDeleteBuffersARB, first_glDeleteBuffersARB, hook_glDeleteBuffersARB, (n: i32, buffers: Ptr) -> (), {
+export! { 1274, glDeleteBuffersARB, first_glDeleteBuffersARB, hook_glDeleteBuffersARB, (n: i32, buffers: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glDeleteBuffersARB(n, buffers) };
 } }
-export! { 1255, glPixelStoref, first_glPixelStoref, hook_glPixelStoref, (pname: u32, param: f32) -> (), {
+export! { 1275, glPixelStoref, first_glPixelStoref, hook_glPixelStoref, (pname: u32, param: f32) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPixelStoref(pname, param) };
 } }
-export! { 1256, glPixelStorei, first_glPixelStorei, hook_glPixelStorei, (pname: u32, param: i32) -> (), {
+export! { 1276, glPixelStorei, first_glPixelStorei, hook_glPixelStorei, (pname: u32, param: i32) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPixelStorei(pname, param) };
 } }
-export! { 1257, glPushClientAttrib, first_glPushClientAttrib, hook_glPushClientAttrib, (mask: u32) -> (), {
+export! { 1277, glPushClientAttrib, first_glPushClientAttrib, hook_glPushClientAttrib, (mask: u32) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPushClientAttrib(mask) };
 } }
-export! { 1258, glPopClientAttrib, first_glPopClientAttrib, hook_glPopClientAttrib, () -> (), {
+export! { 1278, glPopClientAttrib, first_glPopClientAttrib, hook_glPopClientAttrib, () -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPopClientAttrib() };
 } }
-export! { 1259, glEnableClientState, first_glEnableClientState, hook_glEnableClientState, (array: u32) -> (), {
+export! { 1279, glEnableClientState, first_glEnableClientState, hook_glEnableClientState, (array: u32) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glEnableClientState(array) };
 } }
-export! { 1260, glDisableClientState, first_glDisableClientState, hook_glDisableClientState, (array: u32) -> (), {
+export! { 1280, glDisableClientState, first_glDisableClientState, hook_glDisableClientState, (array: u32) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glDisableClientState(array) };
 } }
-export! { 1261, glClientActiveTexture, first_glClientActiveTexture, hook_glClientActiveTexture, (texture: u32) -> (), {
+export! { 1281, glClientActiveTexture, first_glClientActiveTexture, hook_glClientActiveTexture, (texture: u32) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glClientActiveTexture(texture) };
 } }
-export! { 1262, glClientActiveTextureARB, first_glClientActiveTextureARB, hook_glClientActiveTextureARB, (texture: u32) -> (), {
+export! { 1282, glClientActiveTextureARB, first_glClientActiveTextureARB, hook_glClientActiveTextureARB, (texture: u32) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glClientActiveTextureARB(texture) };
 } }
-export! { 1263, glInterleavedArrays, first_glInterleavedArrays, hook_glInterleavedArrays, (format: u32, stride: i32, pointer: Ptr) -> (), {
+export! { 1283, glInterleavedArrays, first_glInterleavedArrays, hook_glInterleavedArrays, (format: u32, stride: i32, pointer: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glInterleavedArrays(format, stride, pointer) };
 } }
-export! { 1264, glColorPointer, first_glColorPointer, hook_glColorPointer, (size: i32, type_: u32, stride: i32, pointer: Ptr) -> (), {
+export! { 1284, glColorPointer, first_glColorPointer, hook_glColorPointer, (size: i32, type_: u32, stride: i32, pointer: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glColorPointer(size, type_, stride, pointer) };
 } }
-export! { 1265, glSecondaryColorPointer, first_glSecondaryColorPointer, hook_glSecondaryColorPointer, (size: i32, type_: u32, stride: i32, pointer: Ptr) -> (), {
+export! { 1285, glSecondaryColorPointer, first_glSecondaryColorPointer, hook_glSecondaryColorPointer, (size: i32, type_: u32, stride: i32, pointer: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glSecondaryColorPointer(size, type_, stride, pointer) };
 } }
-export! { 1266, glSecondaryColorPointerEXT, first_glSecondaryColorPointerEXT, hook_glSecondaryColorPointerEXT, (size: i32, type_: u32, stride: i32, pointer: Ptr) -> (), {
+export! { 1286, glSecondaryColorPointerEXT, first_glSecondaryColorPointerEXT, hook_glSecondaryColorPointerEXT, (size: i32, type_: u32, stride: i32, pointer: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glSecondaryColorPointerEXT(size, type_, stride, pointer) };
 } }
-export! { 1267, glTexCoordPointer, first_glTexCoordPointer, hook_glTexCoordPointer, (size: i32, type_: u32, stride: i32, pointer: Ptr) -> (), {
+export! { 1287, glTexCoordPointer, first_glTexCoordPointer, hook_glTexCoordPointer, (size: i32, type_: u32, stride: i32, pointer: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexCoordPointer(size, type_, stride, pointer) };
 } }
-export! { 1268, glVertexPointer, first_glVertexPointer, hook_glVertexPointer, (size: i32, type_: u32, stride: i32, pointer: Ptr) -> (), {
+export! { 1288, glVertexPointer, first_glVertexPointer, hook_glVertexPointer, (size: i32, type_: u32, stride: i32, pointer: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glVertexPointer(size, type_, stride, pointer) };
 } }
-export! { 1269, glEdgeFlagPointer, first_glEdgeFlagPointer, hook_glEdgeFlagPointer, (stride: i32, pointer: Ptr) -> (), {
+export! { 1289, glEdgeFlagPointer, first_glEdgeFlagPointer, hook_glEdgeFlagPointer, (stride: i32, pointer: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glEdgeFlagPointer(stride, pointer) };
 } }
-export! { 1270, glFogCoordPointer, first_glFogCoordPointer, hook_glFogCoordPointer, (type_: u32, stride: i32, pointer: Ptr) -> (), {
+export! { 1290, glFogCoordPointer, first_glFogCoordPointer, hook_glFogCoordPointer, (type_: u32, stride: i32, pointer: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glFogCoordPointer(type_, stride, pointer) };
 } }
-export! { 1271, glFogCoordPointerEXT, first_glFogCoordPointerEXT, hook_glFogCoordPointerEXT, (type_: u32, stride: i32, pointer: Ptr) -> (), {
+export! { 1291, glFogCoordPointerEXT, first_glFogCoordPointerEXT, hook_glFogCoordPointerEXT, (type_: u32, stride: i32, pointer: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glFogCoordPointerEXT(type_, stride, pointer) };
 } }
-export! { 1272, glIndexPointer, first_glIndexPointer, hook_glIndexPointer, (type_: u32, stride: i32, pointer: Ptr) -> (), {
+export! { 1292, glIndexPointer, first_glIndexPointer, hook_glIndexPointer, (type_: u32, stride: i32, pointer: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glIndexPointer(type_, stride, pointer) };
 } }
-export! { 1273, glNormalPointer, first_glNormalPointer, hook_glNormalPointer, (type_: u32, stride: i32, pointer: Ptr) -> (), {
+export! { 1293, glNormalPointer, first_glNormalPointer, hook_glNormalPointer, (type_: u32, stride: i32, pointer: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glNormalPointer(type_, stride, pointer) };
 } }
-export! { 1274, glVertexAttribPointer, first_glVertexAttribPointer, hook_glVertexAttribPointer, (index: u32, size: i32, type_: u32, normalized: u8, stride: i32, pointer: Ptr) -> (), {
+export! { 1294, glVertexAttribPointer, first_glVertexAttribPointer, hook_glVertexAttribPointer, (index: u32, size: i32, type_: u32, normalized: u8, stride: i32, pointer: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glVertexAttribPointer(index, size, type_, normalized, stride, pointer) };
 } }
-export! { 1275, glVertexAttribPointerARB, first_glVertexAttribPointerARB, hook_glVertexAttribPointerARB, (index: u32, size: i32, type_: u32, normalized: u8, stride: i32, pointer: Ptr) -> (), {
+export! { 1295, glVertexAttribPointerARB, first_glVertexAttribPointerARB, hook_glVertexAttribPointerARB, (index: u32, size: i32, type_: u32, normalized: u8, stride: i32, pointer: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glVertexAttribPointerARB(index, size, type_, normalized, stride, pointer) };
 } }
-export! { 1276, glEnableVertexAttribArray, first_glEnableVertexAttribArray, hook_glEnableVertexAttribArray, (index: u32) -> (), {
+export! { 1296, glEnableVertexAttribArray, first_glEnableVertexAttribArray, hook_glEnableVertexAttribArray, (index: u32) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glEnableVertexAttribArray(index) };
 } }
-export! { 1277, glEnableVertexAttribArrayARB, first_glEnableVertexAttribArrayARB, hook_glEnableVertexAttribArrayARB, (index: u32) -> (), {
+export! { 1297, glEnableVertexAttribArrayARB, first_glEnableVertexAttribArrayARB, hook_glEnableVertexAttribArrayARB, (index: u32) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glEnableVertexAttribArrayARB(index) };
 } }
-export! { 1278, glDisableVertexAttribArray, first_glDisableVertexAttribArray, hook_glDisableVertexAttribArray, (index: u32) -> (), {
+export! { 1298, glDisableVertexAttribArray, first_glDisableVertexAttribArray, hook_glDisableVertexAttribArray, (index: u32) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glDisableVertexAttribArray(index) };
 } }
-export! { 1279, glDisableVertexAttribArrayARB, first_glDisableVertexAttribArrayARB, hook_glDisableVertexAttribArrayARB, (index: u32) -> (), {
+export! { 1299, glDisableVertexAttribArrayARB, first_glDisableVertexAttribArrayARB, hook_glDisableVertexAttribArrayARB, (index: u32) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glDisableVertexAttribArrayARB(index) };
 } }
-export! { 1280, glXChooseVisual, first_glXChooseVisual, hook_glXChooseVisual, (dpy: Ptr, screen: i32, attribs: Ptr) -> Ptr, {
+export! { 1300, glXChooseVisual, first_glXChooseVisual, hook_glXChooseVisual, (dpy: Ptr, screen: i32, attribs: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXChooseVisual(dpy, screen, attribs) }
 } }
-export! { 1281, glXChooseFBConfig, first_glXChooseFBConfig, hook_glXChooseFBConfig, (dpy: Ptr, screen: i32, attribs: Ptr, count: Ptr) -> Ptr, {
+export! { 1301, glXChooseFBConfig, first_glXChooseFBConfig, hook_glXChooseFBConfig, (dpy: Ptr, screen: i32, attribs: Ptr, count: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXChooseFBConfig(dpy, screen, attribs, count) }
 } }
-export! { 1282, glXChooseFBConfigSGIX, first_glXChooseFBConfigSGIX, hook_glXChooseFBConfigSGIX, (dpy: Ptr, screen: i32, attribs: Ptr, count: Ptr) -> Ptr, {
+export! { 1302, glXChooseFBConfigSGIX, first_glXChooseFBConfigSGIX, hook_glXChooseFBConfigSGIX, (dpy: Ptr, screen: i32, attribs: Ptr, count: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXChooseFBConfigSGIX(dpy, screen, attribs, count) }
 } }
-export! { 1283, glXSwapBuffers, first_glXSwapBuffers, hook_glXSwapBuffers, (dpy: Ptr, drawable: c_ulong) -> (), {
+export! { 1303, glXSwapBuffers, first_glXSwapBuffers, hook_glXSwapBuffers, (dpy: Ptr, drawable: c_ulong) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glXSwapBuffers(dpy, drawable) }
 } }
-export! { 1284, glXSwapBuffersMscOML, first_glXSwapBuffersMscOML, hook_glXSwapBuffersMscOML, (dpy: Ptr, drawable: c_ulong, target_msc: i64, divisor: i64, remainder: i64) -> i64, {
+export! { 1304, glXSwapBuffersMscOML, first_glXSwapBuffersMscOML, hook_glXSwapBuffersMscOML, (dpy: Ptr, drawable: c_ulong, target_msc: i64, divisor: i64, remainder: i64) -> i64, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXSwapBuffersMscOML(dpy, drawable, target_msc, divisor, remainder) }
 } }
-export! { 1285, glXMakeCurrent, first_glXMakeCurrent, hook_glXMakeCurrent, (dpy: Ptr, drawable: c_ulong, ctx: Ptr) -> i32, {
+export! { 1305, glXMakeCurrent, first_glXMakeCurrent, hook_glXMakeCurrent, (dpy: Ptr, drawable: c_ulong, ctx: Ptr) -> i32, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXMakeCurrent(dpy, drawable, ctx) }
 } }
-export! { 1286, glXMakeContextCurrent, first_glXMakeContextCurrent, hook_glXMakeContextCurrent, (dpy: Ptr, draw: c_ulong, read: c_ulong, ctx: Ptr) -> i32, {
+export! { 1306, glXMakeContextCurrent, first_glXMakeContextCurrent, hook_glXMakeContextCurrent, (dpy: Ptr, draw: c_ulong, read: c_ulong, ctx: Ptr) -> i32, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXMakeContextCurrent(dpy, draw, read, ctx) }
 } }
-export! { 1287, glXMakeCurrentReadSGI, first_glXMakeCurrentReadSGI, hook_glXMakeCurrentReadSGI, (dpy: Ptr, draw: c_ulong, read: c_ulong, ctx: Ptr) -> i32, {
+export! { 1307, glXMakeCurrentReadSGI, first_glXMakeCurrentReadSGI, hook_glXMakeCurrentReadSGI, (dpy: Ptr, draw: c_ulong, read: c_ulong, ctx: Ptr) -> i32, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXMakeCurrentReadSGI(dpy, draw, read, ctx) }
 } }
-export! { 1288, glXCreateContext, first_glXCreateContext, hook_glXCreateContext, (dpy: Ptr, vis: Ptr, share: Ptr, direct: i32) -> Ptr, {
+export! { 1308, glXCreateContext, first_glXCreateContext, hook_glXCreateContext, (dpy: Ptr, vis: Ptr, share: Ptr, direct: i32) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXCreateContext(dpy, vis, share, direct) }
 } }
-export! { 1289, glXCreateNewContext, first_glXCreateNewContext, hook_glXCreateNewContext, (dpy: Ptr, config: Ptr, kind: i32, share: Ptr, direct: i32) -> Ptr, {
+export! { 1309, glXCreateNewContext, first_glXCreateNewContext, hook_glXCreateNewContext, (dpy: Ptr, config: Ptr, kind: i32, share: Ptr, direct: i32) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXCreateNewContext(dpy, config, kind, share, direct) }
 } }
-export! { 1290, glXCreateContextAttribsARB, first_glXCreateContextAttribsARB, hook_glXCreateContextAttribsARB, (dpy: Ptr, config: Ptr, share: Ptr, direct: i32, attribs: Ptr) -> Ptr, {
+export! { 1310, glXCreateContextAttribsARB, first_glXCreateContextAttribsARB, hook_glXCreateContextAttribsARB, (dpy: Ptr, config: Ptr, share: Ptr, direct: i32, attribs: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXCreateContextAttribsARB(dpy, config, share, direct, attribs) }
 } }
-export! { 1291, glXCreateContextWithConfigSGIX, first_glXCreateContextWithConfigSGIX, hook_glXCreateContextWithConfigSGIX, (dpy: Ptr, config: Ptr, kind: i32, share: Ptr, direct: i32) -> Ptr, {
+export! { 1311, glXCreateContextWithConfigSGIX, first_glXCreateContextWithConfigSGIX, hook_glXCreateContextWithConfigSGIX, (dpy: Ptr, config: Ptr, kind: i32, share: Ptr, direct: i32) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXCreateContextWithConfigSGIX(dpy, config, kind, share, direct) }
 } }
-export! { 1292, glXDestroyContext, first_glXDestroyContext, hook_glXDestroyContext, (dpy: Ptr, ctx: Ptr) -> (), {
+export! { 1312, glXDestroyContext, first_glXDestroyContext, hook_glXDestroyContext, (dpy: Ptr, ctx: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glXDestroyContext(dpy, ctx) }
 } }
-export! { 1293, glXCreateWindow, first_glXCreateWindow, hook_glXCreateWindow, (dpy: Ptr, config: Ptr, win: c_ulong, attribs: Ptr) -> c_ulong, {
+export! { 1313, glXCreateWindow, first_glXCreateWindow, hook_glXCreateWindow, (dpy: Ptr, config: Ptr, win: c_ulong, attribs: Ptr) -> c_ulong, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXCreateWindow(dpy, config, win, attribs) }
 } }
-export! { 1294, glXDestroyWindow, first_glXDestroyWindow, hook_glXDestroyWindow, (dpy: Ptr, win: c_ulong) -> (), {
+export! { 1314, glXDestroyWindow, first_glXDestroyWindow, hook_glXDestroyWindow, (dpy: Ptr, win: c_ulong) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glXDestroyWindow(dpy, win) }
 } }
-export! { 1295, glXGetProcAddress, first_glXGetProcAddress, hook_glXGetProcAddress, (name: Ptr) -> Ptr, {
+export! { 1315, glXGetProcAddress, first_glXGetProcAddress, hook_glXGetProcAddress, (name: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXGetProcAddress(name) }
 } }
-export! { 1296, glXGetProcAddressARB, first_glXGetProcAddressARB, hook_glXGetProcAddressARB, (name: Ptr) -> Ptr, {
+export! { 1316, glXGetProcAddressARB, first_glXGetProcAddressARB, hook_glXGetProcAddressARB, (name: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXGetProcAddressARB(name) }
 } }
-export! { 1298, eglSwapBuffers, first_eglSwapBuffers, hook_eglSwapBuffers, (dpy: Ptr, surface: Ptr) -> u32, {
+export! { 1318, eglSwapBuffers, first_eglSwapBuffers, hook_eglSwapBuffers, (dpy: Ptr, surface: Ptr) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglSwapBuffers(dpy, surface) }
 } }
-export! { 1299, eglSwapBuffersWithDamageKHR, first_eglSwapBuffersWithDamageKHR, hook_eglSwapBuffersWithDamageKHR, (dpy: Ptr, surface: Ptr, rects: Ptr, n: i32) -> u32, {
+export! { 1319, eglSwapBuffersWithDamageKHR, first_eglSwapBuffersWithDamageKHR, hook_eglSwapBuffersWithDamageKHR, (dpy: Ptr, surface: Ptr, rects: Ptr, n: i32) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglSwapBuffersWithDamageKHR(dpy, surface, rects, n) }
 } }
-export! { 1300, eglSwapBuffersWithDamageEXT, first_eglSwapBuffersWithDamageEXT, hook_eglSwapBuffersWithDamageEXT, (dpy: Ptr, surface: Ptr, rects: Ptr, n: i32) -> u32, {
+export! { 1320, eglSwapBuffersWithDamageEXT, first_eglSwapBuffersWithDamageEXT, hook_eglSwapBuffersWithDamageEXT, (dpy: Ptr, surface: Ptr, rects: Ptr, n: i32) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglSwapBuffersWithDamageEXT(dpy, surface, rects, n) }
 } }
-export! { 1301, eglMakeCurrent, first_eglMakeCurrent, hook_eglMakeCurrent, (dpy: Ptr, draw: Ptr, read: Ptr, ctx: Ptr) -> u32, {
+export! { 1321, eglMakeCurrent, first_eglMakeCurrent, hook_eglMakeCurrent, (dpy: Ptr, draw: Ptr, read: Ptr, ctx: Ptr) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglMakeCurrent(dpy, draw, read, ctx) }
 } }
-export! { 1302, eglCreateContext, first_eglCreateContext, hook_eglCreateContext, (dpy: Ptr, config: Ptr, share: Ptr, attribs: Ptr) -> Ptr, {
+export! { 1322, eglCreateContext, first_eglCreateContext, hook_eglCreateContext, (dpy: Ptr, config: Ptr, share: Ptr, attribs: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglCreateContext(dpy, config, share, attribs) }
 } }
-export! { 1303, eglDestroyContext, first_eglDestroyContext, hook_eglDestroyContext, (dpy: Ptr, ctx: Ptr) -> u32, {
+export! { 1323, eglDestroyContext, first_eglDestroyContext, hook_eglDestroyContext, (dpy: Ptr, ctx: Ptr) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglDestroyContext(dpy, ctx) }
 } }
-export! { 1304, eglReleaseThread, first_eglReleaseThread, hook_eglReleaseThread, () -> u32, {
+export! { 1324, eglReleaseThread, first_eglReleaseThread, hook_eglReleaseThread, () -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglReleaseThread() }
 } }
-export! { 1305, eglGetDisplay, first_eglGetDisplay, hook_eglGetDisplay, (native: Ptr) -> Ptr, {
+export! { 1325, eglGetDisplay, first_eglGetDisplay, hook_eglGetDisplay, (native: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglGetDisplay(native) }
 } }
-export! { 1306, eglGetPlatformDisplay, first_eglGetPlatformDisplay, hook_eglGetPlatformDisplay, (platform: u32, native: Ptr, attribs: Ptr) -> Ptr, {
+export! { 1326, eglGetPlatformDisplay, first_eglGetPlatformDisplay, hook_eglGetPlatformDisplay, (platform: u32, native: Ptr, attribs: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglGetPlatformDisplay(platform, native, attribs) }
 } }
-export! { 1307, eglGetPlatformDisplayEXT, first_eglGetPlatformDisplayEXT, hook_eglGetPlatformDisplayEXT, (platform: u32, native: Ptr, attribs: Ptr) -> Ptr, {
+export! { 1327, eglGetPlatformDisplayEXT, first_eglGetPlatformDisplayEXT, hook_eglGetPlatformDisplayEXT, (platform: u32, native: Ptr, attribs: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglGetPlatformDisplayEXT(platform, native, attribs) }
 } }
-export! { 1308, eglCreateWindowSurface, first_eglCreateWindowSurface, hook_eglCreateWindowSurface, (dpy: Ptr, config: Ptr, win: Ptr, attribs: Ptr) -> Ptr, {
+export! { 1328, eglCreateWindowSurface, first_eglCreateWindowSurface, hook_eglCreateWindowSurface, (dpy: Ptr, config: Ptr, win: Ptr, attribs: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglCreateWindowSurface(dpy, config, win, attribs) }
 } }
-export! { 1309, eglCreatePlatformWindowSurface, first_eglCreatePlatformWindowSurface, hook_eglCreatePlatformWindowSurface, (dpy: Ptr, config: Ptr, win: Ptr, attribs: Ptr) -> Ptr, {
+export! { 1329, eglCreatePlatformWindowSurface, first_eglCreatePlatformWindowSurface, hook_eglCreatePlatformWindowSurface, (dpy: Ptr, config: Ptr, win: Ptr, attribs: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglCreatePlatformWindowSurface(dpy, config, win, attribs) }
 } }
-export! { 1310, eglCreatePlatformWindowSurfaceEXT, first_eglCreatePlatformWindowSurfaceEXT, hook_eglCreatePlatformWindowSurfaceEXT, (dpy: Ptr, config: Ptr, win: Ptr, attribs: Ptr) -> Ptr, {
+export! { 1330, eglCreatePlatformWindowSurfaceEXT, first_eglCreatePlatformWindowSurfaceEXT, hook_eglCreatePlatformWindowSurfaceEXT, (dpy: Ptr, config: Ptr, win: Ptr, attribs: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglCreatePlatformWindowSurfaceEXT(dpy, config, win, attribs) }
 } }
-export! { 1311, eglDestroySurface, first_eglDestroySurface, hook_eglDestroySurface, (dpy: Ptr, surface: Ptr) -> u32, {
+export! { 1331, eglDestroySurface, first_eglDestroySurface, hook_eglDestroySurface, (dpy: Ptr, surface: Ptr) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglDestroySurface(dpy, surface) }
 } }
-export! { 1312, eglGetProcAddress, first_eglGetProcAddress, hook_eglGetProcAddress, (name: Ptr) -> Ptr, {
+export! { 1332, eglGetProcAddress, first_eglGetProcAddress, hook_eglGetProcAddress, (name: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglGetProcAddress(name) }
 } }
-export! { 1317, OSMesaMakeCurrent, first_OSMesaMakeCurrent, hook_OSMesaMakeCurrent, (ctx: Ptr, buffer: Ptr, kind: u32, width: i32, height: i32) -> u8, {
+export! { 1337, OSMesaMakeCurrent, first_OSMesaMakeCurrent, hook_OSMesaMakeCurrent, (ctx: Ptr, buffer: Ptr, kind: u32, width: i32, height: i32) -> u8, {
     // SAFETY: the program's own arguments.
     unsafe { special::OSMesaMakeCurrent(ctx, buffer, kind, width, height) }
 } }
-export! { 1318, OSMesaCreateContext, first_OSMesaCreateContext, hook_OSMesaCreateContext, (format: u32, share: Ptr) -> Ptr, {
+export! { 1338, OSMesaCreateContext, first_OSMesaCreateContext, hook_OSMesaCreateContext, (format: u32, share: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::OSMesaCreateContext(format, share) }
 } }
-export! { 1319, OSMesaCreateContextExt, first_OSMesaCreateContextExt, hook_OSMesaCreateContextExt, (format: u32, depth: i32, stencil: i32, accum: i32, share: Ptr) -> Ptr, {
+export! { 1339, OSMesaCreateContextExt, first_OSMesaCreateContextExt, hook_OSMesaCreateContextExt, (format: u32, depth: i32, stencil: i32, accum: i32, share: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::OSMesaCreateContextExt(format, depth, stencil, accum, share) }
 } }
-export! { 1320, OSMesaCreateContextAttribs, first_OSMesaCreateContextAttribs, hook_OSMesaCreateContextAttribs, (attribs: Ptr, share: Ptr) -> Ptr, {
+export! { 1340, OSMesaCreateContextAttribs, first_OSMesaCreateContextAttribs, hook_OSMesaCreateContextAttribs, (attribs: Ptr, share: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::OSMesaCreateContextAttribs(attribs, share) }
 } }
-export! { 1321, OSMesaDestroyContext, first_OSMesaDestroyContext, hook_OSMesaDestroyContext, (ctx: Ptr) -> (), {
+export! { 1341, OSMesaDestroyContext, first_OSMesaDestroyContext, hook_OSMesaDestroyContext, (ctx: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::OSMesaDestroyContext(ctx) }
 } }
-export! { 1322, OSMesaGetProcAddress, first_OSMesaGetProcAddress, hook_OSMesaGetProcAddress, (name: Ptr) -> Ptr, {
+export! { 1342, OSMesaGetProcAddress, first_OSMesaGetProcAddress, hook_OSMesaGetProcAddress, (name: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::OSMesaGetProcAddress(name) }
 } }

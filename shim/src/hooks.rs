@@ -59,6 +59,15 @@ pub(crate) fn texture(target: u32) {
     }
 }
 
+/// Textures are about to be read or written in another way than by drawing.
+#[inline]
+pub(crate) fn settle() {
+    ask();
+    if context::peek(|l| l.has_copies()) == Some(true) {
+        enter(|gl, l| l.settle_textures(gl));
+    }
+}
+
 /// A parameter of a texture is about to be set.
 #[inline]
 pub(crate) fn look() {

@@ -42,6 +42,7 @@ pub enum NoTwin {
 pub struct Twin {
     name: u32,
     shift: i32,
+    tile: i32,
     across: i32,
     up: i32,
     /// Type, location in the program, location here; one for each element of arrays.
@@ -50,8 +51,9 @@ pub struct Twin {
     blocks: Vec<Option<u32>>,
 }
 
-/// How the draws of a program get their views. `texts` are those that it was linked from. Changes nothing of the program's state.
-pub fn drawn(gl: &Gl, program: u32, texts: &[Text]) -> Result<Drawn, NoTwin> {
+/// How the draws of a program get their views. `texts` are those that it was linked from; `target`: by what
+/// the views are told apart. Changes nothing of the program's state.
+pub fn drawn(gl: &Gl, program: u32, texts: &[Text], target: Target) -> Result<Drawn, NoTwin> {
     if texts.is_empty() || texts.iter().any(|text| text.source.is_empty()) {
         return Err(NoTwin::NoText);
     }
@@ -68,7 +70,7 @@ pub fn drawn(gl: &Gl, program: u32, texts: &[Text]) -> Result<Drawn, NoTwin> {
     let last = last.ok_or(NoTwin::NoVertex)?;
     let options = Options {
         amplifier: Amplifier::Replay,
-        target: Target::Whole,
+        target,
         views: 1,
         es: false,
     };
@@ -181,6 +183,7 @@ impl Twin {
         Twin {
             name,
             shift: ours(shift, Uniform::Shift),
+            tile: ours(shift, Uniform::Tile),
             across: window(Uniform::Across),
             up: window(Uniform::Up),
             uniforms,
@@ -206,6 +209,11 @@ impl Twin {
                 gl.uniform_block_binding(self.name, block, binding);
             }
         }
+    }
+
+    /// The layer of the view that is drawn next; the twin is in use, and chooses layers.
+    pub fn choose(&self, gl: &Gl, layer: u32) {
+        gl.uniform_4fv(self.tile, &[[0.0, 0.0, layer as f32, 0.0]]);
     }
 
     /// The view that is drawn next; the twin is in use. `shear` of the scene, `flat` of what has no depth, both at the view's `place`

@@ -18,6 +18,43 @@ pub struct Level {
 }
 
 impl Level {
+    /// One of a renderbuffer.
+    pub fn of_renderbuffer([internal, w, h, samples]: super::Storage) -> Level {
+        Level {
+            size: [w, h, 1],
+            internal: internal as u32,
+            depth: false,
+            stencil: false,
+            integer: false,
+            samples,
+            fixed: true,
+        }
+    }
+
+    /// The target of a texture with one layer of this kind, and that of one with many.
+    pub fn layered(&self) -> (u32, u32) {
+        match self.samples {
+            0 => (c::TEXTURE_2D, c::TEXTURE_2D_ARRAY),
+            _ => (c::TEXTURE_2D_MULTISAMPLE, c::TEXTURE_2D_MULTISAMPLE_ARRAY),
+        }
+    }
+
+    /// The internal format with its sizes, as drivers take one without; none where there is none to draw to.
+    pub fn sized(&self) -> Option<u32> {
+        Some(match self.internal {
+            c::RGBA | 4 => c::RGBA8,
+            c::RGB | 3 => c::RGB8,
+            c::RED => c::R8,
+            c::RG => c::RG8,
+            c::SRGB => c::SRGB8,
+            c::SRGB_ALPHA => c::SRGB8_ALPHA8,
+            c::DEPTH_COMPONENT => c::DEPTH_COMPONENT24,
+            c::DEPTH_STENCIL => c::DEPTH24_STENCIL8,
+            ..=2 | c::ALPHA | c::LUMINANCE | c::LUMINANCE_ALPHA | c::INTENSITY => return None,
+            sized => sized,
+        })
+    }
+
     /// A format and a type that go with the internal format; nothing is transferred.
     fn transfer(&self) -> (u32, u32) {
         match (self.depth, self.stencil, self.integer) {
@@ -154,6 +191,87 @@ impl Gl {
             fixed: false,
         };
         self.tex_level_empty(target, 0, &level);
+    }
+
+    /// Immutable layers for `levels` levels, without data, of the array texture that is bound; `like` is one layer of level 0.
+    pub fn tex_storage_layers(
+        &self,
+        target: u32,
+        levels: i32,
+        internal: u32,
+        layers: u32,
+        like: &Level,
+    ) {
+        let [w, h, _] = like.size;
+        let layers = layers as i32;
+        // SAFETY: no pointers.
+        unsafe {
+            if is_multisampled(target) {
+                let fixed = u8::from(like.fixed);
+                self.real.glTexStorage3DMultisample(
+                    target,
+                    like.samples,
+                    internal,
+                    w,
+                    h,
+                    layers,
+                    fixed,
+                );
+            } else {
+                self.real
+                    .glTexStorage3D(target, levels, internal, w, h, layers);
+            }
+        }
+    }
+
+    /// glTextureView of all levels of one layer as a texture of its own.
+    pub fn texture_view(
+        &self,
+        target: u32,
+        of: u32,
+        internal: u32,
+        levels: i32,
+        layer: u32,
+    ) -> u32 {
+        let name = self.gen_texture();
+        let levels = levels.max(1).unsigned_abs();
+        // SAFETY: no pointers.
+        unsafe {
+            self.real
+                .glTextureView(name, target, of, internal, 0, levels, layer, 1)
+        };
+        name
+    }
+
+    /// glCopyImageSubData of a level of one layer; a name, a target and a layer each.
+    pub fn copy_layer(
+        &self,
+        (from, from_target, from_layer): (u32, u32, u32),
+        (to, to_target, to_layer): (u32, u32, u32),
+        level: i32,
+        [w, h]: [i32; 2],
+    ) {
+        let (from_layer, to_layer) = (from_layer as i32, to_layer as i32);
+        // SAFETY: no pointers.
+        unsafe {
+            self.real.glCopyImageSubData(
+                from,
+                from_target,
+                level,
+                0,
+                0,
+                from_layer,
+                to,
+                to_target,
+                level,
+                0,
+                0,
+                to_layer,
+                w,
+                h,
+                1,
+            )
+        };
     }
 
     /// glCopyImageSubData of a whole level: width, height and layers. `target` is GL_RENDERBUFFER for those.

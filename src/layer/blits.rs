@@ -58,6 +58,10 @@ impl Layer {
             }
             blit(0, 0);
         }
+        if let Some(target) = self.offscreen.take(draw, tiles.shown) {
+            self.offscreen.drawn_to(&target);
+            self.offscreen.put(target);
+        }
         self.rebind(gl);
     }
 

@@ -44,7 +44,7 @@ impl Layer {
         let own = self.atlas.tiles.own();
         let shown = self.wanted_views();
         for (view, name) in (0..).zip(self.offscreen.views(texture)) {
-            if view != own && shown.has(view) {
+            if name != texture && (view == own || shown.has(view)) {
                 match from {
                     0 => self.take_single(gl, view),
                     from => {
@@ -57,6 +57,7 @@ impl Layer {
             }
         }
         gl.bind_texture(target, texture);
+        self.offscreen.written(texture);
         self.drain_own_errors(gl);
         self.rebind(gl);
     }
@@ -84,14 +85,23 @@ impl Layer {
             }
         }
         gl.bind_texture(target, texture);
+        self.offscreen.written(texture);
         self.drain_own_errors(gl);
     }
 
     /// The program changes the image of the texture that is bound: all views see the same again.
     pub fn texture_written(&mut self, gl: &Gl, target: u32) {
         if let Some(texture) = self.offscreen.bound_at(gl, target) {
+            self.settle_textures(gl);
             self.offscreen.forget(gl, [Object::Texture(texture)]);
         }
+    }
+
+    /// The program's own textures are about to be read or written in another way than by drawing.
+    pub fn settle_textures(&mut self, gl: &Gl) {
+        self.state.keep_errors(gl);
+        self.offscreen.settle(gl);
+        self.drain_own_errors(gl);
     }
 
     /// The renderbuffer that is bound gets another store.

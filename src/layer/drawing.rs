@@ -1,12 +1,13 @@
 //! A draw call of the program: refresh, plan, execute, count.
 
 use super::Layer;
+use super::programs::Entered;
 use crate::atlas::Surface;
 use crate::config::{Class, Output, Projection, Strategy, Word};
 use crate::draw::{Again, Amplified, FixedState, Programs, replay};
 use crate::gl::Gl;
 use crate::gl::api::Indices;
-use crate::offscreen;
+use crate::offscreen::Target;
 use crate::plan::{Kind, Method, Plan, Ramp, Shear, plan};
 use crate::state::{Command, Run, Touch};
 
@@ -252,33 +253,33 @@ impl Layer {
     }
 
     pub(super) fn replay(&mut self, gl: &Gl, plan: &Plan, again: Again, call: &mut dyn FnMut(u32)) {
-        if !plan.twin {
-            return self.replay_by(gl, plan.shear, again, call);
+        let (program, framebuffer) = (self.state.program, self.state.framebuffers.draw);
+        if let Some(target) = self.offscreen.take(framebuffer, self.wanted_views()) {
+            return self.replay_aside(gl, target, plan, again, call);
         }
         let mut twins = std::mem::take(&mut self.twins);
-        let (program, rig) = (self.state.program, self.rig);
-        let stride = match self.state.framebuffers.draw {
-            0 => self.atlas.tiles.stride,
-            _ => offscreen::STRIDE,
-        };
-        let shifts = (plan.shear, plan.flat);
-        match twins.enter(gl, program) {
-            Some(twin) => {
-                self.replay_by(gl, None, again, &mut |view| {
-                    twin.place(gl, shifts, rig.place(view), stride);
+        match plan.twin.then(|| twins.enter(gl, program, false)).flatten() {
+            Some(Entered { twin, .. }) => {
+                let (rig, stride) = (self.rig, self.atlas.tiles.stride);
+                self.replay_by(gl, None, None, again, &mut |view| {
+                    twin.place(gl, (plan.shear, plan.flat), rig.place(view), stride);
                     call(view);
                 });
                 gl.use_program(program);
             }
-            None => self.replay_by(gl, None, again, call),
+            None => {
+                let shear = plan.shear.filter(|_| !plan.twin);
+                self.replay_by(gl, None, shear, again, call);
+            }
         }
         self.twins = twins;
     }
 
-    /// With this shift of the projection.
-    fn replay_by(
+    /// To a target that each view has its own of, or the window, with this shift of the projection.
+    pub(super) fn replay_by(
         &mut self,
         gl: &Gl,
+        target: Option<&mut Target>,
         shear: Option<Shear>,
         again: Again,
         call: &mut dyn FnMut(u32),
@@ -286,10 +287,7 @@ impl Layer {
         self.prove(gl, shear, again, call);
         // Of what queries count, only the own view is counted.
         let bound = std::mem::take(&mut self.sampled);
-        let shown = self.wanted_views();
-        let framebuffer = self.state.framebuffers.draw;
-        let mut target = self.offscreen.take(framebuffer, shown);
-        let surface: &mut dyn Surface = match &mut target {
+        let surface: &mut dyn Surface = match target {
             Some(target) => target,
             None => &mut self.atlas,
         };
@@ -313,10 +311,8 @@ impl Layer {
             },
         );
         self.queries = queries;
+        self.offscreen.unbind(gl, &bound);
         self.sampled = bound;
-        if let Some(target) = target {
-            self.offscreen.put(target);
-        }
         if !sent {
             self.alike.lose();
             self.report.note(

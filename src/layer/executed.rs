@@ -61,7 +61,7 @@ impl Layer {
             },
         );
         if own.everywhere {
-            self.offscreen.bind(gl, &bound, self.atlas.tiles.own());
+            self.offscreen.unbind(gl, &bound);
             after.put(gl);
             self.queries.resume(gl);
         }

@@ -332,6 +332,15 @@ impl Layer {
             self.compile(gl, Command::Of(Run::Read), Touch::NONE);
             return call();
         }
+        let read = self.state.framebuffers.read;
+        if read != 0 && self.offscreen.is_split(gl, read) {
+            self.split(gl, read);
+            let own = self.offscreen.view(gl, read, self.atlas.tiles.own());
+            gl.bind_framebuffer(c::READ_FRAMEBUFFER, own);
+            call();
+            gl.bind_framebuffer(c::READ_FRAMEBUFFER, read);
+            return;
+        }
         // What lies to the right of the window must not be another view.
         let beside = self.atlas.tiles.columns > 1 && x.saturating_add(width) > self.tile_size()[0];
         let other = self.atlas.multisampled() || !self.atlas.tiles.grid.is_full();

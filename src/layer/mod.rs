@@ -42,6 +42,7 @@ use crate::offscreen::{Bound, Offscreen};
 use crate::plan::{Classifier, Means, Reason, Rig, Shear};
 use crate::present::Saved;
 use crate::report::{Counts, Proof, Report};
+use crate::rewrite::VertexLayer;
 use crate::state::{BACK, Immediate, Lists, State, Window};
 use std::sync::{Arc, Mutex, PoisonError};
 use support::Support;
@@ -91,6 +92,8 @@ pub struct Layer {
     sampled: Vec<Bound>,
     /// The program, and the changes of uniforms and images, up to which that is known.
     sampled_by: Option<(u32, u64, u64)>,
+    /// How a vertex shader chooses the layer that it draws to, where the driver lets it.
+    vertex_layer: Option<VertexLayer>,
     /// A of the camera that the window is drawn with, for telling it from a lamp's.
     lens: Option<f64>,
     executed: Option<executed::Own>,
@@ -231,6 +234,7 @@ impl Layer {
             offscreen: Offscreen::new(gl, config.views, support.compatibility),
             sampled: Vec::new(),
             sampled_by: None,
+            vertex_layer: crate::draw::limits(gl, support.glsl).vertex_layer,
             lens: None,
             executed: None,
             on_screen: None,

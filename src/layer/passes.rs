@@ -5,9 +5,13 @@
 //! the window or the camera has. Shadow maps, cube faces, light maps have neither. Whatever samples, copies or blits from one that differs
 //! makes its own target differ.
 
+use super::programs::Entered;
 use super::{Layer, keep_bindings};
+use crate::atlas::Surface;
 use crate::config::Class;
-use crate::gl::Gl;
+use crate::draw::Again;
+use crate::gl::{Gl, consts as c};
+use crate::offscreen;
 use crate::plan::class::Target;
 use crate::plan::{Kind, Method, Plan, Reason, camera};
 use crate::state::{Touch, uniform_change};
@@ -112,9 +116,62 @@ impl Layer {
             true => self.split(gl, framebuffer),
             false => self.offscreen.is_split(gl, framebuffer) && self.split(gl, framebuffer),
         };
+        if split && plan.twin && self.offscreen.target(gl, framebuffer).layered().is_some() {
+            self.know_layers(gl, self.state.program);
+        }
         plan.method = if split { Method::Replay } else { Method::Once };
         plan.reason = None;
         plan
+    }
+
+    /// A draw to a framebuffer that each view has its own of: to the layers of one where a twin chooses among them.
+    pub(super) fn replay_aside(
+        &mut self,
+        gl: &Gl,
+        mut target: offscreen::Target,
+        plan: &Plan,
+        again: Again,
+        call: &mut dyn FnMut(u32),
+    ) {
+        let program = self.state.program;
+        let mut twins = std::mem::take(&mut self.twins);
+        let layered = target.layered();
+        let twin = match plan.twin {
+            true => twins.enter(gl, program, layered.is_some()),
+            false => None,
+        };
+        let by_layers = twin.as_ref().is_some_and(|twin| twin.layers) || again == Again::Clear;
+        let layered = layered.filter(|_| by_layers);
+        if let Some(name) = layered {
+            gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, name);
+        }
+        target.take_layers(layered.is_some());
+        match &twin {
+            // All layers at once.
+            None if layered.is_some() => call(self.atlas.tiles.own()),
+            None => {
+                let shear = plan.shear.filter(|_| !plan.twin);
+                self.replay_by(gl, Some(&mut target), shear, again, call);
+            }
+            Some(Entered { twin, layers }) => {
+                let (rig, tiles) = (self.rig, target.tiles());
+                self.replay_by(gl, Some(&mut target), None, again, &mut |view| {
+                    let shifts = (plan.shear, plan.flat);
+                    twin.place(gl, shifts, rig.place(view), tiles.stride);
+                    if *layers {
+                        twin.choose(gl, tiles.slot(view));
+                    }
+                    call(view);
+                });
+            }
+        }
+        if twin.is_some() {
+            gl.use_program(program);
+        }
+        self.twins = twins;
+        gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, self.state.framebuffers.draw);
+        self.offscreen.drawn_to(&target);
+        self.offscreen.put(target);
     }
 
     /// Looks which textures with an image per view a draw reads.

@@ -5,6 +5,7 @@ use crate::config::Class;
 use crate::draw::{Drawn, NoTwin, Twin, drawn};
 use crate::gl::{Gl, Held, consts as c};
 use crate::plan::{Classed, Kind, Method, Plan, camera};
+use crate::rewrite::Target;
 use crate::state::{Matrices, Samplers, Shaders, texts, uniform_change};
 use std::collections::HashMap;
 use std::sync::PoisonError;
@@ -19,12 +20,22 @@ pub(super) struct Twins {
     doomed: Vec<u32>,
 }
 
+/// A twin in use.
+#[derive(Debug)]
+pub(super) struct Entered<'a> {
+    pub(super) twin: &'a Twin,
+    /// It chooses layers.
+    pub(super) layers: bool,
+}
+
 /// How the draws of one program go.
 #[derive(Debug)]
 struct Known {
     /// The link that it belongs to.
     link: u64,
     how: Result<Drawn, NoTwin>,
+    /// The twin that chooses the layer it draws to, once it has been wanted.
+    layered: Option<Option<Twin>>,
     matrices: Matrices,
     samplers: Samplers,
     /// Their units, and the changes of uniforms up to which they are known.
@@ -33,31 +44,43 @@ struct Known {
     camera: Option<(usize, [f32; 16])>,
     /// The changes of uniforms up to which its camera was looked for, and its values follow.
     seen: u64,
-    followed: u64,
+    followed: (u64, u64),
+}
+
+impl Known {
+    /// Its twins.
+    fn twins(&self) -> impl Iterator<Item = u32> {
+        let whole = match &self.how {
+            Ok(Drawn::ByTwin(twin)) => Some(twin),
+            _ => None,
+        };
+        let layered = self.layered.as_ref().and_then(Option::as_ref);
+        whole.into_iter().chain(layered).map(Twin::name)
+    }
 }
 
 impl Twins {
-    /// The twin of a program, in use, with the values of its uniforms.
-    pub(super) fn enter(&mut self, gl: &Gl, program: u32) -> Option<&Twin> {
+    /// The twin of a program, in use, with the values of its uniforms; the one that chooses layers where it is there and `layers`.
+    pub(super) fn enter(&mut self, gl: &Gl, program: u32, layers: bool) -> Option<Entered<'_>> {
         let known = self.known.get_mut(&program)?;
-        let Ok(Drawn::ByTwin(twin)) = &known.how else {
-            return None;
+        let layered = known.layered.as_ref().and_then(Option::as_ref);
+        let (twin, followed, layers) = match (layered.filter(|_| layers), &known.how) {
+            (Some(twin), _) => (twin, &mut known.followed.1, true),
+            (None, Ok(Drawn::ByTwin(twin))) => (twin, &mut known.followed.0, false),
+            _ => return None,
         };
         gl.use_program(twin.name());
         let change = uniform_change();
-        if std::mem::replace(&mut known.followed, change) != change {
+        if std::mem::replace(followed, change) != change {
             twin.follow(gl, program);
         }
-        Some(twin)
+        Some(Entered { twin, layers })
     }
 
     /// The names of all twins, and of what waits to be deleted.
     pub(super) fn names(&self) -> impl Iterator<Item = u32> {
         let doomed = self.doomed.iter().copied();
-        doomed.chain(self.known.values().filter_map(|known| match &known.how {
-            Ok(Drawn::ByTwin(twin)) => Some(twin.name()),
-            _ => None,
-        }))
+        doomed.chain(self.known.values().flat_map(Known::twins))
     }
 }
 
@@ -115,12 +138,8 @@ impl Layer {
             return;
         }
         self.shaders(|shaders| shaders.forget(program));
-        if let Some(Known {
-            how: Ok(Drawn::ByTwin(twin)),
-            ..
-        }) = self.twins.known.remove(&program)
-        {
-            gl.delete_program(twin.name());
+        if let Some(known) = self.twins.known.remove(&program) {
+            known.twins().for_each(|twin| gl.delete_program(twin));
         }
     }
 
@@ -242,7 +261,7 @@ impl Layer {
         }
         self.state.keep_errors(gl);
         let how = match &linked {
-            Some((_, texts)) => drawn(gl, program, texts),
+            Some((_, texts)) => drawn(gl, program, texts, Target::Whole),
             None => Err(NoTwin::NoText),
         };
         let matrices = Matrices::of(gl, program);
@@ -266,14 +285,37 @@ impl Layer {
             units: (0, Vec::new()),
             camera: None,
             seen: 0,
-            followed: 0,
+            followed: (0, 0),
+            layered: None,
         };
-        if let Some(Known {
-            how: Ok(Drawn::ByTwin(old)),
-            ..
-        }) = self.twins.known.insert(program, new)
-        {
-            gl.delete_program(old.name());
+        if let Some(old) = self.twins.known.insert(program, new) {
+            old.twins().for_each(|twin| gl.delete_program(twin));
+        }
+    }
+
+    /// Makes the twin that chooses layers, where the driver can; once for each link.
+    pub(super) fn know_layers(&mut self, gl: &Gl, program: u32) {
+        let known = self.twins.known.get(&program);
+        if known.is_none_or(|known| known.layered.is_some()) {
+            return;
+        }
+        let linked = self.shaders(|shaders| shaders.of(program));
+        self.state.keep_errors(gl);
+        let made = match (linked, self.vertex_layer) {
+            (Some((_, texts)), Some(by)) => drawn(gl, program, &texts, Target::Layer(by)).ok(),
+            _ => None,
+        };
+        self.drain_own_errors(gl);
+        let twin = match made {
+            Some(Drawn::ByTwin(twin)) => Some(twin),
+            _ => None,
+        };
+        if twin.is_some() {
+            self.programs.compiled += 1;
+            self.report.shaders(self.programs.compiled);
+        }
+        if let Some(known) = self.twins.known.get_mut(&program) {
+            known.layered = Some(twin);
         }
     }
 }

@@ -56,6 +56,7 @@ impl Offscreen {
                 version: gl.version(),
                 mipmaps: compatibility,
                 looks: 1,
+                arrays: gl.version() >= (4, 3),
             },
             units: units.clamp(1, 32) as u32,
             tiles: Tiles {
@@ -94,9 +95,10 @@ impl Offscreen {
 
     /// The renderbuffers that are ours.
     pub fn renderbuffers(&self) -> impl Iterator<Item = u32> {
-        self.images.iter().flat_map(|(object, image)| match object {
-            Object::Renderbuffer(own) => image.others(*own).collect(),
-            Object::Texture(_) => Vec::new(),
+        let all = self.images.iter();
+        all.flat_map(|(object, image)| match (object, &image.array) {
+            (Object::Renderbuffer(own), None) => image.others(*own).collect(),
+            _ => Vec::new(),
         })
     }
 
@@ -154,10 +156,45 @@ impl Offscreen {
         else {
             return false;
         };
-        self.ours.extend(image.others(texture));
-        self.images.insert(Object::Texture(texture), image);
-        self.changes += 1;
+        self.insert(Object::Texture(texture), image);
         true
+    }
+
+    fn insert(&mut self, object: Object, image: Image) {
+        match object {
+            Object::Texture(own) => self.ours.extend(image.others(own)),
+            // Those in an array are textures as well.
+            Object::Renderbuffer(_) if image.array.is_some() => self.ours.extend(&image.views),
+            Object::Renderbuffer(_) => {}
+        }
+        self.ours
+            .extend(image.array.as_ref().map(|array| array.name));
+        self.images.insert(object, image);
+        self.changes += 1;
+    }
+
+    /// What the program's own objects lack of their view.
+    pub fn settle(&mut self, gl: &Gl) {
+        let layer = self.tiles.slot(self.tiles.own());
+        for (object, image) in &mut self.images {
+            image.settle(gl, *object, layer);
+        }
+    }
+
+    /// Something is drawn or copied to a framebuffer that each view has its own of.
+    pub fn drawn_to(&mut self, target: &Target) {
+        for attachment in &target.attachments {
+            if let Some(image) = self.images.get_mut(&attachment.object) {
+                image.stale = true;
+            }
+        }
+    }
+
+    /// The same for a texture.
+    pub fn written(&mut self, texture: u32) {
+        if let Some(image) = self.images.get_mut(&Object::Texture(texture)) {
+            image.stale = true;
+        }
     }
 
     /// All objects of a framebuffer get an image per view. As [`Offscreen::split_texture`].
@@ -167,14 +204,26 @@ impl Offscreen {
             if self.has(attachment.object) {
                 continue;
             }
+            // A name that glGenTextures has not made is none that a layer can have.
+            let means = image::Means {
+                arrays: self.means.arrays && !names.hidden(),
+                ..self.means
+            };
             let done = match attachment.object {
                 Object::Texture(name) => image::with_texture(gl, name, |target| {
-                    self.split_texture(gl, names, (target, name))
+                    let at = (target, name);
+                    match means.texture_layers(gl, at, &self.tiles) {
+                        Some(image) => {
+                            self.insert(attachment.object, image);
+                            true
+                        }
+                        None => self.split_texture(gl, names, at),
+                    }
                 }),
                 Object::Renderbuffer(name) => {
-                    let image = self.means.renderbuffer(gl, name, &self.tiles);
-                    self.images.insert(attachment.object, image);
-                    self.changes += 1;
+                    let image = means.renderbuffer_layers(gl, name, &self.tiles);
+                    let image = image.unwrap_or_else(|| means.renderbuffer(gl, name, &self.tiles));
+                    self.insert(attachment.object, image);
                     Some(true)
                 }
             };
@@ -287,6 +336,19 @@ impl Offscreen {
         gl.active_texture(active);
     }
 
+    /// Binds the program's own again.
+    pub fn unbind(&self, gl: &Gl, bound: &[Bound]) {
+        if bound.is_empty() {
+            return;
+        }
+        let active = gl.get_integer(c::ACTIVE_TEXTURE) as u32;
+        for b in bound {
+            gl.active_texture(b.unit);
+            gl.bind_texture(b.target, b.texture);
+        }
+        gl.active_texture(active);
+    }
+
     /// The images of objects are no longer what the program believes, or the objects are gone.
     pub fn forget(&mut self, gl: &Gl, objects: impl IntoIterator<Item = Object>) {
         for object in objects {
@@ -294,14 +356,14 @@ impl Offscreen {
                 continue;
             };
             self.changes += 1;
-            match object {
-                Object::Texture(own) => image.others(own).for_each(|name| {
-                    self.ours.remove(&name);
+            let (Object::Texture(own) | Object::Renderbuffer(own)) = object;
+            let array = image.array.as_ref().map(|array| array.name);
+            for name in image.others(own).chain(array) {
+                if self.ours.remove(&name) {
                     gl.delete_texture(name);
-                }),
-                Object::Renderbuffer(own) => image
-                    .others(own)
-                    .for_each(|name| gl.delete_renderbuffer(name)),
+                } else {
+                    gl.delete_renderbuffer(name);
+                }
             }
         }
     }
@@ -315,6 +377,7 @@ impl Offscreen {
 
     /// All images.
     pub fn clear(&mut self, gl: &Gl) {
+        self.settle(gl);
         let all: Vec<Object> = self.images.keys().copied().collect();
         self.forget(gl, all);
         for (_, target) in self.targets.drain() {

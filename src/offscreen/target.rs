@@ -20,6 +20,9 @@ pub struct Target {
     /// The objects that are attached for each view.
     objects: Vec<Option<Vec<u32>>>,
     tiles: Tiles,
+    /// One with all views as layers, and whether that is what is drawn to now.
+    layered: Option<u32>,
+    in_layers: bool,
     /// The driver makes none for the other views.
     pub(super) refused: bool,
 }
@@ -35,6 +38,8 @@ impl Target {
             read_buffer: c::NONE,
             objects: Vec::new(),
             tiles,
+            layered: None,
+            in_layers: false,
             refused: false,
         }
     }
@@ -46,7 +51,18 @@ impl Target {
 
     /// Our names.
     pub(super) fn others(&self) -> impl Iterator<Item = u32> {
-        self.views.iter().copied().filter(|&name| name != self.own)
+        let views = self.views.iter().copied().chain(self.layered);
+        views.filter(|&name| name != self.own)
+    }
+
+    /// The one with all views as layers, the layer of each as its slot in [`Surface::tiles`].
+    pub fn layered(&self) -> Option<u32> {
+        self.layered
+    }
+
+    /// Views are told apart by their layers from now on, or by their framebuffers.
+    pub fn take_layers(&mut self, layers: bool) {
+        self.in_layers = layers && self.layered.is_some();
     }
 
     /// The framebuffer of a view.
@@ -116,9 +132,10 @@ impl Target {
     fn drop_views(&mut self, gl: &Gl) {
         self.others().for_each(|name| gl.delete_framebuffer(name));
         self.views.clear();
+        self.layered = None;
     }
 
-    /// Makes the framebuffers of the other views, where they are not there; all objects have images. Changes the framebuffer
+    /// Makes the framebuffers of the views, where they are not there; all objects have images. Changes the framebuffer
     /// bindings.
     pub(super) fn make(&mut self, gl: &Gl, images: &HashMap<Object, Image>) -> bool {
         if !self.views.is_empty() {
@@ -126,31 +143,56 @@ impl Target {
         }
         let mut complete = true;
         let own = self.tiles.own();
-        let views = (0..self.tiles.views).map(|view| {
-            if view == own {
-                return self.own;
-            }
+        let of = |attachment: &Attachment| images.get(&attachment.object);
+        let arrays = |attachment| of(attachment).is_some_and(|image| image.array.is_some());
+        let mut framebuffer = |attach: &dyn Fn(&Attachment, &Image)| {
             let name = gl.gen_framebuffer();
             gl.bind_framebuffer(c::FRAMEBUFFER, name);
             for attachment in &self.attachments {
-                let Some(image) = images.get(&attachment.object) else {
-                    continue;
-                };
-                let Some(&new) = image.views.get(view as usize) else {
-                    continue;
-                };
-                let object = match attachment.object {
-                    Object::Texture(_) => Object::Texture(new),
-                    Object::Renderbuffer(_) => Object::Renderbuffer(new),
-                };
-                gl.attach_like(attachment, object, image.target);
+                if let Some(image) = of(attachment) {
+                    attach(attachment, image);
+                }
             }
             gl.draw_buffers(&self.draw_buffers);
             gl.read_buffer(self.read_buffer);
             complete &= gl.check_framebuffer_status(c::DRAW_FRAMEBUFFER) == c::FRAMEBUFFER_COMPLETE;
             name
+        };
+        let views = (0..self.tiles.views).map(|view| {
+            if view == own && !self.attachments.iter().any(arrays) {
+                return self.own;
+            }
+            framebuffer(&|attachment, image| {
+                let Some(&new) = image.views.get(view as usize) else {
+                    return;
+                };
+                let (object, target, layer) = match (&image.array, image.target) {
+                    // Not by the texture of that layer: Mesa 22.3 blits from the first one then.
+                    (Some(array), _) => {
+                        let layer = self.tiles.slot(view) as i32;
+                        (Object::Texture(array.name), c::TEXTURE_2D_ARRAY, layer)
+                    }
+                    (None, c::RENDERBUFFER) => (Object::Renderbuffer(new), image.target, 0),
+                    (None, target) => (Object::Texture(new), target, attachment.layer),
+                };
+                let like = Attachment {
+                    layer,
+                    ..*attachment
+                };
+                gl.attach_like(&like, object, target);
+            })
         });
         self.views = views.collect();
+        if !self.attachments.is_empty() && self.attachments.iter().all(arrays) {
+            self.layered = Some(framebuffer(&|attachment, image| {
+                let name = image.array.as_ref().map_or(0, |array| array.name);
+                let layered = Attachment {
+                    layered: true,
+                    ..*attachment
+                };
+                gl.attach_like(&layered, Object::Texture(name), c::TEXTURE_2D_ARRAY);
+            }));
+        }
         if !complete {
             self.drop_views(gl);
             self.refused = true;
@@ -175,7 +217,9 @@ impl Surface for Target {
     }
 
     fn enter(&mut self, gl: &Gl, view: u32) -> i32 {
-        gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, self.view(view));
+        if !self.in_layers {
+            gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, self.view(view));
+        }
         0
     }
 
