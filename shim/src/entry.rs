@@ -7,7 +7,7 @@ use manyview_core::gl::{Ptr, slot};
 use manyview_core::state::Effect;
 
 /// Where each exported function jumps to, by slot: at first its resolver, then the driver's function or the hook.
-pub(crate) static ENTRY: [AtomicPtr<()>; 1389] = [
+pub(crate) static ENTRY: [AtomicPtr<()>; 1396] = [
     AtomicPtr::new(first_glVertex2d as *mut ()),
     AtomicPtr::new(first_glVertex2dv as *mut ()),
     AtomicPtr::new(first_glVertex2f as *mut ()),
@@ -830,6 +830,13 @@ pub(crate) static ENTRY: [AtomicPtr<()>; 1389] = [
     AtomicPtr::new(first_glBindImageTextures as *mut ()),
     AtomicPtr::new(first_glDispatchCompute as *mut ()),
     AtomicPtr::new(first_glDispatchComputeIndirect as *mut ()),
+    AtomicPtr::new(first_glVertexAttribDivisor as *mut ()),
+    AtomicPtr::new(first_glVertexAttribDivisorANGLE as *mut ()),
+    AtomicPtr::new(first_glVertexAttribDivisorARB as *mut ()),
+    AtomicPtr::new(first_glVertexAttribDivisorEXT as *mut ()),
+    AtomicPtr::new(first_glVertexAttribDivisorNV as *mut ()),
+    AtomicPtr::new(first_glVertexBindingDivisor as *mut ()),
+    AtomicPtr::new(first_glVertexArrayBindingDivisor as *mut ()),
     AtomicPtr::new(first_glProgramEnvParameter4dARB as *mut ()),
     AtomicPtr::new(first_glProgramEnvParameter4dvARB as *mut ()),
     AtomicPtr::new(first_glProgramEnvParameter4fARB as *mut ()),
@@ -1400,7 +1407,7 @@ pub(crate) static ENTRY: [AtomicPtr<()>; 1389] = [
 ];
 
 /// The hook of each exported function, by slot.
-pub(crate) static HOOK: [Option<crate::Address>; 1389] = [
+pub(crate) static HOOK: [Option<crate::Address>; 1396] = [
     Some(crate::Address(hook_glVertex2d as *const ())),
     Some(crate::Address(hook_glVertex2dv as *const ())),
     Some(crate::Address(hook_glVertex2f as *const ())),
@@ -2223,6 +2230,13 @@ pub(crate) static HOOK: [Option<crate::Address>; 1389] = [
     Some(crate::Address(hook_glBindImageTextures as *const ())),
     Some(crate::Address(hook_glDispatchCompute as *const ())),
     Some(crate::Address(hook_glDispatchComputeIndirect as *const ())),
+    Some(crate::Address(hook_glVertexAttribDivisor as *const ())),
+    Some(crate::Address(hook_glVertexAttribDivisorANGLE as *const ())),
+    Some(crate::Address(hook_glVertexAttribDivisorARB as *const ())),
+    Some(crate::Address(hook_glVertexAttribDivisorEXT as *const ())),
+    Some(crate::Address(hook_glVertexAttribDivisorNV as *const ())),
+    Some(crate::Address(hook_glVertexBindingDivisor as *const ())),
+    Some(crate::Address(hook_glVertexArrayBindingDivisor as *const ())),
     Some(crate::Address(hook_glProgramEnvParameter4dARB as *const ())),
     Some(crate::Address(hook_glProgramEnvParameter4dvARB as *const ())),
     Some(crate::Address(hook_glProgramEnvParameter4fARB as *const ())),
@@ -2793,58 +2807,58 @@ pub(crate) static HOOK: [Option<crate::Address>; 1389] = [
 ];
 
 /// Exported names in order, their slots and addresses: what dlsym and the GetProcAddress family hand out.
-pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1338] = [
-    (b"OSMesaCreateContext", 1338, crate::Address(OSMesaCreateContext as *const ())),
-    (b"OSMesaCreateContextAttribs", 1340, crate::Address(OSMesaCreateContextAttribs as *const ())),
-    (b"OSMesaCreateContextExt", 1339, crate::Address(OSMesaCreateContextExt as *const ())),
-    (b"OSMesaDestroyContext", 1341, crate::Address(OSMesaDestroyContext as *const ())),
-    (b"OSMesaGetProcAddress", 1342, crate::Address(OSMesaGetProcAddress as *const ())),
-    (b"OSMesaMakeCurrent", 1337, crate::Address(OSMesaMakeCurrent as *const ())),
-    (b"eglCreateContext", 1322, crate::Address(eglCreateContext as *const ())),
-    (b"eglCreatePlatformWindowSurface", 1329, crate::Address(eglCreatePlatformWindowSurface as *const ())),
-    (b"eglCreatePlatformWindowSurfaceEXT", 1330, crate::Address(eglCreatePlatformWindowSurfaceEXT as *const ())),
-    (b"eglCreateWindowSurface", 1328, crate::Address(eglCreateWindowSurface as *const ())),
-    (b"eglDestroyContext", 1323, crate::Address(eglDestroyContext as *const ())),
-    (b"eglDestroySurface", 1331, crate::Address(eglDestroySurface as *const ())),
-    (b"eglGetDisplay", 1325, crate::Address(eglGetDisplay as *const ())),
-    (b"eglGetPlatformDisplay", 1326, crate::Address(eglGetPlatformDisplay as *const ())),
-    (b"eglGetPlatformDisplayEXT", 1327, crate::Address(eglGetPlatformDisplayEXT as *const ())),
-    (b"eglGetProcAddress", 1332, crate::Address(eglGetProcAddress as *const ())),
-    (b"eglMakeCurrent", 1321, crate::Address(eglMakeCurrent as *const ())),
-    (b"eglReleaseThread", 1324, crate::Address(eglReleaseThread as *const ())),
-    (b"eglSwapBuffers", 1318, crate::Address(eglSwapBuffers as *const ())),
-    (b"eglSwapBuffersWithDamageEXT", 1320, crate::Address(eglSwapBuffersWithDamageEXT as *const ())),
-    (b"eglSwapBuffersWithDamageKHR", 1319, crate::Address(eglSwapBuffersWithDamageKHR as *const ())),
-    (b"glAccum", 1071, crate::Address(glAccum as *const ())),
+pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1345] = [
+    (b"OSMesaCreateContext", 1345, crate::Address(OSMesaCreateContext as *const ())),
+    (b"OSMesaCreateContextAttribs", 1347, crate::Address(OSMesaCreateContextAttribs as *const ())),
+    (b"OSMesaCreateContextExt", 1346, crate::Address(OSMesaCreateContextExt as *const ())),
+    (b"OSMesaDestroyContext", 1348, crate::Address(OSMesaDestroyContext as *const ())),
+    (b"OSMesaGetProcAddress", 1349, crate::Address(OSMesaGetProcAddress as *const ())),
+    (b"OSMesaMakeCurrent", 1344, crate::Address(OSMesaMakeCurrent as *const ())),
+    (b"eglCreateContext", 1329, crate::Address(eglCreateContext as *const ())),
+    (b"eglCreatePlatformWindowSurface", 1336, crate::Address(eglCreatePlatformWindowSurface as *const ())),
+    (b"eglCreatePlatformWindowSurfaceEXT", 1337, crate::Address(eglCreatePlatformWindowSurfaceEXT as *const ())),
+    (b"eglCreateWindowSurface", 1335, crate::Address(eglCreateWindowSurface as *const ())),
+    (b"eglDestroyContext", 1330, crate::Address(eglDestroyContext as *const ())),
+    (b"eglDestroySurface", 1338, crate::Address(eglDestroySurface as *const ())),
+    (b"eglGetDisplay", 1332, crate::Address(eglGetDisplay as *const ())),
+    (b"eglGetPlatformDisplay", 1333, crate::Address(eglGetPlatformDisplay as *const ())),
+    (b"eglGetPlatformDisplayEXT", 1334, crate::Address(eglGetPlatformDisplayEXT as *const ())),
+    (b"eglGetProcAddress", 1339, crate::Address(eglGetProcAddress as *const ())),
+    (b"eglMakeCurrent", 1328, crate::Address(eglMakeCurrent as *const ())),
+    (b"eglReleaseThread", 1331, crate::Address(eglReleaseThread as *const ())),
+    (b"eglSwapBuffers", 1325, crate::Address(eglSwapBuffers as *const ())),
+    (b"eglSwapBuffersWithDamageEXT", 1327, crate::Address(eglSwapBuffersWithDamageEXT as *const ())),
+    (b"eglSwapBuffersWithDamageKHR", 1326, crate::Address(eglSwapBuffersWithDamageKHR as *const ())),
+    (b"glAccum", 1078, crate::Address(glAccum as *const ())),
     (b"glActiveTexture", 537, crate::Address(glActiveTexture as *const ())),
     (b"glActiveTextureARB", 538, crate::Address(glActiveTextureARB as *const ())),
     (b"glAlphaFunc", 674, crate::Address(glAlphaFunc as *const ())),
     (b"glArrayElement", 260, crate::Address(glArrayElement as *const ())),
     (b"glArrayElementEXT", 261, crate::Address(glArrayElementEXT as *const ())),
     (b"glBegin", 454, crate::Address(glBegin as *const ())),
-    (b"glBeginConditionalRender", 1177, crate::Address(glBeginConditionalRender as *const ())),
-    (b"glBeginConditionalRenderNV", 1178, crate::Address(glBeginConditionalRenderNV as *const ())),
-    (b"glBeginQuery", 1182, crate::Address(glBeginQuery as *const ())),
-    (b"glBeginQueryARB", 1183, crate::Address(glBeginQueryARB as *const ())),
+    (b"glBeginConditionalRender", 1184, crate::Address(glBeginConditionalRender as *const ())),
+    (b"glBeginConditionalRenderNV", 1185, crate::Address(glBeginConditionalRenderNV as *const ())),
+    (b"glBeginQuery", 1189, crate::Address(glBeginQuery as *const ())),
+    (b"glBeginQueryARB", 1190, crate::Address(glBeginQueryARB as *const ())),
     (b"glBeginTransformFeedback", 668, crate::Address(glBeginTransformFeedback as *const ())),
     (b"glBeginTransformFeedbackEXT", 669, crate::Address(glBeginTransformFeedbackEXT as *const ())),
     (b"glBeginTransformFeedbackNV", 670, crate::Address(glBeginTransformFeedbackNV as *const ())),
-    (b"glBindBuffer", 1267, crate::Address(glBindBuffer as *const ())),
-    (b"glBindBufferARB", 1268, crate::Address(glBindBufferARB as *const ())),
-    (b"glBindFramebuffer", 1088, crate::Address(glBindFramebuffer as *const ())),
-    (b"glBindFramebufferEXT", 1089, crate::Address(glBindFramebufferEXT as *const ())),
+    (b"glBindBuffer", 1274, crate::Address(glBindBuffer as *const ())),
+    (b"glBindBufferARB", 1275, crate::Address(glBindBufferARB as *const ())),
+    (b"glBindFramebuffer", 1095, crate::Address(glBindFramebuffer as *const ())),
+    (b"glBindFramebufferEXT", 1096, crate::Address(glBindFramebufferEXT as *const ())),
     (b"glBindImageTexture", 818, crate::Address(glBindImageTexture as *const ())),
     (b"glBindImageTextures", 819, crate::Address(glBindImageTextures as *const ())),
     (b"glBindMultiTextureEXT", 541, crate::Address(glBindMultiTextureEXT as *const ())),
     (b"glBindProgramARB", 587, crate::Address(glBindProgramARB as *const ())),
     (b"glBindProgramNV", 588, crate::Address(glBindProgramNV as *const ())),
     (b"glBindProgramPipeline", 592, crate::Address(glBindProgramPipeline as *const ())),
-    (b"glBindRenderbuffer", 1259, crate::Address(glBindRenderbuffer as *const ())),
-    (b"glBindTexture", 1082, crate::Address(glBindTexture as *const ())),
-    (b"glBindTextureEXT", 1083, crate::Address(glBindTextureEXT as *const ())),
+    (b"glBindRenderbuffer", 1266, crate::Address(glBindRenderbuffer as *const ())),
+    (b"glBindTexture", 1089, crate::Address(glBindTexture as *const ())),
+    (b"glBindTextureEXT", 1090, crate::Address(glBindTextureEXT as *const ())),
     (b"glBindTextureUnit", 540, crate::Address(glBindTextureUnit as *const ())),
     (b"glBindTextures", 539, crate::Address(glBindTextures as *const ())),
-    (b"glBitmap", 1072, crate::Address(glBitmap as *const ())),
+    (b"glBitmap", 1079, crate::Address(glBitmap as *const ())),
     (b"glBlendColor", 703, crate::Address(glBlendColor as *const ())),
     (b"glBlendColorEXT", 704, crate::Address(glBlendColorEXT as *const ())),
     (b"glBlendEquation", 689, crate::Address(glBlendEquation as *const ())),
@@ -2875,42 +2889,42 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1338] = [
     (b"glBlendFunciARB", 686, crate::Address(glBlendFunciARB as *const ())),
     (b"glBlendFunciEXT", 687, crate::Address(glBlendFunciEXT as *const ())),
     (b"glBlendFunciOES", 688, crate::Address(glBlendFunciOES as *const ())),
-    (b"glBlitFramebuffer", 1104, crate::Address(glBlitFramebuffer as *const ())),
-    (b"glBlitFramebufferEXT", 1105, crate::Address(glBlitFramebufferEXT as *const ())),
-    (b"glBlitFramebufferNV", 1106, crate::Address(glBlitFramebufferNV as *const ())),
-    (b"glBlitNamedFramebuffer", 1107, crate::Address(glBlitNamedFramebuffer as *const ())),
-    (b"glBufferData", 1269, crate::Address(glBufferData as *const ())),
-    (b"glBufferDataARB", 1270, crate::Address(glBufferDataARB as *const ())),
-    (b"glBufferSubData", 1271, crate::Address(glBufferSubData as *const ())),
-    (b"glBufferSubDataARB", 1272, crate::Address(glBufferSubDataARB as *const ())),
-    (b"glCallList", 1077, crate::Address(glCallList as *const ())),
-    (b"glCallLists", 1078, crate::Address(glCallLists as *const ())),
-    (b"glCheckFramebufferStatus", 1139, crate::Address(glCheckFramebufferStatus as *const ())),
-    (b"glCheckFramebufferStatusEXT", 1140, crate::Address(glCheckFramebufferStatusEXT as *const ())),
+    (b"glBlitFramebuffer", 1111, crate::Address(glBlitFramebuffer as *const ())),
+    (b"glBlitFramebufferEXT", 1112, crate::Address(glBlitFramebufferEXT as *const ())),
+    (b"glBlitFramebufferNV", 1113, crate::Address(glBlitFramebufferNV as *const ())),
+    (b"glBlitNamedFramebuffer", 1114, crate::Address(glBlitNamedFramebuffer as *const ())),
+    (b"glBufferData", 1276, crate::Address(glBufferData as *const ())),
+    (b"glBufferDataARB", 1277, crate::Address(glBufferDataARB as *const ())),
+    (b"glBufferSubData", 1278, crate::Address(glBufferSubData as *const ())),
+    (b"glBufferSubDataARB", 1279, crate::Address(glBufferSubDataARB as *const ())),
+    (b"glCallList", 1084, crate::Address(glCallList as *const ())),
+    (b"glCallLists", 1085, crate::Address(glCallLists as *const ())),
+    (b"glCheckFramebufferStatus", 1146, crate::Address(glCheckFramebufferStatus as *const ())),
+    (b"glCheckFramebufferStatusEXT", 1147, crate::Address(glCheckFramebufferStatusEXT as *const ())),
     (b"glClampColor", 590, crate::Address(glClampColor as *const ())),
     (b"glClampColorARB", 591, crate::Address(glClampColorARB as *const ())),
-    (b"glClear", 1005, crate::Address(glClear as *const ())),
+    (b"glClear", 1012, crate::Address(glClear as *const ())),
     (b"glClearAccum", 705, crate::Address(glClearAccum as *const ())),
-    (b"glClearBufferfi", 1006, crate::Address(glClearBufferfi as *const ())),
-    (b"glClearBufferfv", 1007, crate::Address(glClearBufferfv as *const ())),
-    (b"glClearBufferiv", 1008, crate::Address(glClearBufferiv as *const ())),
-    (b"glClearBufferuiv", 1009, crate::Address(glClearBufferuiv as *const ())),
+    (b"glClearBufferfi", 1013, crate::Address(glClearBufferfi as *const ())),
+    (b"glClearBufferfv", 1014, crate::Address(glClearBufferfv as *const ())),
+    (b"glClearBufferiv", 1015, crate::Address(glClearBufferiv as *const ())),
+    (b"glClearBufferuiv", 1016, crate::Address(glClearBufferuiv as *const ())),
     (b"glClearColor", 706, crate::Address(glClearColor as *const ())),
     (b"glClearDepth", 707, crate::Address(glClearDepth as *const ())),
     (b"glClearDepthf", 708, crate::Address(glClearDepthf as *const ())),
     (b"glClearDepthfOES", 709, crate::Address(glClearDepthfOES as *const ())),
     (b"glClearIndex", 710, crate::Address(glClearIndex as *const ())),
-    (b"glClearNamedFramebufferfi", 1111, crate::Address(glClearNamedFramebufferfi as *const ())),
-    (b"glClearNamedFramebufferfv", 1108, crate::Address(glClearNamedFramebufferfv as *const ())),
-    (b"glClearNamedFramebufferiv", 1109, crate::Address(glClearNamedFramebufferiv as *const ())),
-    (b"glClearNamedFramebufferuiv", 1110, crate::Address(glClearNamedFramebufferuiv as *const ())),
+    (b"glClearNamedFramebufferfi", 1118, crate::Address(glClearNamedFramebufferfi as *const ())),
+    (b"glClearNamedFramebufferfv", 1115, crate::Address(glClearNamedFramebufferfv as *const ())),
+    (b"glClearNamedFramebufferiv", 1116, crate::Address(glClearNamedFramebufferiv as *const ())),
+    (b"glClearNamedFramebufferuiv", 1117, crate::Address(glClearNamedFramebufferuiv as *const ())),
     (b"glClearStencil", 711, crate::Address(glClearStencil as *const ())),
     (b"glClearTexImage", 814, crate::Address(glClearTexImage as *const ())),
     (b"glClearTexImageEXT", 815, crate::Address(glClearTexImageEXT as *const ())),
     (b"glClearTexSubImage", 816, crate::Address(glClearTexSubImage as *const ())),
     (b"glClearTexSubImageEXT", 817, crate::Address(glClearTexSubImageEXT as *const ())),
-    (b"glClientActiveTexture", 1281, crate::Address(glClientActiveTexture as *const ())),
-    (b"glClientActiveTextureARB", 1282, crate::Address(glClientActiveTextureARB as *const ())),
+    (b"glClientActiveTexture", 1288, crate::Address(glClientActiveTexture as *const ())),
+    (b"glClientActiveTextureARB", 1289, crate::Address(glClientActiveTextureARB as *const ())),
     (b"glClipControl", 585, crate::Address(glClipControl as *const ())),
     (b"glClipControlEXT", 586, crate::Address(glClipControlEXT as *const ())),
     (b"glClipPlane", 712, crate::Address(glClipPlane as *const ())),
@@ -2960,7 +2974,7 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1338] = [
     (b"glColorP3uiv", 441, crate::Address(glColorP3uiv as *const ())),
     (b"glColorP4ui", 442, crate::Address(glColorP4ui as *const ())),
     (b"glColorP4uiv", 443, crate::Address(glColorP4uiv as *const ())),
-    (b"glColorPointer", 1284, crate::Address(glColorPointer as *const ())),
+    (b"glColorPointer", 1291, crate::Address(glColorPointer as *const ())),
     (b"glCompressedTexImage1D", 773, crate::Address(glCompressedTexImage1D as *const ())),
     (b"glCompressedTexImage1DARB", 774, crate::Address(glCompressedTexImage1DARB as *const ())),
     (b"glCompressedTexImage2D", 775, crate::Address(glCompressedTexImage2D as *const ())),
@@ -2973,45 +2987,45 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1338] = [
     (b"glCompressedTexSubImage2DARB", 782, crate::Address(glCompressedTexSubImage2DARB as *const ())),
     (b"glCompressedTexSubImage3D", 783, crate::Address(glCompressedTexSubImage3D as *const ())),
     (b"glCompressedTexSubImage3DARB", 784, crate::Address(glCompressedTexSubImage3DARB as *const ())),
-    (b"glCopyColorTable", 1168, crate::Address(glCopyColorTable as *const ())),
-    (b"glCopyColorTableSGI", 1169, crate::Address(glCopyColorTableSGI as *const ())),
-    (b"glCopyConvolutionFilter1D", 1170, crate::Address(glCopyConvolutionFilter1D as *const ())),
-    (b"glCopyConvolutionFilter1DEXT", 1171, crate::Address(glCopyConvolutionFilter1DEXT as *const ())),
-    (b"glCopyConvolutionFilter2D", 1172, crate::Address(glCopyConvolutionFilter2D as *const ())),
-    (b"glCopyConvolutionFilter2DEXT", 1173, crate::Address(glCopyConvolutionFilter2DEXT as *const ())),
+    (b"glCopyColorTable", 1175, crate::Address(glCopyColorTable as *const ())),
+    (b"glCopyColorTableSGI", 1176, crate::Address(glCopyColorTableSGI as *const ())),
+    (b"glCopyConvolutionFilter1D", 1177, crate::Address(glCopyConvolutionFilter1D as *const ())),
+    (b"glCopyConvolutionFilter1DEXT", 1178, crate::Address(glCopyConvolutionFilter1DEXT as *const ())),
+    (b"glCopyConvolutionFilter2D", 1179, crate::Address(glCopyConvolutionFilter2D as *const ())),
+    (b"glCopyConvolutionFilter2DEXT", 1180, crate::Address(glCopyConvolutionFilter2DEXT as *const ())),
     (b"glCopyImageSubData", 805, crate::Address(glCopyImageSubData as *const ())),
     (b"glCopyImageSubDataEXT", 806, crate::Address(glCopyImageSubDataEXT as *const ())),
     (b"glCopyImageSubDataOES", 807, crate::Address(glCopyImageSubDataOES as *const ())),
-    (b"glCopyMultiTexImage1DEXT", 1164, crate::Address(glCopyMultiTexImage1DEXT as *const ())),
-    (b"glCopyMultiTexImage2DEXT", 1165, crate::Address(glCopyMultiTexImage2DEXT as *const ())),
-    (b"glCopyPixels", 1074, crate::Address(glCopyPixels as *const ())),
-    (b"glCopyTexImage1D", 1146, crate::Address(glCopyTexImage1D as *const ())),
-    (b"glCopyTexImage1DEXT", 1147, crate::Address(glCopyTexImage1DEXT as *const ())),
-    (b"glCopyTexImage2D", 1148, crate::Address(glCopyTexImage2D as *const ())),
-    (b"glCopyTexImage2DEXT", 1149, crate::Address(glCopyTexImage2DEXT as *const ())),
-    (b"glCopyTexSubImage1D", 1150, crate::Address(glCopyTexSubImage1D as *const ())),
-    (b"glCopyTexSubImage1DEXT", 1151, crate::Address(glCopyTexSubImage1DEXT as *const ())),
-    (b"glCopyTexSubImage2D", 1152, crate::Address(glCopyTexSubImage2D as *const ())),
-    (b"glCopyTexSubImage2DEXT", 1153, crate::Address(glCopyTexSubImage2DEXT as *const ())),
-    (b"glCopyTexSubImage3D", 1159, crate::Address(glCopyTexSubImage3D as *const ())),
-    (b"glCopyTexSubImage3DEXT", 1160, crate::Address(glCopyTexSubImage3DEXT as *const ())),
-    (b"glCopyTextureImage1DEXT", 1166, crate::Address(glCopyTextureImage1DEXT as *const ())),
-    (b"glCopyTextureImage2DEXT", 1167, crate::Address(glCopyTextureImage2DEXT as *const ())),
-    (b"glCopyTextureSubImage1D", 1161, crate::Address(glCopyTextureSubImage1D as *const ())),
-    (b"glCopyTextureSubImage2D", 1162, crate::Address(glCopyTextureSubImage2D as *const ())),
-    (b"glCopyTextureSubImage3D", 1163, crate::Address(glCopyTextureSubImage3D as *const ())),
+    (b"glCopyMultiTexImage1DEXT", 1171, crate::Address(glCopyMultiTexImage1DEXT as *const ())),
+    (b"glCopyMultiTexImage2DEXT", 1172, crate::Address(glCopyMultiTexImage2DEXT as *const ())),
+    (b"glCopyPixels", 1081, crate::Address(glCopyPixels as *const ())),
+    (b"glCopyTexImage1D", 1153, crate::Address(glCopyTexImage1D as *const ())),
+    (b"glCopyTexImage1DEXT", 1154, crate::Address(glCopyTexImage1DEXT as *const ())),
+    (b"glCopyTexImage2D", 1155, crate::Address(glCopyTexImage2D as *const ())),
+    (b"glCopyTexImage2DEXT", 1156, crate::Address(glCopyTexImage2DEXT as *const ())),
+    (b"glCopyTexSubImage1D", 1157, crate::Address(glCopyTexSubImage1D as *const ())),
+    (b"glCopyTexSubImage1DEXT", 1158, crate::Address(glCopyTexSubImage1DEXT as *const ())),
+    (b"glCopyTexSubImage2D", 1159, crate::Address(glCopyTexSubImage2D as *const ())),
+    (b"glCopyTexSubImage2DEXT", 1160, crate::Address(glCopyTexSubImage2DEXT as *const ())),
+    (b"glCopyTexSubImage3D", 1166, crate::Address(glCopyTexSubImage3D as *const ())),
+    (b"glCopyTexSubImage3DEXT", 1167, crate::Address(glCopyTexSubImage3DEXT as *const ())),
+    (b"glCopyTextureImage1DEXT", 1173, crate::Address(glCopyTextureImage1DEXT as *const ())),
+    (b"glCopyTextureImage2DEXT", 1174, crate::Address(glCopyTextureImage2DEXT as *const ())),
+    (b"glCopyTextureSubImage1D", 1168, crate::Address(glCopyTextureSubImage1D as *const ())),
+    (b"glCopyTextureSubImage2D", 1169, crate::Address(glCopyTextureSubImage2D as *const ())),
+    (b"glCopyTextureSubImage3D", 1170, crate::Address(glCopyTextureSubImage3D as *const ())),
     (b"glCullFace", 718, crate::Address(glCullFace as *const ())),
-    (b"glDeleteBuffers", 1273, crate::Address(glDeleteBuffers as *const ())),
-    (b"glDeleteBuffersARB", 1274, crate::Address(glDeleteBuffersARB as *const ())),
-    (b"glDeleteFramebuffers", 1090, crate::Address(glDeleteFramebuffers as *const ())),
-    (b"glDeleteFramebuffersEXT", 1091, crate::Address(glDeleteFramebuffersEXT as *const ())),
-    (b"glDeleteLists", 1079, crate::Address(glDeleteLists as *const ())),
-    (b"glDeleteProgram", 1003, crate::Address(glDeleteProgram as *const ())),
-    (b"glDeleteQueries", 1186, crate::Address(glDeleteQueries as *const ())),
-    (b"glDeleteQueriesARB", 1187, crate::Address(glDeleteQueriesARB as *const ())),
-    (b"glDeleteRenderbuffers", 1265, crate::Address(glDeleteRenderbuffers as *const ())),
-    (b"glDeleteRenderbuffersEXT", 1266, crate::Address(glDeleteRenderbuffersEXT as *const ())),
-    (b"glDeleteTextures", 1084, crate::Address(glDeleteTextures as *const ())),
+    (b"glDeleteBuffers", 1280, crate::Address(glDeleteBuffers as *const ())),
+    (b"glDeleteBuffersARB", 1281, crate::Address(glDeleteBuffersARB as *const ())),
+    (b"glDeleteFramebuffers", 1097, crate::Address(glDeleteFramebuffers as *const ())),
+    (b"glDeleteFramebuffersEXT", 1098, crate::Address(glDeleteFramebuffersEXT as *const ())),
+    (b"glDeleteLists", 1086, crate::Address(glDeleteLists as *const ())),
+    (b"glDeleteProgram", 1010, crate::Address(glDeleteProgram as *const ())),
+    (b"glDeleteQueries", 1193, crate::Address(glDeleteQueries as *const ())),
+    (b"glDeleteQueriesARB", 1194, crate::Address(glDeleteQueriesARB as *const ())),
+    (b"glDeleteRenderbuffers", 1272, crate::Address(glDeleteRenderbuffers as *const ())),
+    (b"glDeleteRenderbuffersEXT", 1273, crate::Address(glDeleteRenderbuffersEXT as *const ())),
+    (b"glDeleteTextures", 1091, crate::Address(glDeleteTextures as *const ())),
     (b"glDepthBoundsEXT", 719, crate::Address(glDepthBoundsEXT as *const ())),
     (b"glDepthFunc", 531, crate::Address(glDepthFunc as *const ())),
     (b"glDepthMask", 530, crate::Address(glDepthMask as *const ())),
@@ -3021,81 +3035,81 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1338] = [
     (b"glDepthRangef", 533, crate::Address(glDepthRangef as *const ())),
     (b"glDepthRangefOES", 534, crate::Address(glDepthRangefOES as *const ())),
     (b"glDisable", 519, crate::Address(glDisable as *const ())),
-    (b"glDisableClientState", 1280, crate::Address(glDisableClientState as *const ())),
+    (b"glDisableClientState", 1287, crate::Address(glDisableClientState as *const ())),
     (b"glDisableIndexedEXT", 526, crate::Address(glDisableIndexedEXT as *const ())),
-    (b"glDisableVertexAttribArray", 1298, crate::Address(glDisableVertexAttribArray as *const ())),
-    (b"glDisableVertexAttribArrayARB", 1299, crate::Address(glDisableVertexAttribArrayARB as *const ())),
+    (b"glDisableVertexAttribArray", 1305, crate::Address(glDisableVertexAttribArray as *const ())),
+    (b"glDisableVertexAttribArrayARB", 1306, crate::Address(glDisableVertexAttribArrayARB as *const ())),
     (b"glDisablei", 525, crate::Address(glDisablei as *const ())),
     (b"glDisableiEXT", 527, crate::Address(glDisableiEXT as *const ())),
     (b"glDisableiNV", 528, crate::Address(glDisableiNV as *const ())),
     (b"glDisableiOES", 529, crate::Address(glDisableiOES as *const ())),
-    (b"glDiscardFramebufferEXT", 1145, crate::Address(glDiscardFramebufferEXT as *const ())),
+    (b"glDiscardFramebufferEXT", 1152, crate::Address(glDiscardFramebufferEXT as *const ())),
     (b"glDispatchCompute", 820, crate::Address(glDispatchCompute as *const ())),
     (b"glDispatchComputeIndirect", 821, crate::Address(glDispatchComputeIndirect as *const ())),
-    (b"glDrawArrays", 1010, crate::Address(glDrawArrays as *const ())),
-    (b"glDrawArraysEXT", 1011, crate::Address(glDrawArraysEXT as *const ())),
-    (b"glDrawArraysIndirect", 1046, crate::Address(glDrawArraysIndirect as *const ())),
-    (b"glDrawArraysInstanced", 1027, crate::Address(glDrawArraysInstanced as *const ())),
-    (b"glDrawArraysInstancedANGLE", 1028, crate::Address(glDrawArraysInstancedANGLE as *const ())),
-    (b"glDrawArraysInstancedARB", 1029, crate::Address(glDrawArraysInstancedARB as *const ())),
-    (b"glDrawArraysInstancedBaseInstance", 1040, crate::Address(glDrawArraysInstancedBaseInstance as *const ())),
-    (b"glDrawArraysInstancedBaseInstanceEXT", 1041, crate::Address(glDrawArraysInstancedBaseInstanceEXT as *const ())),
-    (b"glDrawArraysInstancedEXT", 1030, crate::Address(glDrawArraysInstancedEXT as *const ())),
-    (b"glDrawArraysInstancedNV", 1031, crate::Address(glDrawArraysInstancedNV as *const ())),
-    (b"glDrawBuffer", 1092, crate::Address(glDrawBuffer as *const ())),
-    (b"glDrawBuffers", 1093, crate::Address(glDrawBuffers as *const ())),
-    (b"glDrawBuffersARB", 1094, crate::Address(glDrawBuffersARB as *const ())),
-    (b"glDrawBuffersATI", 1095, crate::Address(glDrawBuffersATI as *const ())),
-    (b"glDrawBuffersEXT", 1096, crate::Address(glDrawBuffersEXT as *const ())),
-    (b"glDrawElements", 1012, crate::Address(glDrawElements as *const ())),
-    (b"glDrawElementsBaseVertex", 1019, crate::Address(glDrawElementsBaseVertex as *const ())),
-    (b"glDrawElementsBaseVertexEXT", 1020, crate::Address(glDrawElementsBaseVertexEXT as *const ())),
-    (b"glDrawElementsBaseVertexOES", 1021, crate::Address(glDrawElementsBaseVertexOES as *const ())),
-    (b"glDrawElementsIndirect", 1047, crate::Address(glDrawElementsIndirect as *const ())),
-    (b"glDrawElementsInstanced", 1032, crate::Address(glDrawElementsInstanced as *const ())),
-    (b"glDrawElementsInstancedANGLE", 1033, crate::Address(glDrawElementsInstancedANGLE as *const ())),
-    (b"glDrawElementsInstancedARB", 1034, crate::Address(glDrawElementsInstancedARB as *const ())),
-    (b"glDrawElementsInstancedBaseInstance", 1042, crate::Address(glDrawElementsInstancedBaseInstance as *const ())),
-    (b"glDrawElementsInstancedBaseInstanceEXT", 1043, crate::Address(glDrawElementsInstancedBaseInstanceEXT as *const ())),
-    (b"glDrawElementsInstancedBaseVertex", 1037, crate::Address(glDrawElementsInstancedBaseVertex as *const ())),
-    (b"glDrawElementsInstancedBaseVertexBaseInstance", 1044, crate::Address(glDrawElementsInstancedBaseVertexBaseInstance as *const ())),
-    (b"glDrawElementsInstancedBaseVertexBaseInstanceEXT", 1045, crate::Address(glDrawElementsInstancedBaseVertexBaseInstanceEXT as *const ())),
-    (b"glDrawElementsInstancedBaseVertexEXT", 1038, crate::Address(glDrawElementsInstancedBaseVertexEXT as *const ())),
-    (b"glDrawElementsInstancedBaseVertexOES", 1039, crate::Address(glDrawElementsInstancedBaseVertexOES as *const ())),
-    (b"glDrawElementsInstancedEXT", 1035, crate::Address(glDrawElementsInstancedEXT as *const ())),
-    (b"glDrawElementsInstancedNV", 1036, crate::Address(glDrawElementsInstancedNV as *const ())),
-    (b"glDrawPixels", 1073, crate::Address(glDrawPixels as *const ())),
-    (b"glDrawRangeElements", 1013, crate::Address(glDrawRangeElements as *const ())),
-    (b"glDrawRangeElementsBaseVertex", 1022, crate::Address(glDrawRangeElementsBaseVertex as *const ())),
-    (b"glDrawRangeElementsBaseVertexEXT", 1023, crate::Address(glDrawRangeElementsBaseVertexEXT as *const ())),
-    (b"glDrawRangeElementsBaseVertexOES", 1024, crate::Address(glDrawRangeElementsBaseVertexOES as *const ())),
-    (b"glDrawRangeElementsEXT", 1014, crate::Address(glDrawRangeElementsEXT as *const ())),
-    (b"glDrawTransformFeedback", 1054, crate::Address(glDrawTransformFeedback as *const ())),
-    (b"glDrawTransformFeedbackEXT", 1055, crate::Address(glDrawTransformFeedbackEXT as *const ())),
-    (b"glDrawTransformFeedbackInstanced", 1057, crate::Address(glDrawTransformFeedbackInstanced as *const ())),
-    (b"glDrawTransformFeedbackInstancedEXT", 1058, crate::Address(glDrawTransformFeedbackInstancedEXT as *const ())),
-    (b"glDrawTransformFeedbackNV", 1056, crate::Address(glDrawTransformFeedbackNV as *const ())),
-    (b"glDrawTransformFeedbackStream", 1059, crate::Address(glDrawTransformFeedbackStream as *const ())),
-    (b"glDrawTransformFeedbackStreamInstanced", 1060, crate::Address(glDrawTransformFeedbackStreamInstanced as *const ())),
+    (b"glDrawArrays", 1017, crate::Address(glDrawArrays as *const ())),
+    (b"glDrawArraysEXT", 1018, crate::Address(glDrawArraysEXT as *const ())),
+    (b"glDrawArraysIndirect", 1053, crate::Address(glDrawArraysIndirect as *const ())),
+    (b"glDrawArraysInstanced", 1034, crate::Address(glDrawArraysInstanced as *const ())),
+    (b"glDrawArraysInstancedANGLE", 1035, crate::Address(glDrawArraysInstancedANGLE as *const ())),
+    (b"glDrawArraysInstancedARB", 1036, crate::Address(glDrawArraysInstancedARB as *const ())),
+    (b"glDrawArraysInstancedBaseInstance", 1047, crate::Address(glDrawArraysInstancedBaseInstance as *const ())),
+    (b"glDrawArraysInstancedBaseInstanceEXT", 1048, crate::Address(glDrawArraysInstancedBaseInstanceEXT as *const ())),
+    (b"glDrawArraysInstancedEXT", 1037, crate::Address(glDrawArraysInstancedEXT as *const ())),
+    (b"glDrawArraysInstancedNV", 1038, crate::Address(glDrawArraysInstancedNV as *const ())),
+    (b"glDrawBuffer", 1099, crate::Address(glDrawBuffer as *const ())),
+    (b"glDrawBuffers", 1100, crate::Address(glDrawBuffers as *const ())),
+    (b"glDrawBuffersARB", 1101, crate::Address(glDrawBuffersARB as *const ())),
+    (b"glDrawBuffersATI", 1102, crate::Address(glDrawBuffersATI as *const ())),
+    (b"glDrawBuffersEXT", 1103, crate::Address(glDrawBuffersEXT as *const ())),
+    (b"glDrawElements", 1019, crate::Address(glDrawElements as *const ())),
+    (b"glDrawElementsBaseVertex", 1026, crate::Address(glDrawElementsBaseVertex as *const ())),
+    (b"glDrawElementsBaseVertexEXT", 1027, crate::Address(glDrawElementsBaseVertexEXT as *const ())),
+    (b"glDrawElementsBaseVertexOES", 1028, crate::Address(glDrawElementsBaseVertexOES as *const ())),
+    (b"glDrawElementsIndirect", 1054, crate::Address(glDrawElementsIndirect as *const ())),
+    (b"glDrawElementsInstanced", 1039, crate::Address(glDrawElementsInstanced as *const ())),
+    (b"glDrawElementsInstancedANGLE", 1040, crate::Address(glDrawElementsInstancedANGLE as *const ())),
+    (b"glDrawElementsInstancedARB", 1041, crate::Address(glDrawElementsInstancedARB as *const ())),
+    (b"glDrawElementsInstancedBaseInstance", 1049, crate::Address(glDrawElementsInstancedBaseInstance as *const ())),
+    (b"glDrawElementsInstancedBaseInstanceEXT", 1050, crate::Address(glDrawElementsInstancedBaseInstanceEXT as *const ())),
+    (b"glDrawElementsInstancedBaseVertex", 1044, crate::Address(glDrawElementsInstancedBaseVertex as *const ())),
+    (b"glDrawElementsInstancedBaseVertexBaseInstance", 1051, crate::Address(glDrawElementsInstancedBaseVertexBaseInstance as *const ())),
+    (b"glDrawElementsInstancedBaseVertexBaseInstanceEXT", 1052, crate::Address(glDrawElementsInstancedBaseVertexBaseInstanceEXT as *const ())),
+    (b"glDrawElementsInstancedBaseVertexEXT", 1045, crate::Address(glDrawElementsInstancedBaseVertexEXT as *const ())),
+    (b"glDrawElementsInstancedBaseVertexOES", 1046, crate::Address(glDrawElementsInstancedBaseVertexOES as *const ())),
+    (b"glDrawElementsInstancedEXT", 1042, crate::Address(glDrawElementsInstancedEXT as *const ())),
+    (b"glDrawElementsInstancedNV", 1043, crate::Address(glDrawElementsInstancedNV as *const ())),
+    (b"glDrawPixels", 1080, crate::Address(glDrawPixels as *const ())),
+    (b"glDrawRangeElements", 1020, crate::Address(glDrawRangeElements as *const ())),
+    (b"glDrawRangeElementsBaseVertex", 1029, crate::Address(glDrawRangeElementsBaseVertex as *const ())),
+    (b"glDrawRangeElementsBaseVertexEXT", 1030, crate::Address(glDrawRangeElementsBaseVertexEXT as *const ())),
+    (b"glDrawRangeElementsBaseVertexOES", 1031, crate::Address(glDrawRangeElementsBaseVertexOES as *const ())),
+    (b"glDrawRangeElementsEXT", 1021, crate::Address(glDrawRangeElementsEXT as *const ())),
+    (b"glDrawTransformFeedback", 1061, crate::Address(glDrawTransformFeedback as *const ())),
+    (b"glDrawTransformFeedbackEXT", 1062, crate::Address(glDrawTransformFeedbackEXT as *const ())),
+    (b"glDrawTransformFeedbackInstanced", 1064, crate::Address(glDrawTransformFeedbackInstanced as *const ())),
+    (b"glDrawTransformFeedbackInstancedEXT", 1065, crate::Address(glDrawTransformFeedbackInstancedEXT as *const ())),
+    (b"glDrawTransformFeedbackNV", 1063, crate::Address(glDrawTransformFeedbackNV as *const ())),
+    (b"glDrawTransformFeedbackStream", 1066, crate::Address(glDrawTransformFeedbackStream as *const ())),
+    (b"glDrawTransformFeedbackStreamInstanced", 1067, crate::Address(glDrawTransformFeedbackStreamInstanced as *const ())),
     (b"glEdgeFlag", 234, crate::Address(glEdgeFlag as *const ())),
-    (b"glEdgeFlagPointer", 1289, crate::Address(glEdgeFlagPointer as *const ())),
+    (b"glEdgeFlagPointer", 1296, crate::Address(glEdgeFlagPointer as *const ())),
     (b"glEdgeFlagv", 235, crate::Address(glEdgeFlagv as *const ())),
     (b"glEnable", 518, crate::Address(glEnable as *const ())),
-    (b"glEnableClientState", 1279, crate::Address(glEnableClientState as *const ())),
+    (b"glEnableClientState", 1286, crate::Address(glEnableClientState as *const ())),
     (b"glEnableIndexedEXT", 521, crate::Address(glEnableIndexedEXT as *const ())),
-    (b"glEnableVertexAttribArray", 1296, crate::Address(glEnableVertexAttribArray as *const ())),
-    (b"glEnableVertexAttribArrayARB", 1297, crate::Address(glEnableVertexAttribArrayARB as *const ())),
+    (b"glEnableVertexAttribArray", 1303, crate::Address(glEnableVertexAttribArray as *const ())),
+    (b"glEnableVertexAttribArrayARB", 1304, crate::Address(glEnableVertexAttribArrayARB as *const ())),
     (b"glEnablei", 520, crate::Address(glEnablei as *const ())),
     (b"glEnableiEXT", 522, crate::Address(glEnableiEXT as *const ())),
     (b"glEnableiNV", 523, crate::Address(glEnableiNV as *const ())),
     (b"glEnableiOES", 524, crate::Address(glEnableiOES as *const ())),
     (b"glEnd", 455, crate::Address(glEnd as *const ())),
-    (b"glEndConditionalRender", 1179, crate::Address(glEndConditionalRender as *const ())),
-    (b"glEndConditionalRenderNV", 1180, crate::Address(glEndConditionalRenderNV as *const ())),
-    (b"glEndConditionalRenderNVX", 1181, crate::Address(glEndConditionalRenderNVX as *const ())),
-    (b"glEndList", 1076, crate::Address(glEndList as *const ())),
-    (b"glEndQuery", 1184, crate::Address(glEndQuery as *const ())),
-    (b"glEndQueryARB", 1185, crate::Address(glEndQueryARB as *const ())),
+    (b"glEndConditionalRender", 1186, crate::Address(glEndConditionalRender as *const ())),
+    (b"glEndConditionalRenderNV", 1187, crate::Address(glEndConditionalRenderNV as *const ())),
+    (b"glEndConditionalRenderNVX", 1188, crate::Address(glEndConditionalRenderNVX as *const ())),
+    (b"glEndList", 1083, crate::Address(glEndList as *const ())),
+    (b"glEndQuery", 1191, crate::Address(glEndQuery as *const ())),
+    (b"glEndQueryARB", 1192, crate::Address(glEndQueryARB as *const ())),
     (b"glEndTransformFeedback", 671, crate::Address(glEndTransformFeedback as *const ())),
     (b"glEndTransformFeedbackEXT", 672, crate::Address(glEndTransformFeedbackEXT as *const ())),
     (b"glEndTransformFeedbackNV", 673, crate::Address(glEndTransformFeedbackNV as *const ())),
@@ -3107,15 +3121,15 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1338] = [
     (b"glEvalCoord2dv", 255, crate::Address(glEvalCoord2dv as *const ())),
     (b"glEvalCoord2f", 256, crate::Address(glEvalCoord2f as *const ())),
     (b"glEvalCoord2fv", 257, crate::Address(glEvalCoord2fv as *const ())),
-    (b"glEvalMesh1", 1069, crate::Address(glEvalMesh1 as *const ())),
-    (b"glEvalMesh2", 1070, crate::Address(glEvalMesh2 as *const ())),
+    (b"glEvalMesh1", 1076, crate::Address(glEvalMesh1 as *const ())),
+    (b"glEvalMesh2", 1077, crate::Address(glEvalMesh2 as *const ())),
     (b"glEvalPoint1", 258, crate::Address(glEvalPoint1 as *const ())),
     (b"glEvalPoint2", 259, crate::Address(glEvalPoint2 as *const ())),
-    (b"glFeedbackBuffer", 1252, crate::Address(glFeedbackBuffer as *const ())),
-    (b"glFinish", 1174, crate::Address(glFinish as *const ())),
-    (b"glFlush", 1175, crate::Address(glFlush as *const ())),
-    (b"glFogCoordPointer", 1290, crate::Address(glFogCoordPointer as *const ())),
-    (b"glFogCoordPointerEXT", 1291, crate::Address(glFogCoordPointerEXT as *const ())),
+    (b"glFeedbackBuffer", 1259, crate::Address(glFeedbackBuffer as *const ())),
+    (b"glFinish", 1181, crate::Address(glFinish as *const ())),
+    (b"glFlush", 1182, crate::Address(glFlush as *const ())),
+    (b"glFogCoordPointer", 1297, crate::Address(glFogCoordPointer as *const ())),
+    (b"glFogCoordPointerEXT", 1298, crate::Address(glFogCoordPointerEXT as *const ())),
     (b"glFogCoordd", 224, crate::Address(glFogCoordd as *const ())),
     (b"glFogCoorddEXT", 225, crate::Address(glFogCoorddEXT as *const ())),
     (b"glFogCoorddv", 226, crate::Address(glFogCoorddv as *const ())),
@@ -3130,111 +3144,111 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1338] = [
     (b"glFogfv", 558, crate::Address(glFogfv as *const ())),
     (b"glFogi", 559, crate::Address(glFogi as *const ())),
     (b"glFogiv", 560, crate::Address(glFogiv as *const ())),
-    (b"glFramebufferDrawBufferEXT", 1101, crate::Address(glFramebufferDrawBufferEXT as *const ())),
-    (b"glFramebufferDrawBuffersEXT", 1102, crate::Address(glFramebufferDrawBuffersEXT as *const ())),
-    (b"glFramebufferParameteri", 1141, crate::Address(glFramebufferParameteri as *const ())),
-    (b"glFramebufferReadBufferEXT", 1103, crate::Address(glFramebufferReadBufferEXT as *const ())),
-    (b"glFramebufferRenderbuffer", 1132, crate::Address(glFramebufferRenderbuffer as *const ())),
-    (b"glFramebufferRenderbufferEXT", 1133, crate::Address(glFramebufferRenderbufferEXT as *const ())),
-    (b"glFramebufferTexture", 1119, crate::Address(glFramebufferTexture as *const ())),
-    (b"glFramebufferTexture1D", 1123, crate::Address(glFramebufferTexture1D as *const ())),
-    (b"glFramebufferTexture1DEXT", 1124, crate::Address(glFramebufferTexture1DEXT as *const ())),
-    (b"glFramebufferTexture2D", 1125, crate::Address(glFramebufferTexture2D as *const ())),
-    (b"glFramebufferTexture2DEXT", 1126, crate::Address(glFramebufferTexture2DEXT as *const ())),
-    (b"glFramebufferTexture3D", 1127, crate::Address(glFramebufferTexture3D as *const ())),
-    (b"glFramebufferTexture3DEXT", 1128, crate::Address(glFramebufferTexture3DEXT as *const ())),
-    (b"glFramebufferTextureARB", 1120, crate::Address(glFramebufferTextureARB as *const ())),
-    (b"glFramebufferTextureEXT", 1121, crate::Address(glFramebufferTextureEXT as *const ())),
-    (b"glFramebufferTextureLayer", 1129, crate::Address(glFramebufferTextureLayer as *const ())),
-    (b"glFramebufferTextureLayerARB", 1130, crate::Address(glFramebufferTextureLayerARB as *const ())),
-    (b"glFramebufferTextureLayerEXT", 1131, crate::Address(glFramebufferTextureLayerEXT as *const ())),
-    (b"glFramebufferTextureOES", 1122, crate::Address(glFramebufferTextureOES as *const ())),
+    (b"glFramebufferDrawBufferEXT", 1108, crate::Address(glFramebufferDrawBufferEXT as *const ())),
+    (b"glFramebufferDrawBuffersEXT", 1109, crate::Address(glFramebufferDrawBuffersEXT as *const ())),
+    (b"glFramebufferParameteri", 1148, crate::Address(glFramebufferParameteri as *const ())),
+    (b"glFramebufferReadBufferEXT", 1110, crate::Address(glFramebufferReadBufferEXT as *const ())),
+    (b"glFramebufferRenderbuffer", 1139, crate::Address(glFramebufferRenderbuffer as *const ())),
+    (b"glFramebufferRenderbufferEXT", 1140, crate::Address(glFramebufferRenderbufferEXT as *const ())),
+    (b"glFramebufferTexture", 1126, crate::Address(glFramebufferTexture as *const ())),
+    (b"glFramebufferTexture1D", 1130, crate::Address(glFramebufferTexture1D as *const ())),
+    (b"glFramebufferTexture1DEXT", 1131, crate::Address(glFramebufferTexture1DEXT as *const ())),
+    (b"glFramebufferTexture2D", 1132, crate::Address(glFramebufferTexture2D as *const ())),
+    (b"glFramebufferTexture2DEXT", 1133, crate::Address(glFramebufferTexture2DEXT as *const ())),
+    (b"glFramebufferTexture3D", 1134, crate::Address(glFramebufferTexture3D as *const ())),
+    (b"glFramebufferTexture3DEXT", 1135, crate::Address(glFramebufferTexture3DEXT as *const ())),
+    (b"glFramebufferTextureARB", 1127, crate::Address(glFramebufferTextureARB as *const ())),
+    (b"glFramebufferTextureEXT", 1128, crate::Address(glFramebufferTextureEXT as *const ())),
+    (b"glFramebufferTextureLayer", 1136, crate::Address(glFramebufferTextureLayer as *const ())),
+    (b"glFramebufferTextureLayerARB", 1137, crate::Address(glFramebufferTextureLayerARB as *const ())),
+    (b"glFramebufferTextureLayerEXT", 1138, crate::Address(glFramebufferTextureLayerEXT as *const ())),
+    (b"glFramebufferTextureOES", 1129, crate::Address(glFramebufferTextureOES as *const ())),
     (b"glFrontFace", 720, crate::Address(glFrontFace as *const ())),
     (b"glFrustum", 476, crate::Address(glFrustum as *const ())),
-    (b"glGenFramebuffers", 1255, crate::Address(glGenFramebuffers as *const ())),
-    (b"glGenFramebuffersEXT", 1256, crate::Address(glGenFramebuffersEXT as *const ())),
-    (b"glGenLists", 1080, crate::Address(glGenLists as *const ())),
-    (b"glGenRenderbuffers", 1257, crate::Address(glGenRenderbuffers as *const ())),
-    (b"glGenRenderbuffersEXT", 1258, crate::Address(glGenRenderbuffersEXT as *const ())),
-    (b"glGenTextures", 1254, crate::Address(glGenTextures as *const ())),
+    (b"glGenFramebuffers", 1262, crate::Address(glGenFramebuffers as *const ())),
+    (b"glGenFramebuffersEXT", 1263, crate::Address(glGenFramebuffersEXT as *const ())),
+    (b"glGenLists", 1087, crate::Address(glGenLists as *const ())),
+    (b"glGenRenderbuffers", 1264, crate::Address(glGenRenderbuffers as *const ())),
+    (b"glGenRenderbuffersEXT", 1265, crate::Address(glGenRenderbuffersEXT as *const ())),
+    (b"glGenTextures", 1261, crate::Address(glGenTextures as *const ())),
     (b"glGenerateMipmap", 803, crate::Address(glGenerateMipmap as *const ())),
     (b"glGenerateMipmapEXT", 804, crate::Address(glGenerateMipmapEXT as *const ())),
-    (b"glGetBooleanv", 1113, crate::Address(glGetBooleanv as *const ())),
-    (b"glGetClipPlane", 1218, crate::Address(glGetClipPlane as *const ())),
-    (b"glGetCompressedTexImage", 1233, crate::Address(glGetCompressedTexImage as *const ())),
-    (b"glGetCompressedTexImageARB", 1234, crate::Address(glGetCompressedTexImageARB as *const ())),
+    (b"glGetBooleanv", 1120, crate::Address(glGetBooleanv as *const ())),
+    (b"glGetClipPlane", 1225, crate::Address(glGetClipPlane as *const ())),
+    (b"glGetCompressedTexImage", 1240, crate::Address(glGetCompressedTexImage as *const ())),
+    (b"glGetCompressedTexImageARB", 1241, crate::Address(glGetCompressedTexImageARB as *const ())),
     (b"glGetCompressedTextureImage", 810, crate::Address(glGetCompressedTextureImage as *const ())),
-    (b"glGetDoublev", 1115, crate::Address(glGetDoublev as *const ())),
-    (b"glGetError", 1176, crate::Address(glGetError as *const ())),
-    (b"glGetFloatv", 1114, crate::Address(glGetFloatv as *const ())),
-    (b"glGetFramebufferAttachmentParameteriv", 1137, crate::Address(glGetFramebufferAttachmentParameteriv as *const ())),
-    (b"glGetFramebufferAttachmentParameterivEXT", 1138, crate::Address(glGetFramebufferAttachmentParameterivEXT as *const ())),
-    (b"glGetFramebufferParameteriv", 1142, crate::Address(glGetFramebufferParameteriv as *const ())),
-    (b"glGetInteger64v", 1116, crate::Address(glGetInteger64v as *const ())),
-    (b"glGetInteger64vAPPLE", 1117, crate::Address(glGetInteger64vAPPLE as *const ())),
-    (b"glGetInteger64vEXT", 1118, crate::Address(glGetInteger64vEXT as *const ())),
-    (b"glGetIntegerIndexedvEXT", 1230, crate::Address(glGetIntegerIndexedvEXT as *const ())),
-    (b"glGetIntegeri_v", 1229, crate::Address(glGetIntegeri_v as *const ())),
-    (b"glGetIntegerv", 1112, crate::Address(glGetIntegerv as *const ())),
-    (b"glGetLightfv", 1210, crate::Address(glGetLightfv as *const ())),
-    (b"glGetLightiv", 1211, crate::Address(glGetLightiv as *const ())),
-    (b"glGetMapdv", 1219, crate::Address(glGetMapdv as *const ())),
-    (b"glGetMapfv", 1220, crate::Address(glGetMapfv as *const ())),
-    (b"glGetMapiv", 1221, crate::Address(glGetMapiv as *const ())),
-    (b"glGetMaterialfv", 1212, crate::Address(glGetMaterialfv as *const ())),
-    (b"glGetMaterialiv", 1213, crate::Address(glGetMaterialiv as *const ())),
-    (b"glGetPixelMapfv", 1222, crate::Address(glGetPixelMapfv as *const ())),
-    (b"glGetPixelMapuiv", 1223, crate::Address(glGetPixelMapuiv as *const ())),
-    (b"glGetPixelMapusv", 1224, crate::Address(glGetPixelMapusv as *const ())),
-    (b"glGetPointerv", 1226, crate::Address(glGetPointerv as *const ())),
-    (b"glGetPointervEXT", 1227, crate::Address(glGetPointervEXT as *const ())),
-    (b"glGetPointervKHR", 1228, crate::Address(glGetPointervKHR as *const ())),
-    (b"glGetPolygonStipple", 1225, crate::Address(glGetPolygonStipple as *const ())),
-    (b"glGetProgramiv", 1004, crate::Address(glGetProgramiv as *const ())),
-    (b"glGetQueryObjecti64v", 1195, crate::Address(glGetQueryObjecti64v as *const ())),
-    (b"glGetQueryObjecti64vEXT", 1196, crate::Address(glGetQueryObjecti64vEXT as *const ())),
-    (b"glGetQueryObjectiv", 1190, crate::Address(glGetQueryObjectiv as *const ())),
-    (b"glGetQueryObjectivARB", 1191, crate::Address(glGetQueryObjectivARB as *const ())),
-    (b"glGetQueryObjectivEXT", 1192, crate::Address(glGetQueryObjectivEXT as *const ())),
-    (b"glGetQueryObjectui64v", 1197, crate::Address(glGetQueryObjectui64v as *const ())),
-    (b"glGetQueryObjectui64vEXT", 1198, crate::Address(glGetQueryObjectui64vEXT as *const ())),
-    (b"glGetQueryObjectuiv", 1193, crate::Address(glGetQueryObjectuiv as *const ())),
-    (b"glGetQueryObjectuivARB", 1194, crate::Address(glGetQueryObjectuivARB as *const ())),
-    (b"glGetQueryiv", 1188, crate::Address(glGetQueryiv as *const ())),
-    (b"glGetQueryivARB", 1189, crate::Address(glGetQueryivARB as *const ())),
-    (b"glGetTexEnvfv", 1208, crate::Address(glGetTexEnvfv as *const ())),
-    (b"glGetTexEnviv", 1209, crate::Address(glGetTexEnviv as *const ())),
-    (b"glGetTexGendv", 1205, crate::Address(glGetTexGendv as *const ())),
-    (b"glGetTexGenfv", 1206, crate::Address(glGetTexGenfv as *const ())),
-    (b"glGetTexGeniv", 1207, crate::Address(glGetTexGeniv as *const ())),
-    (b"glGetTexImage", 1231, crate::Address(glGetTexImage as *const ())),
-    (b"glGetTexLevelParameterfv", 1216, crate::Address(glGetTexLevelParameterfv as *const ())),
-    (b"glGetTexLevelParameteriv", 1217, crate::Address(glGetTexLevelParameteriv as *const ())),
-    (b"glGetTexParameterfv", 1214, crate::Address(glGetTexParameterfv as *const ())),
-    (b"glGetTexParameteriv", 1215, crate::Address(glGetTexParameteriv as *const ())),
+    (b"glGetDoublev", 1122, crate::Address(glGetDoublev as *const ())),
+    (b"glGetError", 1183, crate::Address(glGetError as *const ())),
+    (b"glGetFloatv", 1121, crate::Address(glGetFloatv as *const ())),
+    (b"glGetFramebufferAttachmentParameteriv", 1144, crate::Address(glGetFramebufferAttachmentParameteriv as *const ())),
+    (b"glGetFramebufferAttachmentParameterivEXT", 1145, crate::Address(glGetFramebufferAttachmentParameterivEXT as *const ())),
+    (b"glGetFramebufferParameteriv", 1149, crate::Address(glGetFramebufferParameteriv as *const ())),
+    (b"glGetInteger64v", 1123, crate::Address(glGetInteger64v as *const ())),
+    (b"glGetInteger64vAPPLE", 1124, crate::Address(glGetInteger64vAPPLE as *const ())),
+    (b"glGetInteger64vEXT", 1125, crate::Address(glGetInteger64vEXT as *const ())),
+    (b"glGetIntegerIndexedvEXT", 1237, crate::Address(glGetIntegerIndexedvEXT as *const ())),
+    (b"glGetIntegeri_v", 1236, crate::Address(glGetIntegeri_v as *const ())),
+    (b"glGetIntegerv", 1119, crate::Address(glGetIntegerv as *const ())),
+    (b"glGetLightfv", 1217, crate::Address(glGetLightfv as *const ())),
+    (b"glGetLightiv", 1218, crate::Address(glGetLightiv as *const ())),
+    (b"glGetMapdv", 1226, crate::Address(glGetMapdv as *const ())),
+    (b"glGetMapfv", 1227, crate::Address(glGetMapfv as *const ())),
+    (b"glGetMapiv", 1228, crate::Address(glGetMapiv as *const ())),
+    (b"glGetMaterialfv", 1219, crate::Address(glGetMaterialfv as *const ())),
+    (b"glGetMaterialiv", 1220, crate::Address(glGetMaterialiv as *const ())),
+    (b"glGetPixelMapfv", 1229, crate::Address(glGetPixelMapfv as *const ())),
+    (b"glGetPixelMapuiv", 1230, crate::Address(glGetPixelMapuiv as *const ())),
+    (b"glGetPixelMapusv", 1231, crate::Address(glGetPixelMapusv as *const ())),
+    (b"glGetPointerv", 1233, crate::Address(glGetPointerv as *const ())),
+    (b"glGetPointervEXT", 1234, crate::Address(glGetPointervEXT as *const ())),
+    (b"glGetPointervKHR", 1235, crate::Address(glGetPointervKHR as *const ())),
+    (b"glGetPolygonStipple", 1232, crate::Address(glGetPolygonStipple as *const ())),
+    (b"glGetProgramiv", 1011, crate::Address(glGetProgramiv as *const ())),
+    (b"glGetQueryObjecti64v", 1202, crate::Address(glGetQueryObjecti64v as *const ())),
+    (b"glGetQueryObjecti64vEXT", 1203, crate::Address(glGetQueryObjecti64vEXT as *const ())),
+    (b"glGetQueryObjectiv", 1197, crate::Address(glGetQueryObjectiv as *const ())),
+    (b"glGetQueryObjectivARB", 1198, crate::Address(glGetQueryObjectivARB as *const ())),
+    (b"glGetQueryObjectivEXT", 1199, crate::Address(glGetQueryObjectivEXT as *const ())),
+    (b"glGetQueryObjectui64v", 1204, crate::Address(glGetQueryObjectui64v as *const ())),
+    (b"glGetQueryObjectui64vEXT", 1205, crate::Address(glGetQueryObjectui64vEXT as *const ())),
+    (b"glGetQueryObjectuiv", 1200, crate::Address(glGetQueryObjectuiv as *const ())),
+    (b"glGetQueryObjectuivARB", 1201, crate::Address(glGetQueryObjectuivARB as *const ())),
+    (b"glGetQueryiv", 1195, crate::Address(glGetQueryiv as *const ())),
+    (b"glGetQueryivARB", 1196, crate::Address(glGetQueryivARB as *const ())),
+    (b"glGetTexEnvfv", 1215, crate::Address(glGetTexEnvfv as *const ())),
+    (b"glGetTexEnviv", 1216, crate::Address(glGetTexEnviv as *const ())),
+    (b"glGetTexGendv", 1212, crate::Address(glGetTexGendv as *const ())),
+    (b"glGetTexGenfv", 1213, crate::Address(glGetTexGenfv as *const ())),
+    (b"glGetTexGeniv", 1214, crate::Address(glGetTexGeniv as *const ())),
+    (b"glGetTexImage", 1238, crate::Address(glGetTexImage as *const ())),
+    (b"glGetTexLevelParameterfv", 1223, crate::Address(glGetTexLevelParameterfv as *const ())),
+    (b"glGetTexLevelParameteriv", 1224, crate::Address(glGetTexLevelParameteriv as *const ())),
+    (b"glGetTexParameterfv", 1221, crate::Address(glGetTexParameterfv as *const ())),
+    (b"glGetTexParameteriv", 1222, crate::Address(glGetTexParameteriv as *const ())),
     (b"glGetTextureImage", 808, crate::Address(glGetTextureImage as *const ())),
     (b"glGetTextureSubImage", 809, crate::Address(glGetTextureSubImage as *const ())),
-    (b"glGetUniformfv", 1236, crate::Address(glGetUniformfv as *const ())),
-    (b"glGetUniformfvARB", 1237, crate::Address(glGetUniformfvARB as *const ())),
-    (b"glGetUniformiv", 1238, crate::Address(glGetUniformiv as *const ())),
-    (b"glGetUniformivARB", 1239, crate::Address(glGetUniformivARB as *const ())),
-    (b"glGetVertexAttribPointerv", 1249, crate::Address(glGetVertexAttribPointerv as *const ())),
-    (b"glGetVertexAttribPointervARB", 1250, crate::Address(glGetVertexAttribPointervARB as *const ())),
-    (b"glGetVertexAttribPointervNV", 1251, crate::Address(glGetVertexAttribPointervNV as *const ())),
-    (b"glGetVertexAttribdv", 1240, crate::Address(glGetVertexAttribdv as *const ())),
-    (b"glGetVertexAttribdvARB", 1241, crate::Address(glGetVertexAttribdvARB as *const ())),
-    (b"glGetVertexAttribdvNV", 1242, crate::Address(glGetVertexAttribdvNV as *const ())),
-    (b"glGetVertexAttribfv", 1243, crate::Address(glGetVertexAttribfv as *const ())),
-    (b"glGetVertexAttribfvARB", 1244, crate::Address(glGetVertexAttribfvARB as *const ())),
-    (b"glGetVertexAttribfvNV", 1245, crate::Address(glGetVertexAttribfvNV as *const ())),
-    (b"glGetVertexAttribiv", 1246, crate::Address(glGetVertexAttribiv as *const ())),
-    (b"glGetVertexAttribivARB", 1247, crate::Address(glGetVertexAttribivARB as *const ())),
-    (b"glGetVertexAttribivNV", 1248, crate::Address(glGetVertexAttribivNV as *const ())),
-    (b"glGetnCompressedTexImage", 1235, crate::Address(glGetnCompressedTexImage as *const ())),
-    (b"glGetnTexImage", 1232, crate::Address(glGetnTexImage as *const ())),
+    (b"glGetUniformfv", 1243, crate::Address(glGetUniformfv as *const ())),
+    (b"glGetUniformfvARB", 1244, crate::Address(glGetUniformfvARB as *const ())),
+    (b"glGetUniformiv", 1245, crate::Address(glGetUniformiv as *const ())),
+    (b"glGetUniformivARB", 1246, crate::Address(glGetUniformivARB as *const ())),
+    (b"glGetVertexAttribPointerv", 1256, crate::Address(glGetVertexAttribPointerv as *const ())),
+    (b"glGetVertexAttribPointervARB", 1257, crate::Address(glGetVertexAttribPointervARB as *const ())),
+    (b"glGetVertexAttribPointervNV", 1258, crate::Address(glGetVertexAttribPointervNV as *const ())),
+    (b"glGetVertexAttribdv", 1247, crate::Address(glGetVertexAttribdv as *const ())),
+    (b"glGetVertexAttribdvARB", 1248, crate::Address(glGetVertexAttribdvARB as *const ())),
+    (b"glGetVertexAttribdvNV", 1249, crate::Address(glGetVertexAttribdvNV as *const ())),
+    (b"glGetVertexAttribfv", 1250, crate::Address(glGetVertexAttribfv as *const ())),
+    (b"glGetVertexAttribfvARB", 1251, crate::Address(glGetVertexAttribfvARB as *const ())),
+    (b"glGetVertexAttribfvNV", 1252, crate::Address(glGetVertexAttribfvNV as *const ())),
+    (b"glGetVertexAttribiv", 1253, crate::Address(glGetVertexAttribiv as *const ())),
+    (b"glGetVertexAttribivARB", 1254, crate::Address(glGetVertexAttribivARB as *const ())),
+    (b"glGetVertexAttribivNV", 1255, crate::Address(glGetVertexAttribivNV as *const ())),
+    (b"glGetnCompressedTexImage", 1242, crate::Address(glGetnCompressedTexImage as *const ())),
+    (b"glGetnTexImage", 1239, crate::Address(glGetnTexImage as *const ())),
     (b"glHint", 581, crate::Address(glHint as *const ())),
     (b"glIndexMask", 721, crate::Address(glIndexMask as *const ())),
-    (b"glIndexPointer", 1292, crate::Address(glIndexPointer as *const ())),
+    (b"glIndexPointer", 1299, crate::Address(glIndexPointer as *const ())),
     (b"glIndexd", 236, crate::Address(glIndexd as *const ())),
     (b"glIndexdv", 237, crate::Address(glIndexdv as *const ())),
     (b"glIndexf", 238, crate::Address(glIndexf as *const ())),
@@ -3246,19 +3260,19 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1338] = [
     (b"glIndexub", 244, crate::Address(glIndexub as *const ())),
     (b"glIndexubv", 245, crate::Address(glIndexubv as *const ())),
     (b"glInitNames", 722, crate::Address(glInitNames as *const ())),
-    (b"glInterleavedArrays", 1283, crate::Address(glInterleavedArrays as *const ())),
-    (b"glInvalidateFramebuffer", 1143, crate::Address(glInvalidateFramebuffer as *const ())),
-    (b"glInvalidateSubFramebuffer", 1144, crate::Address(glInvalidateSubFramebuffer as *const ())),
-    (b"glIsEnabled", 1199, crate::Address(glIsEnabled as *const ())),
-    (b"glIsEnabledIndexedEXT", 1201, crate::Address(glIsEnabledIndexedEXT as *const ())),
-    (b"glIsEnabledi", 1200, crate::Address(glIsEnabledi as *const ())),
-    (b"glIsEnablediEXT", 1202, crate::Address(glIsEnablediEXT as *const ())),
-    (b"glIsEnablediNV", 1203, crate::Address(glIsEnablediNV as *const ())),
-    (b"glIsEnablediOES", 1204, crate::Address(glIsEnablediOES as *const ())),
-    (b"glIsFramebuffer", 1086, crate::Address(glIsFramebuffer as *const ())),
-    (b"glIsFramebufferEXT", 1087, crate::Address(glIsFramebufferEXT as *const ())),
-    (b"glIsList", 1081, crate::Address(glIsList as *const ())),
-    (b"glIsTexture", 1085, crate::Address(glIsTexture as *const ())),
+    (b"glInterleavedArrays", 1290, crate::Address(glInterleavedArrays as *const ())),
+    (b"glInvalidateFramebuffer", 1150, crate::Address(glInvalidateFramebuffer as *const ())),
+    (b"glInvalidateSubFramebuffer", 1151, crate::Address(glInvalidateSubFramebuffer as *const ())),
+    (b"glIsEnabled", 1206, crate::Address(glIsEnabled as *const ())),
+    (b"glIsEnabledIndexedEXT", 1208, crate::Address(glIsEnabledIndexedEXT as *const ())),
+    (b"glIsEnabledi", 1207, crate::Address(glIsEnabledi as *const ())),
+    (b"glIsEnablediEXT", 1209, crate::Address(glIsEnablediEXT as *const ())),
+    (b"glIsEnablediNV", 1210, crate::Address(glIsEnablediNV as *const ())),
+    (b"glIsEnablediOES", 1211, crate::Address(glIsEnablediOES as *const ())),
+    (b"glIsFramebuffer", 1093, crate::Address(glIsFramebuffer as *const ())),
+    (b"glIsFramebufferEXT", 1094, crate::Address(glIsFramebufferEXT as *const ())),
+    (b"glIsList", 1088, crate::Address(glIsList as *const ())),
+    (b"glIsTexture", 1092, crate::Address(glIsTexture as *const ())),
     (b"glLightModelf", 546, crate::Address(glLightModelf as *const ())),
     (b"glLightModelfv", 547, crate::Address(glLightModelfv as *const ())),
     (b"glLightModeli", 548, crate::Address(glLightModeli as *const ())),
@@ -3269,8 +3283,8 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1338] = [
     (b"glLightiv", 545, crate::Address(glLightiv as *const ())),
     (b"glLineStipple", 727, crate::Address(glLineStipple as *const ())),
     (b"glLineWidth", 582, crate::Address(glLineWidth as *const ())),
-    (b"glLinkProgram", 997, crate::Address(glLinkProgram as *const ())),
-    (b"glLinkProgramARB", 998, crate::Address(glLinkProgramARB as *const ())),
+    (b"glLinkProgram", 1004, crate::Address(glLinkProgram as *const ())),
+    (b"glLinkProgramARB", 1005, crate::Address(glLinkProgramARB as *const ())),
     (b"glListBase", 728, crate::Address(glListBase as *const ())),
     (b"glLoadIdentity", 457, crate::Address(glLoadIdentity as *const ())),
     (b"glLoadMatrixd", 458, crate::Address(glLoadMatrixd as *const ())),
@@ -3321,18 +3335,18 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1338] = [
     (b"glMultTransposeMatrixdARB", 467, crate::Address(glMultTransposeMatrixdARB as *const ())),
     (b"glMultTransposeMatrixf", 468, crate::Address(glMultTransposeMatrixf as *const ())),
     (b"glMultTransposeMatrixfARB", 469, crate::Address(glMultTransposeMatrixfARB as *const ())),
-    (b"glMultiDrawArrays", 1015, crate::Address(glMultiDrawArrays as *const ())),
-    (b"glMultiDrawArraysEXT", 1016, crate::Address(glMultiDrawArraysEXT as *const ())),
-    (b"glMultiDrawArraysIndirect", 1048, crate::Address(glMultiDrawArraysIndirect as *const ())),
-    (b"glMultiDrawArraysIndirectAMD", 1049, crate::Address(glMultiDrawArraysIndirectAMD as *const ())),
-    (b"glMultiDrawArraysIndirectEXT", 1050, crate::Address(glMultiDrawArraysIndirectEXT as *const ())),
-    (b"glMultiDrawElements", 1017, crate::Address(glMultiDrawElements as *const ())),
-    (b"glMultiDrawElementsBaseVertex", 1025, crate::Address(glMultiDrawElementsBaseVertex as *const ())),
-    (b"glMultiDrawElementsBaseVertexEXT", 1026, crate::Address(glMultiDrawElementsBaseVertexEXT as *const ())),
-    (b"glMultiDrawElementsEXT", 1018, crate::Address(glMultiDrawElementsEXT as *const ())),
-    (b"glMultiDrawElementsIndirect", 1051, crate::Address(glMultiDrawElementsIndirect as *const ())),
-    (b"glMultiDrawElementsIndirectAMD", 1052, crate::Address(glMultiDrawElementsIndirectAMD as *const ())),
-    (b"glMultiDrawElementsIndirectEXT", 1053, crate::Address(glMultiDrawElementsIndirectEXT as *const ())),
+    (b"glMultiDrawArrays", 1022, crate::Address(glMultiDrawArrays as *const ())),
+    (b"glMultiDrawArraysEXT", 1023, crate::Address(glMultiDrawArraysEXT as *const ())),
+    (b"glMultiDrawArraysIndirect", 1055, crate::Address(glMultiDrawArraysIndirect as *const ())),
+    (b"glMultiDrawArraysIndirectAMD", 1056, crate::Address(glMultiDrawArraysIndirectAMD as *const ())),
+    (b"glMultiDrawArraysIndirectEXT", 1057, crate::Address(glMultiDrawArraysIndirectEXT as *const ())),
+    (b"glMultiDrawElements", 1024, crate::Address(glMultiDrawElements as *const ())),
+    (b"glMultiDrawElementsBaseVertex", 1032, crate::Address(glMultiDrawElementsBaseVertex as *const ())),
+    (b"glMultiDrawElementsBaseVertexEXT", 1033, crate::Address(glMultiDrawElementsBaseVertexEXT as *const ())),
+    (b"glMultiDrawElementsEXT", 1025, crate::Address(glMultiDrawElementsEXT as *const ())),
+    (b"glMultiDrawElementsIndirect", 1058, crate::Address(glMultiDrawElementsIndirect as *const ())),
+    (b"glMultiDrawElementsIndirectAMD", 1059, crate::Address(glMultiDrawElementsIndirectAMD as *const ())),
+    (b"glMultiDrawElementsIndirectEXT", 1060, crate::Address(glMultiDrawElementsIndirectEXT as *const ())),
     (b"glMultiTexCoord1d", 118, crate::Address(glMultiTexCoord1d as *const ())),
     (b"glMultiTexCoord1dARB", 119, crate::Address(glMultiTexCoord1dARB as *const ())),
     (b"glMultiTexCoord1dv", 120, crate::Address(glMultiTexCoord1dv as *const ())),
@@ -3413,13 +3427,13 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1338] = [
     (b"glMultiTexCoordP3uiv", 421, crate::Address(glMultiTexCoordP3uiv as *const ())),
     (b"glMultiTexCoordP4ui", 422, crate::Address(glMultiTexCoordP4ui as *const ())),
     (b"glMultiTexCoordP4uiv", 423, crate::Address(glMultiTexCoordP4uiv as *const ())),
-    (b"glNamedFramebufferDrawBuffer", 1098, crate::Address(glNamedFramebufferDrawBuffer as *const ())),
-    (b"glNamedFramebufferDrawBuffers", 1099, crate::Address(glNamedFramebufferDrawBuffers as *const ())),
-    (b"glNamedFramebufferReadBuffer", 1100, crate::Address(glNamedFramebufferReadBuffer as *const ())),
-    (b"glNamedFramebufferRenderbuffer", 1136, crate::Address(glNamedFramebufferRenderbuffer as *const ())),
-    (b"glNamedFramebufferTexture", 1134, crate::Address(glNamedFramebufferTexture as *const ())),
-    (b"glNamedFramebufferTextureLayer", 1135, crate::Address(glNamedFramebufferTextureLayer as *const ())),
-    (b"glNewList", 1075, crate::Address(glNewList as *const ())),
+    (b"glNamedFramebufferDrawBuffer", 1105, crate::Address(glNamedFramebufferDrawBuffer as *const ())),
+    (b"glNamedFramebufferDrawBuffers", 1106, crate::Address(glNamedFramebufferDrawBuffers as *const ())),
+    (b"glNamedFramebufferReadBuffer", 1107, crate::Address(glNamedFramebufferReadBuffer as *const ())),
+    (b"glNamedFramebufferRenderbuffer", 1143, crate::Address(glNamedFramebufferRenderbuffer as *const ())),
+    (b"glNamedFramebufferTexture", 1141, crate::Address(glNamedFramebufferTexture as *const ())),
+    (b"glNamedFramebufferTextureLayer", 1142, crate::Address(glNamedFramebufferTextureLayer as *const ())),
+    (b"glNewList", 1082, crate::Address(glNewList as *const ())),
     (b"glNormal3b", 66, crate::Address(glNormal3b as *const ())),
     (b"glNormal3bv", 67, crate::Address(glNormal3bv as *const ())),
     (b"glNormal3d", 68, crate::Address(glNormal3d as *const ())),
@@ -3434,14 +3448,14 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1338] = [
     (b"glNormal3sv", 75, crate::Address(glNormal3sv as *const ())),
     (b"glNormalP3ui", 438, crate::Address(glNormalP3ui as *const ())),
     (b"glNormalP3uiv", 439, crate::Address(glNormalP3uiv as *const ())),
-    (b"glNormalPointer", 1293, crate::Address(glNormalPointer as *const ())),
+    (b"glNormalPointer", 1300, crate::Address(glNormalPointer as *const ())),
     (b"glOrtho", 477, crate::Address(glOrtho as *const ())),
     (b"glPassThrough", 726, crate::Address(glPassThrough as *const ())),
     (b"glPixelMapfv", 738, crate::Address(glPixelMapfv as *const ())),
     (b"glPixelMapuiv", 739, crate::Address(glPixelMapuiv as *const ())),
     (b"glPixelMapusv", 740, crate::Address(glPixelMapusv as *const ())),
-    (b"glPixelStoref", 1275, crate::Address(glPixelStoref as *const ())),
-    (b"glPixelStorei", 1276, crate::Address(glPixelStorei as *const ())),
+    (b"glPixelStoref", 1282, crate::Address(glPixelStoref as *const ())),
+    (b"glPixelStorei", 1283, crate::Address(glPixelStorei as *const ())),
     (b"glPixelTransferf", 741, crate::Address(glPixelTransferf as *const ())),
     (b"glPixelTransferi", 742, crate::Address(glPixelTransferi as *const ())),
     (b"glPixelZoom", 743, crate::Address(glPixelZoom as *const ())),
@@ -3465,109 +3479,109 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1338] = [
     (b"glPolygonOffsetClampEXT", 746, crate::Address(glPolygonOffsetClampEXT as *const ())),
     (b"glPolygonStipple", 747, crate::Address(glPolygonStipple as *const ())),
     (b"glPopAttrib", 594, crate::Address(glPopAttrib as *const ())),
-    (b"glPopClientAttrib", 1278, crate::Address(glPopClientAttrib as *const ())),
+    (b"glPopClientAttrib", 1285, crate::Address(glPopClientAttrib as *const ())),
     (b"glPopMatrix", 479, crate::Address(glPopMatrix as *const ())),
     (b"glPopName", 725, crate::Address(glPopName as *const ())),
     (b"glPrimitiveRestartIndex", 762, crate::Address(glPrimitiveRestartIndex as *const ())),
     (b"glPrioritizeTextures", 748, crate::Address(glPrioritizeTextures as *const ())),
     (b"glPrioritizeTexturesEXT", 749, crate::Address(glPrioritizeTexturesEXT as *const ())),
-    (b"glProgramBinary", 999, crate::Address(glProgramBinary as *const ())),
-    (b"glProgramBinaryOES", 1000, crate::Address(glProgramBinaryOES as *const ())),
-    (b"glProgramEnvParameter4dARB", 822, crate::Address(glProgramEnvParameter4dARB as *const ())),
-    (b"glProgramEnvParameter4dvARB", 823, crate::Address(glProgramEnvParameter4dvARB as *const ())),
-    (b"glProgramEnvParameter4fARB", 824, crate::Address(glProgramEnvParameter4fARB as *const ())),
-    (b"glProgramEnvParameter4fvARB", 825, crate::Address(glProgramEnvParameter4fvARB as *const ())),
-    (b"glProgramLocalParameter4dARB", 826, crate::Address(glProgramLocalParameter4dARB as *const ())),
-    (b"glProgramLocalParameter4dvARB", 827, crate::Address(glProgramLocalParameter4dvARB as *const ())),
-    (b"glProgramLocalParameter4fARB", 828, crate::Address(glProgramLocalParameter4fARB as *const ())),
-    (b"glProgramLocalParameter4fvARB", 829, crate::Address(glProgramLocalParameter4fvARB as *const ())),
-    (b"glProgramUniform1d", 913, crate::Address(glProgramUniform1d as *const ())),
-    (b"glProgramUniform1dv", 914, crate::Address(glProgramUniform1dv as *const ())),
-    (b"glProgramUniform1f", 915, crate::Address(glProgramUniform1f as *const ())),
-    (b"glProgramUniform1fEXT", 916, crate::Address(glProgramUniform1fEXT as *const ())),
-    (b"glProgramUniform1fv", 917, crate::Address(glProgramUniform1fv as *const ())),
-    (b"glProgramUniform1fvEXT", 918, crate::Address(glProgramUniform1fvEXT as *const ())),
-    (b"glProgramUniform1i", 919, crate::Address(glProgramUniform1i as *const ())),
-    (b"glProgramUniform1iEXT", 920, crate::Address(glProgramUniform1iEXT as *const ())),
-    (b"glProgramUniform1iv", 921, crate::Address(glProgramUniform1iv as *const ())),
-    (b"glProgramUniform1ivEXT", 922, crate::Address(glProgramUniform1ivEXT as *const ())),
-    (b"glProgramUniform1ui", 923, crate::Address(glProgramUniform1ui as *const ())),
-    (b"glProgramUniform1uiEXT", 924, crate::Address(glProgramUniform1uiEXT as *const ())),
-    (b"glProgramUniform1uiv", 925, crate::Address(glProgramUniform1uiv as *const ())),
-    (b"glProgramUniform1uivEXT", 926, crate::Address(glProgramUniform1uivEXT as *const ())),
-    (b"glProgramUniform2d", 927, crate::Address(glProgramUniform2d as *const ())),
-    (b"glProgramUniform2dv", 928, crate::Address(glProgramUniform2dv as *const ())),
-    (b"glProgramUniform2f", 929, crate::Address(glProgramUniform2f as *const ())),
-    (b"glProgramUniform2fEXT", 930, crate::Address(glProgramUniform2fEXT as *const ())),
-    (b"glProgramUniform2fv", 931, crate::Address(glProgramUniform2fv as *const ())),
-    (b"glProgramUniform2fvEXT", 932, crate::Address(glProgramUniform2fvEXT as *const ())),
-    (b"glProgramUniform2i", 933, crate::Address(glProgramUniform2i as *const ())),
-    (b"glProgramUniform2iEXT", 934, crate::Address(glProgramUniform2iEXT as *const ())),
-    (b"glProgramUniform2iv", 935, crate::Address(glProgramUniform2iv as *const ())),
-    (b"glProgramUniform2ivEXT", 936, crate::Address(glProgramUniform2ivEXT as *const ())),
-    (b"glProgramUniform2ui", 937, crate::Address(glProgramUniform2ui as *const ())),
-    (b"glProgramUniform2uiEXT", 938, crate::Address(glProgramUniform2uiEXT as *const ())),
-    (b"glProgramUniform2uiv", 939, crate::Address(glProgramUniform2uiv as *const ())),
-    (b"glProgramUniform2uivEXT", 940, crate::Address(glProgramUniform2uivEXT as *const ())),
-    (b"glProgramUniform3d", 941, crate::Address(glProgramUniform3d as *const ())),
-    (b"glProgramUniform3dv", 942, crate::Address(glProgramUniform3dv as *const ())),
-    (b"glProgramUniform3f", 943, crate::Address(glProgramUniform3f as *const ())),
-    (b"glProgramUniform3fEXT", 944, crate::Address(glProgramUniform3fEXT as *const ())),
-    (b"glProgramUniform3fv", 945, crate::Address(glProgramUniform3fv as *const ())),
-    (b"glProgramUniform3fvEXT", 946, crate::Address(glProgramUniform3fvEXT as *const ())),
-    (b"glProgramUniform3i", 947, crate::Address(glProgramUniform3i as *const ())),
-    (b"glProgramUniform3iEXT", 948, crate::Address(glProgramUniform3iEXT as *const ())),
-    (b"glProgramUniform3iv", 949, crate::Address(glProgramUniform3iv as *const ())),
-    (b"glProgramUniform3ivEXT", 950, crate::Address(glProgramUniform3ivEXT as *const ())),
-    (b"glProgramUniform3ui", 951, crate::Address(glProgramUniform3ui as *const ())),
-    (b"glProgramUniform3uiEXT", 952, crate::Address(glProgramUniform3uiEXT as *const ())),
-    (b"glProgramUniform3uiv", 953, crate::Address(glProgramUniform3uiv as *const ())),
-    (b"glProgramUniform3uivEXT", 954, crate::Address(glProgramUniform3uivEXT as *const ())),
-    (b"glProgramUniform4d", 955, crate::Address(glProgramUniform4d as *const ())),
-    (b"glProgramUniform4dv", 956, crate::Address(glProgramUniform4dv as *const ())),
-    (b"glProgramUniform4f", 957, crate::Address(glProgramUniform4f as *const ())),
-    (b"glProgramUniform4fEXT", 958, crate::Address(glProgramUniform4fEXT as *const ())),
-    (b"glProgramUniform4fv", 959, crate::Address(glProgramUniform4fv as *const ())),
-    (b"glProgramUniform4fvEXT", 960, crate::Address(glProgramUniform4fvEXT as *const ())),
-    (b"glProgramUniform4i", 961, crate::Address(glProgramUniform4i as *const ())),
-    (b"glProgramUniform4iEXT", 962, crate::Address(glProgramUniform4iEXT as *const ())),
-    (b"glProgramUniform4iv", 963, crate::Address(glProgramUniform4iv as *const ())),
-    (b"glProgramUniform4ivEXT", 964, crate::Address(glProgramUniform4ivEXT as *const ())),
-    (b"glProgramUniform4ui", 965, crate::Address(glProgramUniform4ui as *const ())),
-    (b"glProgramUniform4uiEXT", 966, crate::Address(glProgramUniform4uiEXT as *const ())),
-    (b"glProgramUniform4uiv", 967, crate::Address(glProgramUniform4uiv as *const ())),
-    (b"glProgramUniform4uivEXT", 968, crate::Address(glProgramUniform4uivEXT as *const ())),
-    (b"glProgramUniformMatrix2dv", 969, crate::Address(glProgramUniformMatrix2dv as *const ())),
-    (b"glProgramUniformMatrix2fv", 970, crate::Address(glProgramUniformMatrix2fv as *const ())),
-    (b"glProgramUniformMatrix2fvEXT", 971, crate::Address(glProgramUniformMatrix2fvEXT as *const ())),
-    (b"glProgramUniformMatrix2x3dv", 972, crate::Address(glProgramUniformMatrix2x3dv as *const ())),
-    (b"glProgramUniformMatrix2x3fv", 973, crate::Address(glProgramUniformMatrix2x3fv as *const ())),
-    (b"glProgramUniformMatrix2x3fvEXT", 974, crate::Address(glProgramUniformMatrix2x3fvEXT as *const ())),
-    (b"glProgramUniformMatrix2x4dv", 975, crate::Address(glProgramUniformMatrix2x4dv as *const ())),
-    (b"glProgramUniformMatrix2x4fv", 976, crate::Address(glProgramUniformMatrix2x4fv as *const ())),
-    (b"glProgramUniformMatrix2x4fvEXT", 977, crate::Address(glProgramUniformMatrix2x4fvEXT as *const ())),
-    (b"glProgramUniformMatrix3dv", 978, crate::Address(glProgramUniformMatrix3dv as *const ())),
-    (b"glProgramUniformMatrix3fv", 979, crate::Address(glProgramUniformMatrix3fv as *const ())),
-    (b"glProgramUniformMatrix3fvEXT", 980, crate::Address(glProgramUniformMatrix3fvEXT as *const ())),
-    (b"glProgramUniformMatrix3x2dv", 981, crate::Address(glProgramUniformMatrix3x2dv as *const ())),
-    (b"glProgramUniformMatrix3x2fv", 982, crate::Address(glProgramUniformMatrix3x2fv as *const ())),
-    (b"glProgramUniformMatrix3x2fvEXT", 983, crate::Address(glProgramUniformMatrix3x2fvEXT as *const ())),
-    (b"glProgramUniformMatrix3x4dv", 984, crate::Address(glProgramUniformMatrix3x4dv as *const ())),
-    (b"glProgramUniformMatrix3x4fv", 985, crate::Address(glProgramUniformMatrix3x4fv as *const ())),
-    (b"glProgramUniformMatrix3x4fvEXT", 986, crate::Address(glProgramUniformMatrix3x4fvEXT as *const ())),
-    (b"glProgramUniformMatrix4dv", 987, crate::Address(glProgramUniformMatrix4dv as *const ())),
-    (b"glProgramUniformMatrix4fv", 988, crate::Address(glProgramUniformMatrix4fv as *const ())),
-    (b"glProgramUniformMatrix4fvEXT", 989, crate::Address(glProgramUniformMatrix4fvEXT as *const ())),
-    (b"glProgramUniformMatrix4x2dv", 990, crate::Address(glProgramUniformMatrix4x2dv as *const ())),
-    (b"glProgramUniformMatrix4x2fv", 991, crate::Address(glProgramUniformMatrix4x2fv as *const ())),
-    (b"glProgramUniformMatrix4x2fvEXT", 992, crate::Address(glProgramUniformMatrix4x2fvEXT as *const ())),
-    (b"glProgramUniformMatrix4x3dv", 993, crate::Address(glProgramUniformMatrix4x3dv as *const ())),
-    (b"glProgramUniformMatrix4x3fv", 994, crate::Address(glProgramUniformMatrix4x3fv as *const ())),
-    (b"glProgramUniformMatrix4x3fvEXT", 995, crate::Address(glProgramUniformMatrix4x3fvEXT as *const ())),
+    (b"glProgramBinary", 1006, crate::Address(glProgramBinary as *const ())),
+    (b"glProgramBinaryOES", 1007, crate::Address(glProgramBinaryOES as *const ())),
+    (b"glProgramEnvParameter4dARB", 829, crate::Address(glProgramEnvParameter4dARB as *const ())),
+    (b"glProgramEnvParameter4dvARB", 830, crate::Address(glProgramEnvParameter4dvARB as *const ())),
+    (b"glProgramEnvParameter4fARB", 831, crate::Address(glProgramEnvParameter4fARB as *const ())),
+    (b"glProgramEnvParameter4fvARB", 832, crate::Address(glProgramEnvParameter4fvARB as *const ())),
+    (b"glProgramLocalParameter4dARB", 833, crate::Address(glProgramLocalParameter4dARB as *const ())),
+    (b"glProgramLocalParameter4dvARB", 834, crate::Address(glProgramLocalParameter4dvARB as *const ())),
+    (b"glProgramLocalParameter4fARB", 835, crate::Address(glProgramLocalParameter4fARB as *const ())),
+    (b"glProgramLocalParameter4fvARB", 836, crate::Address(glProgramLocalParameter4fvARB as *const ())),
+    (b"glProgramUniform1d", 920, crate::Address(glProgramUniform1d as *const ())),
+    (b"glProgramUniform1dv", 921, crate::Address(glProgramUniform1dv as *const ())),
+    (b"glProgramUniform1f", 922, crate::Address(glProgramUniform1f as *const ())),
+    (b"glProgramUniform1fEXT", 923, crate::Address(glProgramUniform1fEXT as *const ())),
+    (b"glProgramUniform1fv", 924, crate::Address(glProgramUniform1fv as *const ())),
+    (b"glProgramUniform1fvEXT", 925, crate::Address(glProgramUniform1fvEXT as *const ())),
+    (b"glProgramUniform1i", 926, crate::Address(glProgramUniform1i as *const ())),
+    (b"glProgramUniform1iEXT", 927, crate::Address(glProgramUniform1iEXT as *const ())),
+    (b"glProgramUniform1iv", 928, crate::Address(glProgramUniform1iv as *const ())),
+    (b"glProgramUniform1ivEXT", 929, crate::Address(glProgramUniform1ivEXT as *const ())),
+    (b"glProgramUniform1ui", 930, crate::Address(glProgramUniform1ui as *const ())),
+    (b"glProgramUniform1uiEXT", 931, crate::Address(glProgramUniform1uiEXT as *const ())),
+    (b"glProgramUniform1uiv", 932, crate::Address(glProgramUniform1uiv as *const ())),
+    (b"glProgramUniform1uivEXT", 933, crate::Address(glProgramUniform1uivEXT as *const ())),
+    (b"glProgramUniform2d", 934, crate::Address(glProgramUniform2d as *const ())),
+    (b"glProgramUniform2dv", 935, crate::Address(glProgramUniform2dv as *const ())),
+    (b"glProgramUniform2f", 936, crate::Address(glProgramUniform2f as *const ())),
+    (b"glProgramUniform2fEXT", 937, crate::Address(glProgramUniform2fEXT as *const ())),
+    (b"glProgramUniform2fv", 938, crate::Address(glProgramUniform2fv as *const ())),
+    (b"glProgramUniform2fvEXT", 939, crate::Address(glProgramUniform2fvEXT as *const ())),
+    (b"glProgramUniform2i", 940, crate::Address(glProgramUniform2i as *const ())),
+    (b"glProgramUniform2iEXT", 941, crate::Address(glProgramUniform2iEXT as *const ())),
+    (b"glProgramUniform2iv", 942, crate::Address(glProgramUniform2iv as *const ())),
+    (b"glProgramUniform2ivEXT", 943, crate::Address(glProgramUniform2ivEXT as *const ())),
+    (b"glProgramUniform2ui", 944, crate::Address(glProgramUniform2ui as *const ())),
+    (b"glProgramUniform2uiEXT", 945, crate::Address(glProgramUniform2uiEXT as *const ())),
+    (b"glProgramUniform2uiv", 946, crate::Address(glProgramUniform2uiv as *const ())),
+    (b"glProgramUniform2uivEXT", 947, crate::Address(glProgramUniform2uivEXT as *const ())),
+    (b"glProgramUniform3d", 948, crate::Address(glProgramUniform3d as *const ())),
+    (b"glProgramUniform3dv", 949, crate::Address(glProgramUniform3dv as *const ())),
+    (b"glProgramUniform3f", 950, crate::Address(glProgramUniform3f as *const ())),
+    (b"glProgramUniform3fEXT", 951, crate::Address(glProgramUniform3fEXT as *const ())),
+    (b"glProgramUniform3fv", 952, crate::Address(glProgramUniform3fv as *const ())),
+    (b"glProgramUniform3fvEXT", 953, crate::Address(glProgramUniform3fvEXT as *const ())),
+    (b"glProgramUniform3i", 954, crate::Address(glProgramUniform3i as *const ())),
+    (b"glProgramUniform3iEXT", 955, crate::Address(glProgramUniform3iEXT as *const ())),
+    (b"glProgramUniform3iv", 956, crate::Address(glProgramUniform3iv as *const ())),
+    (b"glProgramUniform3ivEXT", 957, crate::Address(glProgramUniform3ivEXT as *const ())),
+    (b"glProgramUniform3ui", 958, crate::Address(glProgramUniform3ui as *const ())),
+    (b"glProgramUniform3uiEXT", 959, crate::Address(glProgramUniform3uiEXT as *const ())),
+    (b"glProgramUniform3uiv", 960, crate::Address(glProgramUniform3uiv as *const ())),
+    (b"glProgramUniform3uivEXT", 961, crate::Address(glProgramUniform3uivEXT as *const ())),
+    (b"glProgramUniform4d", 962, crate::Address(glProgramUniform4d as *const ())),
+    (b"glProgramUniform4dv", 963, crate::Address(glProgramUniform4dv as *const ())),
+    (b"glProgramUniform4f", 964, crate::Address(glProgramUniform4f as *const ())),
+    (b"glProgramUniform4fEXT", 965, crate::Address(glProgramUniform4fEXT as *const ())),
+    (b"glProgramUniform4fv", 966, crate::Address(glProgramUniform4fv as *const ())),
+    (b"glProgramUniform4fvEXT", 967, crate::Address(glProgramUniform4fvEXT as *const ())),
+    (b"glProgramUniform4i", 968, crate::Address(glProgramUniform4i as *const ())),
+    (b"glProgramUniform4iEXT", 969, crate::Address(glProgramUniform4iEXT as *const ())),
+    (b"glProgramUniform4iv", 970, crate::Address(glProgramUniform4iv as *const ())),
+    (b"glProgramUniform4ivEXT", 971, crate::Address(glProgramUniform4ivEXT as *const ())),
+    (b"glProgramUniform4ui", 972, crate::Address(glProgramUniform4ui as *const ())),
+    (b"glProgramUniform4uiEXT", 973, crate::Address(glProgramUniform4uiEXT as *const ())),
+    (b"glProgramUniform4uiv", 974, crate::Address(glProgramUniform4uiv as *const ())),
+    (b"glProgramUniform4uivEXT", 975, crate::Address(glProgramUniform4uivEXT as *const ())),
+    (b"glProgramUniformMatrix2dv", 976, crate::Address(glProgramUniformMatrix2dv as *const ())),
+    (b"glProgramUniformMatrix2fv", 977, crate::Address(glProgramUniformMatrix2fv as *const ())),
+    (b"glProgramUniformMatrix2fvEXT", 978, crate::Address(glProgramUniformMatrix2fvEXT as *const ())),
+    (b"glProgramUniformMatrix2x3dv", 979, crate::Address(glProgramUniformMatrix2x3dv as *const ())),
+    (b"glProgramUniformMatrix2x3fv", 980, crate::Address(glProgramUniformMatrix2x3fv as *const ())),
+    (b"glProgramUniformMatrix2x3fvEXT", 981, crate::Address(glProgramUniformMatrix2x3fvEXT as *const ())),
+    (b"glProgramUniformMatrix2x4dv", 982, crate::Address(glProgramUniformMatrix2x4dv as *const ())),
+    (b"glProgramUniformMatrix2x4fv", 983, crate::Address(glProgramUniformMatrix2x4fv as *const ())),
+    (b"glProgramUniformMatrix2x4fvEXT", 984, crate::Address(glProgramUniformMatrix2x4fvEXT as *const ())),
+    (b"glProgramUniformMatrix3dv", 985, crate::Address(glProgramUniformMatrix3dv as *const ())),
+    (b"glProgramUniformMatrix3fv", 986, crate::Address(glProgramUniformMatrix3fv as *const ())),
+    (b"glProgramUniformMatrix3fvEXT", 987, crate::Address(glProgramUniformMatrix3fvEXT as *const ())),
+    (b"glProgramUniformMatrix3x2dv", 988, crate::Address(glProgramUniformMatrix3x2dv as *const ())),
+    (b"glProgramUniformMatrix3x2fv", 989, crate::Address(glProgramUniformMatrix3x2fv as *const ())),
+    (b"glProgramUniformMatrix3x2fvEXT", 990, crate::Address(glProgramUniformMatrix3x2fvEXT as *const ())),
+    (b"glProgramUniformMatrix3x4dv", 991, crate::Address(glProgramUniformMatrix3x4dv as *const ())),
+    (b"glProgramUniformMatrix3x4fv", 992, crate::Address(glProgramUniformMatrix3x4fv as *const ())),
+    (b"glProgramUniformMatrix3x4fvEXT", 993, crate::Address(glProgramUniformMatrix3x4fvEXT as *const ())),
+    (b"glProgramUniformMatrix4dv", 994, crate::Address(glProgramUniformMatrix4dv as *const ())),
+    (b"glProgramUniformMatrix4fv", 995, crate::Address(glProgramUniformMatrix4fv as *const ())),
+    (b"glProgramUniformMatrix4fvEXT", 996, crate::Address(glProgramUniformMatrix4fvEXT as *const ())),
+    (b"glProgramUniformMatrix4x2dv", 997, crate::Address(glProgramUniformMatrix4x2dv as *const ())),
+    (b"glProgramUniformMatrix4x2fv", 998, crate::Address(glProgramUniformMatrix4x2fv as *const ())),
+    (b"glProgramUniformMatrix4x2fvEXT", 999, crate::Address(glProgramUniformMatrix4x2fvEXT as *const ())),
+    (b"glProgramUniformMatrix4x3dv", 1000, crate::Address(glProgramUniformMatrix4x3dv as *const ())),
+    (b"glProgramUniformMatrix4x3fv", 1001, crate::Address(glProgramUniformMatrix4x3fv as *const ())),
+    (b"glProgramUniformMatrix4x3fvEXT", 1002, crate::Address(glProgramUniformMatrix4x3fvEXT as *const ())),
     (b"glProvokingVertex", 583, crate::Address(glProvokingVertex as *const ())),
     (b"glProvokingVertexEXT", 584, crate::Address(glProvokingVertexEXT as *const ())),
     (b"glPushAttrib", 593, crate::Address(glPushAttrib as *const ())),
-    (b"glPushClientAttrib", 1277, crate::Address(glPushClientAttrib as *const ())),
+    (b"glPushClientAttrib", 1284, crate::Address(glPushClientAttrib as *const ())),
     (b"glPushMatrix", 478, crate::Address(glPushMatrix as *const ())),
     (b"glPushName", 724, crate::Address(glPushName as *const ())),
     (b"glRasterPos2d", 595, crate::Address(glRasterPos2d as *const ())),
@@ -3594,26 +3608,26 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1338] = [
     (b"glRasterPos4iv", 616, crate::Address(glRasterPos4iv as *const ())),
     (b"glRasterPos4s", 617, crate::Address(glRasterPos4s as *const ())),
     (b"glRasterPos4sv", 618, crate::Address(glRasterPos4sv as *const ())),
-    (b"glReadBuffer", 1097, crate::Address(glReadBuffer as *const ())),
-    (b"glReadPixels", 1154, crate::Address(glReadPixels as *const ())),
-    (b"glReadnPixels", 1155, crate::Address(glReadnPixels as *const ())),
-    (b"glReadnPixelsARB", 1156, crate::Address(glReadnPixelsARB as *const ())),
-    (b"glReadnPixelsEXT", 1157, crate::Address(glReadnPixelsEXT as *const ())),
-    (b"glReadnPixelsKHR", 1158, crate::Address(glReadnPixelsKHR as *const ())),
-    (b"glRectd", 1061, crate::Address(glRectd as *const ())),
-    (b"glRectdv", 1062, crate::Address(glRectdv as *const ())),
-    (b"glRectf", 1063, crate::Address(glRectf as *const ())),
-    (b"glRectfv", 1064, crate::Address(glRectfv as *const ())),
-    (b"glRecti", 1065, crate::Address(glRecti as *const ())),
-    (b"glRectiv", 1066, crate::Address(glRectiv as *const ())),
-    (b"glRects", 1067, crate::Address(glRects as *const ())),
-    (b"glRectsv", 1068, crate::Address(glRectsv as *const ())),
+    (b"glReadBuffer", 1104, crate::Address(glReadBuffer as *const ())),
+    (b"glReadPixels", 1161, crate::Address(glReadPixels as *const ())),
+    (b"glReadnPixels", 1162, crate::Address(glReadnPixels as *const ())),
+    (b"glReadnPixelsARB", 1163, crate::Address(glReadnPixelsARB as *const ())),
+    (b"glReadnPixelsEXT", 1164, crate::Address(glReadnPixelsEXT as *const ())),
+    (b"glReadnPixelsKHR", 1165, crate::Address(glReadnPixelsKHR as *const ())),
+    (b"glRectd", 1068, crate::Address(glRectd as *const ())),
+    (b"glRectdv", 1069, crate::Address(glRectdv as *const ())),
+    (b"glRectf", 1070, crate::Address(glRectf as *const ())),
+    (b"glRectfv", 1071, crate::Address(glRectfv as *const ())),
+    (b"glRecti", 1072, crate::Address(glRecti as *const ())),
+    (b"glRectiv", 1073, crate::Address(glRectiv as *const ())),
+    (b"glRects", 1074, crate::Address(glRects as *const ())),
+    (b"glRectsv", 1075, crate::Address(glRectsv as *const ())),
     (b"glRenderMode", 667, crate::Address(glRenderMode as *const ())),
-    (b"glRenderbufferStorage", 1260, crate::Address(glRenderbufferStorage as *const ())),
-    (b"glRenderbufferStorageEXT", 1261, crate::Address(glRenderbufferStorageEXT as *const ())),
-    (b"glRenderbufferStorageMultisample", 1262, crate::Address(glRenderbufferStorageMultisample as *const ())),
-    (b"glRenderbufferStorageMultisampleEXT", 1263, crate::Address(glRenderbufferStorageMultisampleEXT as *const ())),
-    (b"glRenderbufferStorageMultisampleNV", 1264, crate::Address(glRenderbufferStorageMultisampleNV as *const ())),
+    (b"glRenderbufferStorage", 1267, crate::Address(glRenderbufferStorage as *const ())),
+    (b"glRenderbufferStorageEXT", 1268, crate::Address(glRenderbufferStorageEXT as *const ())),
+    (b"glRenderbufferStorageMultisample", 1269, crate::Address(glRenderbufferStorageMultisample as *const ())),
+    (b"glRenderbufferStorageMultisampleEXT", 1270, crate::Address(glRenderbufferStorageMultisampleEXT as *const ())),
+    (b"glRenderbufferStorageMultisampleNV", 1271, crate::Address(glRenderbufferStorageMultisampleNV as *const ())),
     (b"glRotated", 470, crate::Address(glRotated as *const ())),
     (b"glRotatef", 471, crate::Address(glRotatef as *const ())),
     (b"glSampleCoverage", 750, crate::Address(glSampleCoverage as *const ())),
@@ -3666,9 +3680,9 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1338] = [
     (b"glSecondaryColor3usvEXT", 221, crate::Address(glSecondaryColor3usvEXT as *const ())),
     (b"glSecondaryColorP3ui", 444, crate::Address(glSecondaryColorP3ui as *const ())),
     (b"glSecondaryColorP3uiv", 445, crate::Address(glSecondaryColorP3uiv as *const ())),
-    (b"glSecondaryColorPointer", 1285, crate::Address(glSecondaryColorPointer as *const ())),
-    (b"glSecondaryColorPointerEXT", 1286, crate::Address(glSecondaryColorPointerEXT as *const ())),
-    (b"glSelectBuffer", 1253, crate::Address(glSelectBuffer as *const ())),
+    (b"glSecondaryColorPointer", 1292, crate::Address(glSecondaryColorPointer as *const ())),
+    (b"glSecondaryColorPointerEXT", 1293, crate::Address(glSecondaryColorPointerEXT as *const ())),
+    (b"glSelectBuffer", 1260, crate::Address(glSelectBuffer as *const ())),
     (b"glShadeModel", 574, crate::Address(glShadeModel as *const ())),
     (b"glStencilFunc", 755, crate::Address(glStencilFunc as *const ())),
     (b"glStencilFuncSeparate", 756, crate::Address(glStencilFuncSeparate as *const ())),
@@ -3725,7 +3739,7 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1338] = [
     (b"glTexCoordP3uiv", 429, crate::Address(glTexCoordP3uiv as *const ())),
     (b"glTexCoordP4ui", 430, crate::Address(glTexCoordP4ui as *const ())),
     (b"glTexCoordP4uiv", 431, crate::Address(glTexCoordP4uiv as *const ())),
-    (b"glTexCoordPointer", 1287, crate::Address(glTexCoordPointer as *const ())),
+    (b"glTexCoordPointer", 1294, crate::Address(glTexCoordPointer as *const ())),
     (b"glTexEnvf", 577, crate::Address(glTexEnvf as *const ())),
     (b"glTexEnvfv", 578, crate::Address(glTexEnvfv as *const ())),
     (b"glTexEnvi", 579, crate::Address(glTexEnvi as *const ())),
@@ -3769,92 +3783,92 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1338] = [
     (b"glTextureSubImage3D", 813, crate::Address(glTextureSubImage3D as *const ())),
     (b"glTranslated", 474, crate::Address(glTranslated as *const ())),
     (b"glTranslatef", 475, crate::Address(glTranslatef as *const ())),
-    (b"glUniform1d", 830, crate::Address(glUniform1d as *const ())),
-    (b"glUniform1dv", 831, crate::Address(glUniform1dv as *const ())),
-    (b"glUniform1f", 832, crate::Address(glUniform1f as *const ())),
-    (b"glUniform1fARB", 833, crate::Address(glUniform1fARB as *const ())),
-    (b"glUniform1fv", 834, crate::Address(glUniform1fv as *const ())),
-    (b"glUniform1fvARB", 835, crate::Address(glUniform1fvARB as *const ())),
-    (b"glUniform1i", 836, crate::Address(glUniform1i as *const ())),
-    (b"glUniform1iARB", 837, crate::Address(glUniform1iARB as *const ())),
-    (b"glUniform1iv", 838, crate::Address(glUniform1iv as *const ())),
-    (b"glUniform1ivARB", 839, crate::Address(glUniform1ivARB as *const ())),
-    (b"glUniform1ui", 840, crate::Address(glUniform1ui as *const ())),
-    (b"glUniform1uiEXT", 841, crate::Address(glUniform1uiEXT as *const ())),
-    (b"glUniform1uiv", 842, crate::Address(glUniform1uiv as *const ())),
-    (b"glUniform1uivEXT", 843, crate::Address(glUniform1uivEXT as *const ())),
-    (b"glUniform2d", 844, crate::Address(glUniform2d as *const ())),
-    (b"glUniform2dv", 845, crate::Address(glUniform2dv as *const ())),
-    (b"glUniform2f", 846, crate::Address(glUniform2f as *const ())),
-    (b"glUniform2fARB", 847, crate::Address(glUniform2fARB as *const ())),
-    (b"glUniform2fv", 848, crate::Address(glUniform2fv as *const ())),
-    (b"glUniform2fvARB", 849, crate::Address(glUniform2fvARB as *const ())),
-    (b"glUniform2i", 850, crate::Address(glUniform2i as *const ())),
-    (b"glUniform2iARB", 851, crate::Address(glUniform2iARB as *const ())),
-    (b"glUniform2iv", 852, crate::Address(glUniform2iv as *const ())),
-    (b"glUniform2ivARB", 853, crate::Address(glUniform2ivARB as *const ())),
-    (b"glUniform2ui", 854, crate::Address(glUniform2ui as *const ())),
-    (b"glUniform2uiEXT", 855, crate::Address(glUniform2uiEXT as *const ())),
-    (b"glUniform2uiv", 856, crate::Address(glUniform2uiv as *const ())),
-    (b"glUniform2uivEXT", 857, crate::Address(glUniform2uivEXT as *const ())),
-    (b"glUniform3d", 858, crate::Address(glUniform3d as *const ())),
-    (b"glUniform3dv", 859, crate::Address(glUniform3dv as *const ())),
-    (b"glUniform3f", 860, crate::Address(glUniform3f as *const ())),
-    (b"glUniform3fARB", 861, crate::Address(glUniform3fARB as *const ())),
-    (b"glUniform3fv", 862, crate::Address(glUniform3fv as *const ())),
-    (b"glUniform3fvARB", 863, crate::Address(glUniform3fvARB as *const ())),
-    (b"glUniform3i", 864, crate::Address(glUniform3i as *const ())),
-    (b"glUniform3iARB", 865, crate::Address(glUniform3iARB as *const ())),
-    (b"glUniform3iv", 866, crate::Address(glUniform3iv as *const ())),
-    (b"glUniform3ivARB", 867, crate::Address(glUniform3ivARB as *const ())),
-    (b"glUniform3ui", 868, crate::Address(glUniform3ui as *const ())),
-    (b"glUniform3uiEXT", 869, crate::Address(glUniform3uiEXT as *const ())),
-    (b"glUniform3uiv", 870, crate::Address(glUniform3uiv as *const ())),
-    (b"glUniform3uivEXT", 871, crate::Address(glUniform3uivEXT as *const ())),
-    (b"glUniform4d", 872, crate::Address(glUniform4d as *const ())),
-    (b"glUniform4dv", 873, crate::Address(glUniform4dv as *const ())),
-    (b"glUniform4f", 874, crate::Address(glUniform4f as *const ())),
-    (b"glUniform4fARB", 875, crate::Address(glUniform4fARB as *const ())),
-    (b"glUniform4fv", 876, crate::Address(glUniform4fv as *const ())),
-    (b"glUniform4fvARB", 877, crate::Address(glUniform4fvARB as *const ())),
-    (b"glUniform4i", 878, crate::Address(glUniform4i as *const ())),
-    (b"glUniform4iARB", 879, crate::Address(glUniform4iARB as *const ())),
-    (b"glUniform4iv", 880, crate::Address(glUniform4iv as *const ())),
-    (b"glUniform4ivARB", 881, crate::Address(glUniform4ivARB as *const ())),
-    (b"glUniform4ui", 882, crate::Address(glUniform4ui as *const ())),
-    (b"glUniform4uiEXT", 883, crate::Address(glUniform4uiEXT as *const ())),
-    (b"glUniform4uiv", 884, crate::Address(glUniform4uiv as *const ())),
-    (b"glUniform4uivEXT", 885, crate::Address(glUniform4uivEXT as *const ())),
-    (b"glUniformBlockBinding", 996, crate::Address(glUniformBlockBinding as *const ())),
-    (b"glUniformMatrix2dv", 886, crate::Address(glUniformMatrix2dv as *const ())),
-    (b"glUniformMatrix2fv", 887, crate::Address(glUniformMatrix2fv as *const ())),
-    (b"glUniformMatrix2fvARB", 888, crate::Address(glUniformMatrix2fvARB as *const ())),
-    (b"glUniformMatrix2x3dv", 889, crate::Address(glUniformMatrix2x3dv as *const ())),
-    (b"glUniformMatrix2x3fv", 890, crate::Address(glUniformMatrix2x3fv as *const ())),
-    (b"glUniformMatrix2x3fvNV", 891, crate::Address(glUniformMatrix2x3fvNV as *const ())),
-    (b"glUniformMatrix2x4dv", 892, crate::Address(glUniformMatrix2x4dv as *const ())),
-    (b"glUniformMatrix2x4fv", 893, crate::Address(glUniformMatrix2x4fv as *const ())),
-    (b"glUniformMatrix2x4fvNV", 894, crate::Address(glUniformMatrix2x4fvNV as *const ())),
-    (b"glUniformMatrix3dv", 895, crate::Address(glUniformMatrix3dv as *const ())),
-    (b"glUniformMatrix3fv", 896, crate::Address(glUniformMatrix3fv as *const ())),
-    (b"glUniformMatrix3fvARB", 897, crate::Address(glUniformMatrix3fvARB as *const ())),
-    (b"glUniformMatrix3x2dv", 898, crate::Address(glUniformMatrix3x2dv as *const ())),
-    (b"glUniformMatrix3x2fv", 899, crate::Address(glUniformMatrix3x2fv as *const ())),
-    (b"glUniformMatrix3x2fvNV", 900, crate::Address(glUniformMatrix3x2fvNV as *const ())),
-    (b"glUniformMatrix3x4dv", 901, crate::Address(glUniformMatrix3x4dv as *const ())),
-    (b"glUniformMatrix3x4fv", 902, crate::Address(glUniformMatrix3x4fv as *const ())),
-    (b"glUniformMatrix3x4fvNV", 903, crate::Address(glUniformMatrix3x4fvNV as *const ())),
-    (b"glUniformMatrix4dv", 904, crate::Address(glUniformMatrix4dv as *const ())),
-    (b"glUniformMatrix4fv", 905, crate::Address(glUniformMatrix4fv as *const ())),
-    (b"glUniformMatrix4fvARB", 906, crate::Address(glUniformMatrix4fvARB as *const ())),
-    (b"glUniformMatrix4x2dv", 907, crate::Address(glUniformMatrix4x2dv as *const ())),
-    (b"glUniformMatrix4x2fv", 908, crate::Address(glUniformMatrix4x2fv as *const ())),
-    (b"glUniformMatrix4x2fvNV", 909, crate::Address(glUniformMatrix4x2fvNV as *const ())),
-    (b"glUniformMatrix4x3dv", 910, crate::Address(glUniformMatrix4x3dv as *const ())),
-    (b"glUniformMatrix4x3fv", 911, crate::Address(glUniformMatrix4x3fv as *const ())),
-    (b"glUniformMatrix4x3fvNV", 912, crate::Address(glUniformMatrix4x3fvNV as *const ())),
-    (b"glUseProgram", 1001, crate::Address(glUseProgram as *const ())),
-    (b"glUseProgramObjectARB", 1002, crate::Address(glUseProgramObjectARB as *const ())),
+    (b"glUniform1d", 837, crate::Address(glUniform1d as *const ())),
+    (b"glUniform1dv", 838, crate::Address(glUniform1dv as *const ())),
+    (b"glUniform1f", 839, crate::Address(glUniform1f as *const ())),
+    (b"glUniform1fARB", 840, crate::Address(glUniform1fARB as *const ())),
+    (b"glUniform1fv", 841, crate::Address(glUniform1fv as *const ())),
+    (b"glUniform1fvARB", 842, crate::Address(glUniform1fvARB as *const ())),
+    (b"glUniform1i", 843, crate::Address(glUniform1i as *const ())),
+    (b"glUniform1iARB", 844, crate::Address(glUniform1iARB as *const ())),
+    (b"glUniform1iv", 845, crate::Address(glUniform1iv as *const ())),
+    (b"glUniform1ivARB", 846, crate::Address(glUniform1ivARB as *const ())),
+    (b"glUniform1ui", 847, crate::Address(glUniform1ui as *const ())),
+    (b"glUniform1uiEXT", 848, crate::Address(glUniform1uiEXT as *const ())),
+    (b"glUniform1uiv", 849, crate::Address(glUniform1uiv as *const ())),
+    (b"glUniform1uivEXT", 850, crate::Address(glUniform1uivEXT as *const ())),
+    (b"glUniform2d", 851, crate::Address(glUniform2d as *const ())),
+    (b"glUniform2dv", 852, crate::Address(glUniform2dv as *const ())),
+    (b"glUniform2f", 853, crate::Address(glUniform2f as *const ())),
+    (b"glUniform2fARB", 854, crate::Address(glUniform2fARB as *const ())),
+    (b"glUniform2fv", 855, crate::Address(glUniform2fv as *const ())),
+    (b"glUniform2fvARB", 856, crate::Address(glUniform2fvARB as *const ())),
+    (b"glUniform2i", 857, crate::Address(glUniform2i as *const ())),
+    (b"glUniform2iARB", 858, crate::Address(glUniform2iARB as *const ())),
+    (b"glUniform2iv", 859, crate::Address(glUniform2iv as *const ())),
+    (b"glUniform2ivARB", 860, crate::Address(glUniform2ivARB as *const ())),
+    (b"glUniform2ui", 861, crate::Address(glUniform2ui as *const ())),
+    (b"glUniform2uiEXT", 862, crate::Address(glUniform2uiEXT as *const ())),
+    (b"glUniform2uiv", 863, crate::Address(glUniform2uiv as *const ())),
+    (b"glUniform2uivEXT", 864, crate::Address(glUniform2uivEXT as *const ())),
+    (b"glUniform3d", 865, crate::Address(glUniform3d as *const ())),
+    (b"glUniform3dv", 866, crate::Address(glUniform3dv as *const ())),
+    (b"glUniform3f", 867, crate::Address(glUniform3f as *const ())),
+    (b"glUniform3fARB", 868, crate::Address(glUniform3fARB as *const ())),
+    (b"glUniform3fv", 869, crate::Address(glUniform3fv as *const ())),
+    (b"glUniform3fvARB", 870, crate::Address(glUniform3fvARB as *const ())),
+    (b"glUniform3i", 871, crate::Address(glUniform3i as *const ())),
+    (b"glUniform3iARB", 872, crate::Address(glUniform3iARB as *const ())),
+    (b"glUniform3iv", 873, crate::Address(glUniform3iv as *const ())),
+    (b"glUniform3ivARB", 874, crate::Address(glUniform3ivARB as *const ())),
+    (b"glUniform3ui", 875, crate::Address(glUniform3ui as *const ())),
+    (b"glUniform3uiEXT", 876, crate::Address(glUniform3uiEXT as *const ())),
+    (b"glUniform3uiv", 877, crate::Address(glUniform3uiv as *const ())),
+    (b"glUniform3uivEXT", 878, crate::Address(glUniform3uivEXT as *const ())),
+    (b"glUniform4d", 879, crate::Address(glUniform4d as *const ())),
+    (b"glUniform4dv", 880, crate::Address(glUniform4dv as *const ())),
+    (b"glUniform4f", 881, crate::Address(glUniform4f as *const ())),
+    (b"glUniform4fARB", 882, crate::Address(glUniform4fARB as *const ())),
+    (b"glUniform4fv", 883, crate::Address(glUniform4fv as *const ())),
+    (b"glUniform4fvARB", 884, crate::Address(glUniform4fvARB as *const ())),
+    (b"glUniform4i", 885, crate::Address(glUniform4i as *const ())),
+    (b"glUniform4iARB", 886, crate::Address(glUniform4iARB as *const ())),
+    (b"glUniform4iv", 887, crate::Address(glUniform4iv as *const ())),
+    (b"glUniform4ivARB", 888, crate::Address(glUniform4ivARB as *const ())),
+    (b"glUniform4ui", 889, crate::Address(glUniform4ui as *const ())),
+    (b"glUniform4uiEXT", 890, crate::Address(glUniform4uiEXT as *const ())),
+    (b"glUniform4uiv", 891, crate::Address(glUniform4uiv as *const ())),
+    (b"glUniform4uivEXT", 892, crate::Address(glUniform4uivEXT as *const ())),
+    (b"glUniformBlockBinding", 1003, crate::Address(glUniformBlockBinding as *const ())),
+    (b"glUniformMatrix2dv", 893, crate::Address(glUniformMatrix2dv as *const ())),
+    (b"glUniformMatrix2fv", 894, crate::Address(glUniformMatrix2fv as *const ())),
+    (b"glUniformMatrix2fvARB", 895, crate::Address(glUniformMatrix2fvARB as *const ())),
+    (b"glUniformMatrix2x3dv", 896, crate::Address(glUniformMatrix2x3dv as *const ())),
+    (b"glUniformMatrix2x3fv", 897, crate::Address(glUniformMatrix2x3fv as *const ())),
+    (b"glUniformMatrix2x3fvNV", 898, crate::Address(glUniformMatrix2x3fvNV as *const ())),
+    (b"glUniformMatrix2x4dv", 899, crate::Address(glUniformMatrix2x4dv as *const ())),
+    (b"glUniformMatrix2x4fv", 900, crate::Address(glUniformMatrix2x4fv as *const ())),
+    (b"glUniformMatrix2x4fvNV", 901, crate::Address(glUniformMatrix2x4fvNV as *const ())),
+    (b"glUniformMatrix3dv", 902, crate::Address(glUniformMatrix3dv as *const ())),
+    (b"glUniformMatrix3fv", 903, crate::Address(glUniformMatrix3fv as *const ())),
+    (b"glUniformMatrix3fvARB", 904, crate::Address(glUniformMatrix3fvARB as *const ())),
+    (b"glUniformMatrix3x2dv", 905, crate::Address(glUniformMatrix3x2dv as *const ())),
+    (b"glUniformMatrix3x2fv", 906, crate::Address(glUniformMatrix3x2fv as *const ())),
+    (b"glUniformMatrix3x2fvNV", 907, crate::Address(glUniformMatrix3x2fvNV as *const ())),
+    (b"glUniformMatrix3x4dv", 908, crate::Address(glUniformMatrix3x4dv as *const ())),
+    (b"glUniformMatrix3x4fv", 909, crate::Address(glUniformMatrix3x4fv as *const ())),
+    (b"glUniformMatrix3x4fvNV", 910, crate::Address(glUniformMatrix3x4fvNV as *const ())),
+    (b"glUniformMatrix4dv", 911, crate::Address(glUniformMatrix4dv as *const ())),
+    (b"glUniformMatrix4fv", 912, crate::Address(glUniformMatrix4fv as *const ())),
+    (b"glUniformMatrix4fvARB", 913, crate::Address(glUniformMatrix4fvARB as *const ())),
+    (b"glUniformMatrix4x2dv", 914, crate::Address(glUniformMatrix4x2dv as *const ())),
+    (b"glUniformMatrix4x2fv", 915, crate::Address(glUniformMatrix4x2fv as *const ())),
+    (b"glUniformMatrix4x2fvNV", 916, crate::Address(glUniformMatrix4x2fvNV as *const ())),
+    (b"glUniformMatrix4x3dv", 917, crate::Address(glUniformMatrix4x3dv as *const ())),
+    (b"glUniformMatrix4x3fv", 918, crate::Address(glUniformMatrix4x3fv as *const ())),
+    (b"glUniformMatrix4x3fvNV", 919, crate::Address(glUniformMatrix4x3fvNV as *const ())),
+    (b"glUseProgram", 1008, crate::Address(glUseProgram as *const ())),
+    (b"glUseProgramObjectARB", 1009, crate::Address(glUseProgramObjectARB as *const ())),
     (b"glUseProgramStages", 589, crate::Address(glUseProgramStages as *const ())),
     (b"glVertex2d", 0, crate::Address(glVertex2d as *const ())),
     (b"glVertex2dv", 1, crate::Address(glVertex2dv as *const ())),
@@ -3886,6 +3900,7 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1338] = [
     (b"glVertex4iv", 21, crate::Address(glVertex4iv as *const ())),
     (b"glVertex4s", 22, crate::Address(glVertex4s as *const ())),
     (b"glVertex4sv", 23, crate::Address(glVertex4sv as *const ())),
+    (b"glVertexArrayBindingDivisor", 828, crate::Address(glVertexArrayBindingDivisor as *const ())),
     (b"glVertexAttrib1d", 262, crate::Address(glVertexAttrib1d as *const ())),
     (b"glVertexAttrib1dARB", 263, crate::Address(glVertexAttrib1dARB as *const ())),
     (b"glVertexAttrib1dNV", 264, crate::Address(glVertexAttrib1dNV as *const ())),
@@ -3984,6 +3999,11 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1338] = [
     (b"glVertexAttrib4uivARB", 354, crate::Address(glVertexAttrib4uivARB as *const ())),
     (b"glVertexAttrib4usv", 355, crate::Address(glVertexAttrib4usv as *const ())),
     (b"glVertexAttrib4usvARB", 356, crate::Address(glVertexAttrib4usvARB as *const ())),
+    (b"glVertexAttribDivisor", 822, crate::Address(glVertexAttribDivisor as *const ())),
+    (b"glVertexAttribDivisorANGLE", 823, crate::Address(glVertexAttribDivisorANGLE as *const ())),
+    (b"glVertexAttribDivisorARB", 824, crate::Address(glVertexAttribDivisorARB as *const ())),
+    (b"glVertexAttribDivisorEXT", 825, crate::Address(glVertexAttribDivisorEXT as *const ())),
+    (b"glVertexAttribDivisorNV", 826, crate::Address(glVertexAttribDivisorNV as *const ())),
     (b"glVertexAttribI1i", 360, crate::Address(glVertexAttribI1i as *const ())),
     (b"glVertexAttribI1iEXT", 361, crate::Address(glVertexAttribI1iEXT as *const ())),
     (b"glVertexAttribI1iv", 362, crate::Address(glVertexAttribI1iv as *const ())),
@@ -4048,15 +4068,16 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1338] = [
     (b"glVertexAttribP3uiv", 451, crate::Address(glVertexAttribP3uiv as *const ())),
     (b"glVertexAttribP4ui", 452, crate::Address(glVertexAttribP4ui as *const ())),
     (b"glVertexAttribP4uiv", 453, crate::Address(glVertexAttribP4uiv as *const ())),
-    (b"glVertexAttribPointer", 1294, crate::Address(glVertexAttribPointer as *const ())),
-    (b"glVertexAttribPointerARB", 1295, crate::Address(glVertexAttribPointerARB as *const ())),
+    (b"glVertexAttribPointer", 1301, crate::Address(glVertexAttribPointer as *const ())),
+    (b"glVertexAttribPointerARB", 1302, crate::Address(glVertexAttribPointerARB as *const ())),
+    (b"glVertexBindingDivisor", 827, crate::Address(glVertexBindingDivisor as *const ())),
     (b"glVertexP2ui", 432, crate::Address(glVertexP2ui as *const ())),
     (b"glVertexP2uiv", 433, crate::Address(glVertexP2uiv as *const ())),
     (b"glVertexP3ui", 434, crate::Address(glVertexP3ui as *const ())),
     (b"glVertexP3uiv", 435, crate::Address(glVertexP3uiv as *const ())),
     (b"glVertexP4ui", 436, crate::Address(glVertexP4ui as *const ())),
     (b"glVertexP4uiv", 437, crate::Address(glVertexP4uiv as *const ())),
-    (b"glVertexPointer", 1288, crate::Address(glVertexPointer as *const ())),
+    (b"glVertexPointer", 1295, crate::Address(glVertexPointer as *const ())),
     (b"glViewport", 498, crate::Address(glViewport as *const ())),
     (b"glViewportArrayv", 509, crate::Address(glViewportArrayv as *const ())),
     (b"glViewportArrayvNV", 510, crate::Address(glViewportArrayvNV as *const ())),
@@ -4115,23 +4136,23 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1338] = [
     (b"glWindowPos3sv", 664, crate::Address(glWindowPos3sv as *const ())),
     (b"glWindowPos3svARB", 665, crate::Address(glWindowPos3svARB as *const ())),
     (b"glWindowPos3svMESA", 666, crate::Address(glWindowPos3svMESA as *const ())),
-    (b"glXChooseFBConfig", 1301, crate::Address(glXChooseFBConfig as *const ())),
-    (b"glXChooseFBConfigSGIX", 1302, crate::Address(glXChooseFBConfigSGIX as *const ())),
-    (b"glXChooseVisual", 1300, crate::Address(glXChooseVisual as *const ())),
-    (b"glXCreateContext", 1308, crate::Address(glXCreateContext as *const ())),
-    (b"glXCreateContextAttribsARB", 1310, crate::Address(glXCreateContextAttribsARB as *const ())),
-    (b"glXCreateContextWithConfigSGIX", 1311, crate::Address(glXCreateContextWithConfigSGIX as *const ())),
-    (b"glXCreateNewContext", 1309, crate::Address(glXCreateNewContext as *const ())),
-    (b"glXCreateWindow", 1313, crate::Address(glXCreateWindow as *const ())),
-    (b"glXDestroyContext", 1312, crate::Address(glXDestroyContext as *const ())),
-    (b"glXDestroyWindow", 1314, crate::Address(glXDestroyWindow as *const ())),
-    (b"glXGetProcAddress", 1315, crate::Address(glXGetProcAddress as *const ())),
-    (b"glXGetProcAddressARB", 1316, crate::Address(glXGetProcAddressARB as *const ())),
-    (b"glXMakeContextCurrent", 1306, crate::Address(glXMakeContextCurrent as *const ())),
-    (b"glXMakeCurrent", 1305, crate::Address(glXMakeCurrent as *const ())),
-    (b"glXMakeCurrentReadSGI", 1307, crate::Address(glXMakeCurrentReadSGI as *const ())),
-    (b"glXSwapBuffers", 1303, crate::Address(glXSwapBuffers as *const ())),
-    (b"glXSwapBuffersMscOML", 1304, crate::Address(glXSwapBuffersMscOML as *const ())),
+    (b"glXChooseFBConfig", 1308, crate::Address(glXChooseFBConfig as *const ())),
+    (b"glXChooseFBConfigSGIX", 1309, crate::Address(glXChooseFBConfigSGIX as *const ())),
+    (b"glXChooseVisual", 1307, crate::Address(glXChooseVisual as *const ())),
+    (b"glXCreateContext", 1315, crate::Address(glXCreateContext as *const ())),
+    (b"glXCreateContextAttribsARB", 1317, crate::Address(glXCreateContextAttribsARB as *const ())),
+    (b"glXCreateContextWithConfigSGIX", 1318, crate::Address(glXCreateContextWithConfigSGIX as *const ())),
+    (b"glXCreateNewContext", 1316, crate::Address(glXCreateNewContext as *const ())),
+    (b"glXCreateWindow", 1320, crate::Address(glXCreateWindow as *const ())),
+    (b"glXDestroyContext", 1319, crate::Address(glXDestroyContext as *const ())),
+    (b"glXDestroyWindow", 1321, crate::Address(glXDestroyWindow as *const ())),
+    (b"glXGetProcAddress", 1322, crate::Address(glXGetProcAddress as *const ())),
+    (b"glXGetProcAddressARB", 1323, crate::Address(glXGetProcAddressARB as *const ())),
+    (b"glXMakeContextCurrent", 1313, crate::Address(glXMakeContextCurrent as *const ())),
+    (b"glXMakeCurrent", 1312, crate::Address(glXMakeCurrent as *const ())),
+    (b"glXMakeCurrentReadSGI", 1314, crate::Address(glXMakeCurrentReadSGI as *const ())),
+    (b"glXSwapBuffers", 1310, crate::Address(glXSwapBuffers as *const ())),
+    (b"glXSwapBuffersMscOML", 1311, crate::Address(glXSwapBuffersMscOML as *const ())),
 ];
 
 export! { 0, glVertex2d, first_glVertex2d, hook_glVertex2d, (x: f64, y: f64) -> (), {
@@ -11554,2621 +11575,2663 @@ export! { 821, glDispatchComputeIndirect, first_glDispatchComputeIndirect, hook_
     // SAFETY: the program's own call.
     unsafe { gl.glDispatchComputeIndirect(indirect) };
 } }
-export! { 822, glProgramEnvParameter4dARB, first_glProgramEnvParameter4dARB, hook_glProgramEnvParameter4dARB, (target: u32, index: u32, x: f64, y: f64, z: f64, w: f64) -> (), {
+export! { 822, glVertexAttribDivisor, first_glVertexAttribDivisor, hook_glVertexAttribDivisor, (index: u32, divisor: u32) -> (), {
+    hooks::divide();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glVertexAttribDivisor(index, divisor) };
+} }
+export! { 823, glVertexAttribDivisorANGLE, first_glVertexAttribDivisorANGLE, hook_glVertexAttribDivisorANGLE, (index: u32, divisor: u32) -> (), {
+    hooks::divide();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glVertexAttribDivisorANGLE(index, divisor) };
+} }
+export! { 824, glVertexAttribDivisorARB, first_glVertexAttribDivisorARB, hook_glVertexAttribDivisorARB, (index: u32, divisor: u32) -> (), {
+    hooks::divide();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glVertexAttribDivisorARB(index, divisor) };
+} }
+export! { 825, glVertexAttribDivisorEXT, first_glVertexAttribDivisorEXT, hook_glVertexAttribDivisorEXT, (index: u32, divisor: u32) -> (), {
+    hooks::divide();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glVertexAttribDivisorEXT(index, divisor) };
+} }
+export! { 826, glVertexAttribDivisorNV, first_glVertexAttribDivisorNV, hook_glVertexAttribDivisorNV, (index: u32, divisor: u32) -> (), {
+    hooks::divide();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glVertexAttribDivisorNV(index, divisor) };
+} }
+export! { 827, glVertexBindingDivisor, first_glVertexBindingDivisor, hook_glVertexBindingDivisor, (bindingindex: u32, divisor: u32) -> (), {
+    hooks::divide();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glVertexBindingDivisor(bindingindex, divisor) };
+} }
+export! { 828, glVertexArrayBindingDivisor, first_glVertexArrayBindingDivisor, hook_glVertexArrayBindingDivisor, (vaobj: u32, bindingindex: u32, divisor: u32) -> (), {
+    hooks::divide();
+    let gl = hooks::real();
+    // SAFETY: the program's own call.
+    unsafe { gl.glVertexArrayBindingDivisor(vaobj, bindingindex, divisor) };
+} }
+export! { 829, glProgramEnvParameter4dARB, first_glProgramEnvParameter4dARB, hook_glProgramEnvParameter4dARB, (target: u32, index: u32, x: f64, y: f64, z: f64, w: f64) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramEnvParameter4dARB(target, index, x, y, z, w) };
 } }
-export! { 823, glProgramEnvParameter4dvARB, first_glProgramEnvParameter4dvARB, hook_glProgramEnvParameter4dvARB, (target: u32, index: u32, params: Ptr) -> (), {
+export! { 830, glProgramEnvParameter4dvARB, first_glProgramEnvParameter4dvARB, hook_glProgramEnvParameter4dvARB, (target: u32, index: u32, params: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramEnvParameter4dvARB(target, index, params) };
 } }
-export! { 824, glProgramEnvParameter4fARB, first_glProgramEnvParameter4fARB, hook_glProgramEnvParameter4fARB, (target: u32, index: u32, x: f32, y: f32, z: f32, w: f32) -> (), {
+export! { 831, glProgramEnvParameter4fARB, first_glProgramEnvParameter4fARB, hook_glProgramEnvParameter4fARB, (target: u32, index: u32, x: f32, y: f32, z: f32, w: f32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramEnvParameter4fARB(target, index, x, y, z, w) };
 } }
-export! { 825, glProgramEnvParameter4fvARB, first_glProgramEnvParameter4fvARB, hook_glProgramEnvParameter4fvARB, (target: u32, index: u32, params: Ptr) -> (), {
+export! { 832, glProgramEnvParameter4fvARB, first_glProgramEnvParameter4fvARB, hook_glProgramEnvParameter4fvARB, (target: u32, index: u32, params: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramEnvParameter4fvARB(target, index, params) };
 } }
-export! { 826, glProgramLocalParameter4dARB, first_glProgramLocalParameter4dARB, hook_glProgramLocalParameter4dARB, (target: u32, index: u32, x: f64, y: f64, z: f64, w: f64) -> (), {
+export! { 833, glProgramLocalParameter4dARB, first_glProgramLocalParameter4dARB, hook_glProgramLocalParameter4dARB, (target: u32, index: u32, x: f64, y: f64, z: f64, w: f64) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramLocalParameter4dARB(target, index, x, y, z, w) };
 } }
-export! { 827, glProgramLocalParameter4dvARB, first_glProgramLocalParameter4dvARB, hook_glProgramLocalParameter4dvARB, (target: u32, index: u32, params: Ptr) -> (), {
+export! { 834, glProgramLocalParameter4dvARB, first_glProgramLocalParameter4dvARB, hook_glProgramLocalParameter4dvARB, (target: u32, index: u32, params: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramLocalParameter4dvARB(target, index, params) };
 } }
-export! { 828, glProgramLocalParameter4fARB, first_glProgramLocalParameter4fARB, hook_glProgramLocalParameter4fARB, (target: u32, index: u32, x: f32, y: f32, z: f32, w: f32) -> (), {
+export! { 835, glProgramLocalParameter4fARB, first_glProgramLocalParameter4fARB, hook_glProgramLocalParameter4fARB, (target: u32, index: u32, x: f32, y: f32, z: f32, w: f32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramLocalParameter4fARB(target, index, x, y, z, w) };
 } }
-export! { 829, glProgramLocalParameter4fvARB, first_glProgramLocalParameter4fvARB, hook_glProgramLocalParameter4fvARB, (target: u32, index: u32, params: Ptr) -> (), {
+export! { 836, glProgramLocalParameter4fvARB, first_glProgramLocalParameter4fvARB, hook_glProgramLocalParameter4fvARB, (target: u32, index: u32, params: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramLocalParameter4fvARB(target, index, params) };
 } }
-export! { 830, glUniform1d, first_glUniform1d, hook_glUniform1d, (location: i32, x: f64) -> (), {
+export! { 837, glUniform1d, first_glUniform1d, hook_glUniform1d, (location: i32, x: f64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1d(location, x) };
 } }
-export! { 831, glUniform1dv, first_glUniform1dv, hook_glUniform1dv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 838, glUniform1dv, first_glUniform1dv, hook_glUniform1dv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1dv(location, count, value) };
 } }
-export! { 832, glUniform1f, first_glUniform1f, hook_glUniform1f, (location: i32, v0: f32) -> (), {
+export! { 839, glUniform1f, first_glUniform1f, hook_glUniform1f, (location: i32, v0: f32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1f(location, v0) };
 } }
-export! { 833, glUniform1fARB, first_glUniform1fARB, hook_glUniform1fARB, (location: i32, v0: f32) -> (), {
+export! { 840, glUniform1fARB, first_glUniform1fARB, hook_glUniform1fARB, (location: i32, v0: f32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1fARB(location, v0) };
 } }
-export! { 834, glUniform1fv, first_glUniform1fv, hook_glUniform1fv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 841, glUniform1fv, first_glUniform1fv, hook_glUniform1fv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1fv(location, count, value) };
 } }
-export! { 835, glUniform1fvARB, first_glUniform1fvARB, hook_glUniform1fvARB, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 842, glUniform1fvARB, first_glUniform1fvARB, hook_glUniform1fvARB, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1fvARB(location, count, value) };
 } }
-export! { 836, glUniform1i, first_glUniform1i, hook_glUniform1i, (location: i32, v0: i32) -> (), {
+export! { 843, glUniform1i, first_glUniform1i, hook_glUniform1i, (location: i32, v0: i32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1i(location, v0) };
 } }
-export! { 837, glUniform1iARB, first_glUniform1iARB, hook_glUniform1iARB, (location: i32, v0: i32) -> (), {
+export! { 844, glUniform1iARB, first_glUniform1iARB, hook_glUniform1iARB, (location: i32, v0: i32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1iARB(location, v0) };
 } }
-export! { 838, glUniform1iv, first_glUniform1iv, hook_glUniform1iv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 845, glUniform1iv, first_glUniform1iv, hook_glUniform1iv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1iv(location, count, value) };
 } }
-export! { 839, glUniform1ivARB, first_glUniform1ivARB, hook_glUniform1ivARB, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 846, glUniform1ivARB, first_glUniform1ivARB, hook_glUniform1ivARB, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1ivARB(location, count, value) };
 } }
-export! { 840, glUniform1ui, first_glUniform1ui, hook_glUniform1ui, (location: i32, v0: u32) -> (), {
+export! { 847, glUniform1ui, first_glUniform1ui, hook_glUniform1ui, (location: i32, v0: u32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1ui(location, v0) };
 } }
-export! { 841, glUniform1uiEXT, first_glUniform1uiEXT, hook_glUniform1uiEXT, (location: i32, v0: u32) -> (), {
+export! { 848, glUniform1uiEXT, first_glUniform1uiEXT, hook_glUniform1uiEXT, (location: i32, v0: u32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1uiEXT(location, v0) };
 } }
-export! { 842, glUniform1uiv, first_glUniform1uiv, hook_glUniform1uiv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 849, glUniform1uiv, first_glUniform1uiv, hook_glUniform1uiv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1uiv(location, count, value) };
 } }
-export! { 843, glUniform1uivEXT, first_glUniform1uivEXT, hook_glUniform1uivEXT, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 850, glUniform1uivEXT, first_glUniform1uivEXT, hook_glUniform1uivEXT, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1uivEXT(location, count, value) };
 } }
-export! { 844, glUniform2d, first_glUniform2d, hook_glUniform2d, (location: i32, x: f64, y: f64) -> (), {
+export! { 851, glUniform2d, first_glUniform2d, hook_glUniform2d, (location: i32, x: f64, y: f64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2d(location, x, y) };
 } }
-export! { 845, glUniform2dv, first_glUniform2dv, hook_glUniform2dv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 852, glUniform2dv, first_glUniform2dv, hook_glUniform2dv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2dv(location, count, value) };
 } }
-export! { 846, glUniform2f, first_glUniform2f, hook_glUniform2f, (location: i32, v0: f32, v1: f32) -> (), {
+export! { 853, glUniform2f, first_glUniform2f, hook_glUniform2f, (location: i32, v0: f32, v1: f32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2f(location, v0, v1) };
 } }
-export! { 847, glUniform2fARB, first_glUniform2fARB, hook_glUniform2fARB, (location: i32, v0: f32, v1: f32) -> (), {
+export! { 854, glUniform2fARB, first_glUniform2fARB, hook_glUniform2fARB, (location: i32, v0: f32, v1: f32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2fARB(location, v0, v1) };
 } }
-export! { 848, glUniform2fv, first_glUniform2fv, hook_glUniform2fv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 855, glUniform2fv, first_glUniform2fv, hook_glUniform2fv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2fv(location, count, value) };
 } }
-export! { 849, glUniform2fvARB, first_glUniform2fvARB, hook_glUniform2fvARB, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 856, glUniform2fvARB, first_glUniform2fvARB, hook_glUniform2fvARB, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2fvARB(location, count, value) };
 } }
-export! { 850, glUniform2i, first_glUniform2i, hook_glUniform2i, (location: i32, v0: i32, v1: i32) -> (), {
+export! { 857, glUniform2i, first_glUniform2i, hook_glUniform2i, (location: i32, v0: i32, v1: i32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2i(location, v0, v1) };
 } }
-export! { 851, glUniform2iARB, first_glUniform2iARB, hook_glUniform2iARB, (location: i32, v0: i32, v1: i32) -> (), {
+export! { 858, glUniform2iARB, first_glUniform2iARB, hook_glUniform2iARB, (location: i32, v0: i32, v1: i32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2iARB(location, v0, v1) };
 } }
-export! { 852, glUniform2iv, first_glUniform2iv, hook_glUniform2iv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 859, glUniform2iv, first_glUniform2iv, hook_glUniform2iv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2iv(location, count, value) };
 } }
-export! { 853, glUniform2ivARB, first_glUniform2ivARB, hook_glUniform2ivARB, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 860, glUniform2ivARB, first_glUniform2ivARB, hook_glUniform2ivARB, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2ivARB(location, count, value) };
 } }
-export! { 854, glUniform2ui, first_glUniform2ui, hook_glUniform2ui, (location: i32, v0: u32, v1: u32) -> (), {
+export! { 861, glUniform2ui, first_glUniform2ui, hook_glUniform2ui, (location: i32, v0: u32, v1: u32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2ui(location, v0, v1) };
 } }
-export! { 855, glUniform2uiEXT, first_glUniform2uiEXT, hook_glUniform2uiEXT, (location: i32, v0: u32, v1: u32) -> (), {
+export! { 862, glUniform2uiEXT, first_glUniform2uiEXT, hook_glUniform2uiEXT, (location: i32, v0: u32, v1: u32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2uiEXT(location, v0, v1) };
 } }
-export! { 856, glUniform2uiv, first_glUniform2uiv, hook_glUniform2uiv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 863, glUniform2uiv, first_glUniform2uiv, hook_glUniform2uiv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2uiv(location, count, value) };
 } }
-export! { 857, glUniform2uivEXT, first_glUniform2uivEXT, hook_glUniform2uivEXT, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 864, glUniform2uivEXT, first_glUniform2uivEXT, hook_glUniform2uivEXT, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2uivEXT(location, count, value) };
 } }
-export! { 858, glUniform3d, first_glUniform3d, hook_glUniform3d, (location: i32, x: f64, y: f64, z: f64) -> (), {
+export! { 865, glUniform3d, first_glUniform3d, hook_glUniform3d, (location: i32, x: f64, y: f64, z: f64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3d(location, x, y, z) };
 } }
-export! { 859, glUniform3dv, first_glUniform3dv, hook_glUniform3dv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 866, glUniform3dv, first_glUniform3dv, hook_glUniform3dv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3dv(location, count, value) };
 } }
-export! { 860, glUniform3f, first_glUniform3f, hook_glUniform3f, (location: i32, v0: f32, v1: f32, v2: f32) -> (), {
+export! { 867, glUniform3f, first_glUniform3f, hook_glUniform3f, (location: i32, v0: f32, v1: f32, v2: f32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3f(location, v0, v1, v2) };
 } }
-export! { 861, glUniform3fARB, first_glUniform3fARB, hook_glUniform3fARB, (location: i32, v0: f32, v1: f32, v2: f32) -> (), {
+export! { 868, glUniform3fARB, first_glUniform3fARB, hook_glUniform3fARB, (location: i32, v0: f32, v1: f32, v2: f32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3fARB(location, v0, v1, v2) };
 } }
-export! { 862, glUniform3fv, first_glUniform3fv, hook_glUniform3fv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 869, glUniform3fv, first_glUniform3fv, hook_glUniform3fv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3fv(location, count, value) };
 } }
-export! { 863, glUniform3fvARB, first_glUniform3fvARB, hook_glUniform3fvARB, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 870, glUniform3fvARB, first_glUniform3fvARB, hook_glUniform3fvARB, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3fvARB(location, count, value) };
 } }
-export! { 864, glUniform3i, first_glUniform3i, hook_glUniform3i, (location: i32, v0: i32, v1: i32, v2: i32) -> (), {
+export! { 871, glUniform3i, first_glUniform3i, hook_glUniform3i, (location: i32, v0: i32, v1: i32, v2: i32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3i(location, v0, v1, v2) };
 } }
-export! { 865, glUniform3iARB, first_glUniform3iARB, hook_glUniform3iARB, (location: i32, v0: i32, v1: i32, v2: i32) -> (), {
+export! { 872, glUniform3iARB, first_glUniform3iARB, hook_glUniform3iARB, (location: i32, v0: i32, v1: i32, v2: i32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3iARB(location, v0, v1, v2) };
 } }
-export! { 866, glUniform3iv, first_glUniform3iv, hook_glUniform3iv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 873, glUniform3iv, first_glUniform3iv, hook_glUniform3iv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3iv(location, count, value) };
 } }
-export! { 867, glUniform3ivARB, first_glUniform3ivARB, hook_glUniform3ivARB, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 874, glUniform3ivARB, first_glUniform3ivARB, hook_glUniform3ivARB, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3ivARB(location, count, value) };
 } }
-export! { 868, glUniform3ui, first_glUniform3ui, hook_glUniform3ui, (location: i32, v0: u32, v1: u32, v2: u32) -> (), {
+export! { 875, glUniform3ui, first_glUniform3ui, hook_glUniform3ui, (location: i32, v0: u32, v1: u32, v2: u32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3ui(location, v0, v1, v2) };
 } }
-export! { 869, glUniform3uiEXT, first_glUniform3uiEXT, hook_glUniform3uiEXT, (location: i32, v0: u32, v1: u32, v2: u32) -> (), {
+export! { 876, glUniform3uiEXT, first_glUniform3uiEXT, hook_glUniform3uiEXT, (location: i32, v0: u32, v1: u32, v2: u32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3uiEXT(location, v0, v1, v2) };
 } }
-export! { 870, glUniform3uiv, first_glUniform3uiv, hook_glUniform3uiv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 877, glUniform3uiv, first_glUniform3uiv, hook_glUniform3uiv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3uiv(location, count, value) };
 } }
-export! { 871, glUniform3uivEXT, first_glUniform3uivEXT, hook_glUniform3uivEXT, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 878, glUniform3uivEXT, first_glUniform3uivEXT, hook_glUniform3uivEXT, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3uivEXT(location, count, value) };
 } }
-export! { 872, glUniform4d, first_glUniform4d, hook_glUniform4d, (location: i32, x: f64, y: f64, z: f64, w: f64) -> (), {
+export! { 879, glUniform4d, first_glUniform4d, hook_glUniform4d, (location: i32, x: f64, y: f64, z: f64, w: f64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4d(location, x, y, z, w) };
 } }
-export! { 873, glUniform4dv, first_glUniform4dv, hook_glUniform4dv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 880, glUniform4dv, first_glUniform4dv, hook_glUniform4dv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4dv(location, count, value) };
 } }
-export! { 874, glUniform4f, first_glUniform4f, hook_glUniform4f, (location: i32, v0: f32, v1: f32, v2: f32, v3: f32) -> (), {
+export! { 881, glUniform4f, first_glUniform4f, hook_glUniform4f, (location: i32, v0: f32, v1: f32, v2: f32, v3: f32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4f(location, v0, v1, v2, v3) };
 } }
-export! { 875, glUniform4fARB, first_glUniform4fARB, hook_glUniform4fARB, (location: i32, v0: f32, v1: f32, v2: f32, v3: f32) -> (), {
+export! { 882, glUniform4fARB, first_glUniform4fARB, hook_glUniform4fARB, (location: i32, v0: f32, v1: f32, v2: f32, v3: f32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4fARB(location, v0, v1, v2, v3) };
 } }
-export! { 876, glUniform4fv, first_glUniform4fv, hook_glUniform4fv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 883, glUniform4fv, first_glUniform4fv, hook_glUniform4fv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4fv(location, count, value) };
 } }
-export! { 877, glUniform4fvARB, first_glUniform4fvARB, hook_glUniform4fvARB, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 884, glUniform4fvARB, first_glUniform4fvARB, hook_glUniform4fvARB, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4fvARB(location, count, value) };
 } }
-export! { 878, glUniform4i, first_glUniform4i, hook_glUniform4i, (location: i32, v0: i32, v1: i32, v2: i32, v3: i32) -> (), {
+export! { 885, glUniform4i, first_glUniform4i, hook_glUniform4i, (location: i32, v0: i32, v1: i32, v2: i32, v3: i32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4i(location, v0, v1, v2, v3) };
 } }
-export! { 879, glUniform4iARB, first_glUniform4iARB, hook_glUniform4iARB, (location: i32, v0: i32, v1: i32, v2: i32, v3: i32) -> (), {
+export! { 886, glUniform4iARB, first_glUniform4iARB, hook_glUniform4iARB, (location: i32, v0: i32, v1: i32, v2: i32, v3: i32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4iARB(location, v0, v1, v2, v3) };
 } }
-export! { 880, glUniform4iv, first_glUniform4iv, hook_glUniform4iv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 887, glUniform4iv, first_glUniform4iv, hook_glUniform4iv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4iv(location, count, value) };
 } }
-export! { 881, glUniform4ivARB, first_glUniform4ivARB, hook_glUniform4ivARB, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 888, glUniform4ivARB, first_glUniform4ivARB, hook_glUniform4ivARB, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4ivARB(location, count, value) };
 } }
-export! { 882, glUniform4ui, first_glUniform4ui, hook_glUniform4ui, (location: i32, v0: u32, v1: u32, v2: u32, v3: u32) -> (), {
+export! { 889, glUniform4ui, first_glUniform4ui, hook_glUniform4ui, (location: i32, v0: u32, v1: u32, v2: u32, v3: u32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4ui(location, v0, v1, v2, v3) };
 } }
-export! { 883, glUniform4uiEXT, first_glUniform4uiEXT, hook_glUniform4uiEXT, (location: i32, v0: u32, v1: u32, v2: u32, v3: u32) -> (), {
+export! { 890, glUniform4uiEXT, first_glUniform4uiEXT, hook_glUniform4uiEXT, (location: i32, v0: u32, v1: u32, v2: u32, v3: u32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4uiEXT(location, v0, v1, v2, v3) };
 } }
-export! { 884, glUniform4uiv, first_glUniform4uiv, hook_glUniform4uiv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 891, glUniform4uiv, first_glUniform4uiv, hook_glUniform4uiv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4uiv(location, count, value) };
 } }
-export! { 885, glUniform4uivEXT, first_glUniform4uivEXT, hook_glUniform4uivEXT, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 892, glUniform4uivEXT, first_glUniform4uivEXT, hook_glUniform4uivEXT, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4uivEXT(location, count, value) };
 } }
-export! { 886, glUniformMatrix2dv, first_glUniformMatrix2dv, hook_glUniformMatrix2dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 893, glUniformMatrix2dv, first_glUniformMatrix2dv, hook_glUniformMatrix2dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix2dv(location, count, transpose, value) };
 } }
-export! { 887, glUniformMatrix2fv, first_glUniformMatrix2fv, hook_glUniformMatrix2fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 894, glUniformMatrix2fv, first_glUniformMatrix2fv, hook_glUniformMatrix2fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix2fv(location, count, transpose, value) };
 } }
-export! { 888, glUniformMatrix2fvARB, first_glUniformMatrix2fvARB, hook_glUniformMatrix2fvARB, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 895, glUniformMatrix2fvARB, first_glUniformMatrix2fvARB, hook_glUniformMatrix2fvARB, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix2fvARB(location, count, transpose, value) };
 } }
-export! { 889, glUniformMatrix2x3dv, first_glUniformMatrix2x3dv, hook_glUniformMatrix2x3dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 896, glUniformMatrix2x3dv, first_glUniformMatrix2x3dv, hook_glUniformMatrix2x3dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix2x3dv(location, count, transpose, value) };
 } }
-export! { 890, glUniformMatrix2x3fv, first_glUniformMatrix2x3fv, hook_glUniformMatrix2x3fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 897, glUniformMatrix2x3fv, first_glUniformMatrix2x3fv, hook_glUniformMatrix2x3fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix2x3fv(location, count, transpose, value) };
 } }
-export! { 891, glUniformMatrix2x3fvNV, first_glUniformMatrix2x3fvNV, hook_glUniformMatrix2x3fvNV, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 898, glUniformMatrix2x3fvNV, first_glUniformMatrix2x3fvNV, hook_glUniformMatrix2x3fvNV, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix2x3fvNV(location, count, transpose, value) };
 } }
-export! { 892, glUniformMatrix2x4dv, first_glUniformMatrix2x4dv, hook_glUniformMatrix2x4dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 899, glUniformMatrix2x4dv, first_glUniformMatrix2x4dv, hook_glUniformMatrix2x4dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix2x4dv(location, count, transpose, value) };
 } }
-export! { 893, glUniformMatrix2x4fv, first_glUniformMatrix2x4fv, hook_glUniformMatrix2x4fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 900, glUniformMatrix2x4fv, first_glUniformMatrix2x4fv, hook_glUniformMatrix2x4fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix2x4fv(location, count, transpose, value) };
 } }
-export! { 894, glUniformMatrix2x4fvNV, first_glUniformMatrix2x4fvNV, hook_glUniformMatrix2x4fvNV, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 901, glUniformMatrix2x4fvNV, first_glUniformMatrix2x4fvNV, hook_glUniformMatrix2x4fvNV, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix2x4fvNV(location, count, transpose, value) };
 } }
-export! { 895, glUniformMatrix3dv, first_glUniformMatrix3dv, hook_glUniformMatrix3dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 902, glUniformMatrix3dv, first_glUniformMatrix3dv, hook_glUniformMatrix3dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix3dv(location, count, transpose, value) };
 } }
-export! { 896, glUniformMatrix3fv, first_glUniformMatrix3fv, hook_glUniformMatrix3fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 903, glUniformMatrix3fv, first_glUniformMatrix3fv, hook_glUniformMatrix3fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix3fv(location, count, transpose, value) };
 } }
-export! { 897, glUniformMatrix3fvARB, first_glUniformMatrix3fvARB, hook_glUniformMatrix3fvARB, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 904, glUniformMatrix3fvARB, first_glUniformMatrix3fvARB, hook_glUniformMatrix3fvARB, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix3fvARB(location, count, transpose, value) };
 } }
-export! { 898, glUniformMatrix3x2dv, first_glUniformMatrix3x2dv, hook_glUniformMatrix3x2dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 905, glUniformMatrix3x2dv, first_glUniformMatrix3x2dv, hook_glUniformMatrix3x2dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix3x2dv(location, count, transpose, value) };
 } }
-export! { 899, glUniformMatrix3x2fv, first_glUniformMatrix3x2fv, hook_glUniformMatrix3x2fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 906, glUniformMatrix3x2fv, first_glUniformMatrix3x2fv, hook_glUniformMatrix3x2fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix3x2fv(location, count, transpose, value) };
 } }
-export! { 900, glUniformMatrix3x2fvNV, first_glUniformMatrix3x2fvNV, hook_glUniformMatrix3x2fvNV, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 907, glUniformMatrix3x2fvNV, first_glUniformMatrix3x2fvNV, hook_glUniformMatrix3x2fvNV, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix3x2fvNV(location, count, transpose, value) };
 } }
-export! { 901, glUniformMatrix3x4dv, first_glUniformMatrix3x4dv, hook_glUniformMatrix3x4dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 908, glUniformMatrix3x4dv, first_glUniformMatrix3x4dv, hook_glUniformMatrix3x4dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix3x4dv(location, count, transpose, value) };
 } }
-export! { 902, glUniformMatrix3x4fv, first_glUniformMatrix3x4fv, hook_glUniformMatrix3x4fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 909, glUniformMatrix3x4fv, first_glUniformMatrix3x4fv, hook_glUniformMatrix3x4fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix3x4fv(location, count, transpose, value) };
 } }
-export! { 903, glUniformMatrix3x4fvNV, first_glUniformMatrix3x4fvNV, hook_glUniformMatrix3x4fvNV, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 910, glUniformMatrix3x4fvNV, first_glUniformMatrix3x4fvNV, hook_glUniformMatrix3x4fvNV, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix3x4fvNV(location, count, transpose, value) };
 } }
-export! { 904, glUniformMatrix4dv, first_glUniformMatrix4dv, hook_glUniformMatrix4dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 911, glUniformMatrix4dv, first_glUniformMatrix4dv, hook_glUniformMatrix4dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix4dv(location, count, transpose, value) };
 } }
-export! { 905, glUniformMatrix4fv, first_glUniformMatrix4fv, hook_glUniformMatrix4fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 912, glUniformMatrix4fv, first_glUniformMatrix4fv, hook_glUniformMatrix4fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix4fv(location, count, transpose, value) };
 } }
-export! { 906, glUniformMatrix4fvARB, first_glUniformMatrix4fvARB, hook_glUniformMatrix4fvARB, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 913, glUniformMatrix4fvARB, first_glUniformMatrix4fvARB, hook_glUniformMatrix4fvARB, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix4fvARB(location, count, transpose, value) };
 } }
-export! { 907, glUniformMatrix4x2dv, first_glUniformMatrix4x2dv, hook_glUniformMatrix4x2dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 914, glUniformMatrix4x2dv, first_glUniformMatrix4x2dv, hook_glUniformMatrix4x2dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix4x2dv(location, count, transpose, value) };
 } }
-export! { 908, glUniformMatrix4x2fv, first_glUniformMatrix4x2fv, hook_glUniformMatrix4x2fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 915, glUniformMatrix4x2fv, first_glUniformMatrix4x2fv, hook_glUniformMatrix4x2fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix4x2fv(location, count, transpose, value) };
 } }
-export! { 909, glUniformMatrix4x2fvNV, first_glUniformMatrix4x2fvNV, hook_glUniformMatrix4x2fvNV, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 916, glUniformMatrix4x2fvNV, first_glUniformMatrix4x2fvNV, hook_glUniformMatrix4x2fvNV, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix4x2fvNV(location, count, transpose, value) };
 } }
-export! { 910, glUniformMatrix4x3dv, first_glUniformMatrix4x3dv, hook_glUniformMatrix4x3dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 917, glUniformMatrix4x3dv, first_glUniformMatrix4x3dv, hook_glUniformMatrix4x3dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix4x3dv(location, count, transpose, value) };
 } }
-export! { 911, glUniformMatrix4x3fv, first_glUniformMatrix4x3fv, hook_glUniformMatrix4x3fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 918, glUniformMatrix4x3fv, first_glUniformMatrix4x3fv, hook_glUniformMatrix4x3fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix4x3fv(location, count, transpose, value) };
 } }
-export! { 912, glUniformMatrix4x3fvNV, first_glUniformMatrix4x3fvNV, hook_glUniformMatrix4x3fvNV, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 919, glUniformMatrix4x3fvNV, first_glUniformMatrix4x3fvNV, hook_glUniformMatrix4x3fvNV, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix4x3fvNV(location, count, transpose, value) };
 } }
-export! { 913, glProgramUniform1d, first_glProgramUniform1d, hook_glProgramUniform1d, (program: u32, location: i32, v0: f64) -> (), {
+export! { 920, glProgramUniform1d, first_glProgramUniform1d, hook_glProgramUniform1d, (program: u32, location: i32, v0: f64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform1d(program, location, v0) };
 } }
-export! { 914, glProgramUniform1dv, first_glProgramUniform1dv, hook_glProgramUniform1dv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 921, glProgramUniform1dv, first_glProgramUniform1dv, hook_glProgramUniform1dv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform1dv(program, location, count, value) };
 } }
-export! { 915, glProgramUniform1f, first_glProgramUniform1f, hook_glProgramUniform1f, (program: u32, location: i32, v0: f32) -> (), {
+export! { 922, glProgramUniform1f, first_glProgramUniform1f, hook_glProgramUniform1f, (program: u32, location: i32, v0: f32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform1f(program, location, v0) };
 } }
-export! { 916, glProgramUniform1fEXT, first_glProgramUniform1fEXT, hook_glProgramUniform1fEXT, (program: u32, location: i32, v0: f32) -> (), {
+export! { 923, glProgramUniform1fEXT, first_glProgramUniform1fEXT, hook_glProgramUniform1fEXT, (program: u32, location: i32, v0: f32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform1fEXT(program, location, v0) };
 } }
-export! { 917, glProgramUniform1fv, first_glProgramUniform1fv, hook_glProgramUniform1fv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 924, glProgramUniform1fv, first_glProgramUniform1fv, hook_glProgramUniform1fv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform1fv(program, location, count, value) };
 } }
-export! { 918, glProgramUniform1fvEXT, first_glProgramUniform1fvEXT, hook_glProgramUniform1fvEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 925, glProgramUniform1fvEXT, first_glProgramUniform1fvEXT, hook_glProgramUniform1fvEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform1fvEXT(program, location, count, value) };
 } }
-export! { 919, glProgramUniform1i, first_glProgramUniform1i, hook_glProgramUniform1i, (program: u32, location: i32, v0: i32) -> (), {
+export! { 926, glProgramUniform1i, first_glProgramUniform1i, hook_glProgramUniform1i, (program: u32, location: i32, v0: i32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform1i(program, location, v0) };
 } }
-export! { 920, glProgramUniform1iEXT, first_glProgramUniform1iEXT, hook_glProgramUniform1iEXT, (program: u32, location: i32, v0: i32) -> (), {
+export! { 927, glProgramUniform1iEXT, first_glProgramUniform1iEXT, hook_glProgramUniform1iEXT, (program: u32, location: i32, v0: i32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform1iEXT(program, location, v0) };
 } }
-export! { 921, glProgramUniform1iv, first_glProgramUniform1iv, hook_glProgramUniform1iv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 928, glProgramUniform1iv, first_glProgramUniform1iv, hook_glProgramUniform1iv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform1iv(program, location, count, value) };
 } }
-export! { 922, glProgramUniform1ivEXT, first_glProgramUniform1ivEXT, hook_glProgramUniform1ivEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 929, glProgramUniform1ivEXT, first_glProgramUniform1ivEXT, hook_glProgramUniform1ivEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform1ivEXT(program, location, count, value) };
 } }
-export! { 923, glProgramUniform1ui, first_glProgramUniform1ui, hook_glProgramUniform1ui, (program: u32, location: i32, v0: u32) -> (), {
+export! { 930, glProgramUniform1ui, first_glProgramUniform1ui, hook_glProgramUniform1ui, (program: u32, location: i32, v0: u32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform1ui(program, location, v0) };
 } }
-export! { 924, glProgramUniform1uiEXT, first_glProgramUniform1uiEXT, hook_glProgramUniform1uiEXT, (program: u32, location: i32, v0: u32) -> (), {
+export! { 931, glProgramUniform1uiEXT, first_glProgramUniform1uiEXT, hook_glProgramUniform1uiEXT, (program: u32, location: i32, v0: u32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform1uiEXT(program, location, v0) };
 } }
-export! { 925, glProgramUniform1uiv, first_glProgramUniform1uiv, hook_glProgramUniform1uiv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 932, glProgramUniform1uiv, first_glProgramUniform1uiv, hook_glProgramUniform1uiv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform1uiv(program, location, count, value) };
 } }
-export! { 926, glProgramUniform1uivEXT, first_glProgramUniform1uivEXT, hook_glProgramUniform1uivEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 933, glProgramUniform1uivEXT, first_glProgramUniform1uivEXT, hook_glProgramUniform1uivEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform1uivEXT(program, location, count, value) };
 } }
-export! { 927, glProgramUniform2d, first_glProgramUniform2d, hook_glProgramUniform2d, (program: u32, location: i32, v0: f64, v1: f64) -> (), {
+export! { 934, glProgramUniform2d, first_glProgramUniform2d, hook_glProgramUniform2d, (program: u32, location: i32, v0: f64, v1: f64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform2d(program, location, v0, v1) };
 } }
-export! { 928, glProgramUniform2dv, first_glProgramUniform2dv, hook_glProgramUniform2dv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 935, glProgramUniform2dv, first_glProgramUniform2dv, hook_glProgramUniform2dv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform2dv(program, location, count, value) };
 } }
-export! { 929, glProgramUniform2f, first_glProgramUniform2f, hook_glProgramUniform2f, (program: u32, location: i32, v0: f32, v1: f32) -> (), {
+export! { 936, glProgramUniform2f, first_glProgramUniform2f, hook_glProgramUniform2f, (program: u32, location: i32, v0: f32, v1: f32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform2f(program, location, v0, v1) };
 } }
-export! { 930, glProgramUniform2fEXT, first_glProgramUniform2fEXT, hook_glProgramUniform2fEXT, (program: u32, location: i32, v0: f32, v1: f32) -> (), {
+export! { 937, glProgramUniform2fEXT, first_glProgramUniform2fEXT, hook_glProgramUniform2fEXT, (program: u32, location: i32, v0: f32, v1: f32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform2fEXT(program, location, v0, v1) };
 } }
-export! { 931, glProgramUniform2fv, first_glProgramUniform2fv, hook_glProgramUniform2fv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 938, glProgramUniform2fv, first_glProgramUniform2fv, hook_glProgramUniform2fv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform2fv(program, location, count, value) };
 } }
-export! { 932, glProgramUniform2fvEXT, first_glProgramUniform2fvEXT, hook_glProgramUniform2fvEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 939, glProgramUniform2fvEXT, first_glProgramUniform2fvEXT, hook_glProgramUniform2fvEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform2fvEXT(program, location, count, value) };
 } }
-export! { 933, glProgramUniform2i, first_glProgramUniform2i, hook_glProgramUniform2i, (program: u32, location: i32, v0: i32, v1: i32) -> (), {
+export! { 940, glProgramUniform2i, first_glProgramUniform2i, hook_glProgramUniform2i, (program: u32, location: i32, v0: i32, v1: i32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform2i(program, location, v0, v1) };
 } }
-export! { 934, glProgramUniform2iEXT, first_glProgramUniform2iEXT, hook_glProgramUniform2iEXT, (program: u32, location: i32, v0: i32, v1: i32) -> (), {
+export! { 941, glProgramUniform2iEXT, first_glProgramUniform2iEXT, hook_glProgramUniform2iEXT, (program: u32, location: i32, v0: i32, v1: i32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform2iEXT(program, location, v0, v1) };
 } }
-export! { 935, glProgramUniform2iv, first_glProgramUniform2iv, hook_glProgramUniform2iv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 942, glProgramUniform2iv, first_glProgramUniform2iv, hook_glProgramUniform2iv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform2iv(program, location, count, value) };
 } }
-export! { 936, glProgramUniform2ivEXT, first_glProgramUniform2ivEXT, hook_glProgramUniform2ivEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 943, glProgramUniform2ivEXT, first_glProgramUniform2ivEXT, hook_glProgramUniform2ivEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform2ivEXT(program, location, count, value) };
 } }
-export! { 937, glProgramUniform2ui, first_glProgramUniform2ui, hook_glProgramUniform2ui, (program: u32, location: i32, v0: u32, v1: u32) -> (), {
+export! { 944, glProgramUniform2ui, first_glProgramUniform2ui, hook_glProgramUniform2ui, (program: u32, location: i32, v0: u32, v1: u32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform2ui(program, location, v0, v1) };
 } }
-export! { 938, glProgramUniform2uiEXT, first_glProgramUniform2uiEXT, hook_glProgramUniform2uiEXT, (program: u32, location: i32, v0: u32, v1: u32) -> (), {
+export! { 945, glProgramUniform2uiEXT, first_glProgramUniform2uiEXT, hook_glProgramUniform2uiEXT, (program: u32, location: i32, v0: u32, v1: u32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform2uiEXT(program, location, v0, v1) };
 } }
-export! { 939, glProgramUniform2uiv, first_glProgramUniform2uiv, hook_glProgramUniform2uiv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 946, glProgramUniform2uiv, first_glProgramUniform2uiv, hook_glProgramUniform2uiv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform2uiv(program, location, count, value) };
 } }
-export! { 940, glProgramUniform2uivEXT, first_glProgramUniform2uivEXT, hook_glProgramUniform2uivEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 947, glProgramUniform2uivEXT, first_glProgramUniform2uivEXT, hook_glProgramUniform2uivEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform2uivEXT(program, location, count, value) };
 } }
-export! { 941, glProgramUniform3d, first_glProgramUniform3d, hook_glProgramUniform3d, (program: u32, location: i32, v0: f64, v1: f64, v2: f64) -> (), {
+export! { 948, glProgramUniform3d, first_glProgramUniform3d, hook_glProgramUniform3d, (program: u32, location: i32, v0: f64, v1: f64, v2: f64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform3d(program, location, v0, v1, v2) };
 } }
-export! { 942, glProgramUniform3dv, first_glProgramUniform3dv, hook_glProgramUniform3dv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 949, glProgramUniform3dv, first_glProgramUniform3dv, hook_glProgramUniform3dv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform3dv(program, location, count, value) };
 } }
-export! { 943, glProgramUniform3f, first_glProgramUniform3f, hook_glProgramUniform3f, (program: u32, location: i32, v0: f32, v1: f32, v2: f32) -> (), {
+export! { 950, glProgramUniform3f, first_glProgramUniform3f, hook_glProgramUniform3f, (program: u32, location: i32, v0: f32, v1: f32, v2: f32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform3f(program, location, v0, v1, v2) };
 } }
-export! { 944, glProgramUniform3fEXT, first_glProgramUniform3fEXT, hook_glProgramUniform3fEXT, (program: u32, location: i32, v0: f32, v1: f32, v2: f32) -> (), {
+export! { 951, glProgramUniform3fEXT, first_glProgramUniform3fEXT, hook_glProgramUniform3fEXT, (program: u32, location: i32, v0: f32, v1: f32, v2: f32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform3fEXT(program, location, v0, v1, v2) };
 } }
-export! { 945, glProgramUniform3fv, first_glProgramUniform3fv, hook_glProgramUniform3fv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 952, glProgramUniform3fv, first_glProgramUniform3fv, hook_glProgramUniform3fv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform3fv(program, location, count, value) };
 } }
-export! { 946, glProgramUniform3fvEXT, first_glProgramUniform3fvEXT, hook_glProgramUniform3fvEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 953, glProgramUniform3fvEXT, first_glProgramUniform3fvEXT, hook_glProgramUniform3fvEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform3fvEXT(program, location, count, value) };
 } }
-export! { 947, glProgramUniform3i, first_glProgramUniform3i, hook_glProgramUniform3i, (program: u32, location: i32, v0: i32, v1: i32, v2: i32) -> (), {
+export! { 954, glProgramUniform3i, first_glProgramUniform3i, hook_glProgramUniform3i, (program: u32, location: i32, v0: i32, v1: i32, v2: i32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform3i(program, location, v0, v1, v2) };
 } }
-export! { 948, glProgramUniform3iEXT, first_glProgramUniform3iEXT, hook_glProgramUniform3iEXT, (program: u32, location: i32, v0: i32, v1: i32, v2: i32) -> (), {
+export! { 955, glProgramUniform3iEXT, first_glProgramUniform3iEXT, hook_glProgramUniform3iEXT, (program: u32, location: i32, v0: i32, v1: i32, v2: i32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform3iEXT(program, location, v0, v1, v2) };
 } }
-export! { 949, glProgramUniform3iv, first_glProgramUniform3iv, hook_glProgramUniform3iv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 956, glProgramUniform3iv, first_glProgramUniform3iv, hook_glProgramUniform3iv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform3iv(program, location, count, value) };
 } }
-export! { 950, glProgramUniform3ivEXT, first_glProgramUniform3ivEXT, hook_glProgramUniform3ivEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 957, glProgramUniform3ivEXT, first_glProgramUniform3ivEXT, hook_glProgramUniform3ivEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform3ivEXT(program, location, count, value) };
 } }
-export! { 951, glProgramUniform3ui, first_glProgramUniform3ui, hook_glProgramUniform3ui, (program: u32, location: i32, v0: u32, v1: u32, v2: u32) -> (), {
+export! { 958, glProgramUniform3ui, first_glProgramUniform3ui, hook_glProgramUniform3ui, (program: u32, location: i32, v0: u32, v1: u32, v2: u32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform3ui(program, location, v0, v1, v2) };
 } }
-export! { 952, glProgramUniform3uiEXT, first_glProgramUniform3uiEXT, hook_glProgramUniform3uiEXT, (program: u32, location: i32, v0: u32, v1: u32, v2: u32) -> (), {
+export! { 959, glProgramUniform3uiEXT, first_glProgramUniform3uiEXT, hook_glProgramUniform3uiEXT, (program: u32, location: i32, v0: u32, v1: u32, v2: u32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform3uiEXT(program, location, v0, v1, v2) };
 } }
-export! { 953, glProgramUniform3uiv, first_glProgramUniform3uiv, hook_glProgramUniform3uiv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 960, glProgramUniform3uiv, first_glProgramUniform3uiv, hook_glProgramUniform3uiv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform3uiv(program, location, count, value) };
 } }
-export! { 954, glProgramUniform3uivEXT, first_glProgramUniform3uivEXT, hook_glProgramUniform3uivEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 961, glProgramUniform3uivEXT, first_glProgramUniform3uivEXT, hook_glProgramUniform3uivEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform3uivEXT(program, location, count, value) };
 } }
-export! { 955, glProgramUniform4d, first_glProgramUniform4d, hook_glProgramUniform4d, (program: u32, location: i32, v0: f64, v1: f64, v2: f64, v3: f64) -> (), {
+export! { 962, glProgramUniform4d, first_glProgramUniform4d, hook_glProgramUniform4d, (program: u32, location: i32, v0: f64, v1: f64, v2: f64, v3: f64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform4d(program, location, v0, v1, v2, v3) };
 } }
-export! { 956, glProgramUniform4dv, first_glProgramUniform4dv, hook_glProgramUniform4dv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 963, glProgramUniform4dv, first_glProgramUniform4dv, hook_glProgramUniform4dv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform4dv(program, location, count, value) };
 } }
-export! { 957, glProgramUniform4f, first_glProgramUniform4f, hook_glProgramUniform4f, (program: u32, location: i32, v0: f32, v1: f32, v2: f32, v3: f32) -> (), {
+export! { 964, glProgramUniform4f, first_glProgramUniform4f, hook_glProgramUniform4f, (program: u32, location: i32, v0: f32, v1: f32, v2: f32, v3: f32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform4f(program, location, v0, v1, v2, v3) };
 } }
-export! { 958, glProgramUniform4fEXT, first_glProgramUniform4fEXT, hook_glProgramUniform4fEXT, (program: u32, location: i32, v0: f32, v1: f32, v2: f32, v3: f32) -> (), {
+export! { 965, glProgramUniform4fEXT, first_glProgramUniform4fEXT, hook_glProgramUniform4fEXT, (program: u32, location: i32, v0: f32, v1: f32, v2: f32, v3: f32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform4fEXT(program, location, v0, v1, v2, v3) };
 } }
-export! { 959, glProgramUniform4fv, first_glProgramUniform4fv, hook_glProgramUniform4fv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 966, glProgramUniform4fv, first_glProgramUniform4fv, hook_glProgramUniform4fv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform4fv(program, location, count, value) };
 } }
-export! { 960, glProgramUniform4fvEXT, first_glProgramUniform4fvEXT, hook_glProgramUniform4fvEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 967, glProgramUniform4fvEXT, first_glProgramUniform4fvEXT, hook_glProgramUniform4fvEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform4fvEXT(program, location, count, value) };
 } }
-export! { 961, glProgramUniform4i, first_glProgramUniform4i, hook_glProgramUniform4i, (program: u32, location: i32, v0: i32, v1: i32, v2: i32, v3: i32) -> (), {
+export! { 968, glProgramUniform4i, first_glProgramUniform4i, hook_glProgramUniform4i, (program: u32, location: i32, v0: i32, v1: i32, v2: i32, v3: i32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform4i(program, location, v0, v1, v2, v3) };
 } }
-export! { 962, glProgramUniform4iEXT, first_glProgramUniform4iEXT, hook_glProgramUniform4iEXT, (program: u32, location: i32, v0: i32, v1: i32, v2: i32, v3: i32) -> (), {
+export! { 969, glProgramUniform4iEXT, first_glProgramUniform4iEXT, hook_glProgramUniform4iEXT, (program: u32, location: i32, v0: i32, v1: i32, v2: i32, v3: i32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform4iEXT(program, location, v0, v1, v2, v3) };
 } }
-export! { 963, glProgramUniform4iv, first_glProgramUniform4iv, hook_glProgramUniform4iv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 970, glProgramUniform4iv, first_glProgramUniform4iv, hook_glProgramUniform4iv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform4iv(program, location, count, value) };
 } }
-export! { 964, glProgramUniform4ivEXT, first_glProgramUniform4ivEXT, hook_glProgramUniform4ivEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 971, glProgramUniform4ivEXT, first_glProgramUniform4ivEXT, hook_glProgramUniform4ivEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform4ivEXT(program, location, count, value) };
 } }
-export! { 965, glProgramUniform4ui, first_glProgramUniform4ui, hook_glProgramUniform4ui, (program: u32, location: i32, v0: u32, v1: u32, v2: u32, v3: u32) -> (), {
+export! { 972, glProgramUniform4ui, first_glProgramUniform4ui, hook_glProgramUniform4ui, (program: u32, location: i32, v0: u32, v1: u32, v2: u32, v3: u32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform4ui(program, location, v0, v1, v2, v3) };
 } }
-export! { 966, glProgramUniform4uiEXT, first_glProgramUniform4uiEXT, hook_glProgramUniform4uiEXT, (program: u32, location: i32, v0: u32, v1: u32, v2: u32, v3: u32) -> (), {
+export! { 973, glProgramUniform4uiEXT, first_glProgramUniform4uiEXT, hook_glProgramUniform4uiEXT, (program: u32, location: i32, v0: u32, v1: u32, v2: u32, v3: u32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform4uiEXT(program, location, v0, v1, v2, v3) };
 } }
-export! { 967, glProgramUniform4uiv, first_glProgramUniform4uiv, hook_glProgramUniform4uiv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 974, glProgramUniform4uiv, first_glProgramUniform4uiv, hook_glProgramUniform4uiv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform4uiv(program, location, count, value) };
 } }
-export! { 968, glProgramUniform4uivEXT, first_glProgramUniform4uivEXT, hook_glProgramUniform4uivEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 975, glProgramUniform4uivEXT, first_glProgramUniform4uivEXT, hook_glProgramUniform4uivEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform4uivEXT(program, location, count, value) };
 } }
-export! { 969, glProgramUniformMatrix2dv, first_glProgramUniformMatrix2dv, hook_glProgramUniformMatrix2dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 976, glProgramUniformMatrix2dv, first_glProgramUniformMatrix2dv, hook_glProgramUniformMatrix2dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix2dv(program, location, count, transpose, value) };
 } }
-export! { 970, glProgramUniformMatrix2fv, first_glProgramUniformMatrix2fv, hook_glProgramUniformMatrix2fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 977, glProgramUniformMatrix2fv, first_glProgramUniformMatrix2fv, hook_glProgramUniformMatrix2fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix2fv(program, location, count, transpose, value) };
 } }
-export! { 971, glProgramUniformMatrix2fvEXT, first_glProgramUniformMatrix2fvEXT, hook_glProgramUniformMatrix2fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 978, glProgramUniformMatrix2fvEXT, first_glProgramUniformMatrix2fvEXT, hook_glProgramUniformMatrix2fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix2fvEXT(program, location, count, transpose, value) };
 } }
-export! { 972, glProgramUniformMatrix2x3dv, first_glProgramUniformMatrix2x3dv, hook_glProgramUniformMatrix2x3dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 979, glProgramUniformMatrix2x3dv, first_glProgramUniformMatrix2x3dv, hook_glProgramUniformMatrix2x3dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix2x3dv(program, location, count, transpose, value) };
 } }
-export! { 973, glProgramUniformMatrix2x3fv, first_glProgramUniformMatrix2x3fv, hook_glProgramUniformMatrix2x3fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 980, glProgramUniformMatrix2x3fv, first_glProgramUniformMatrix2x3fv, hook_glProgramUniformMatrix2x3fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix2x3fv(program, location, count, transpose, value) };
 } }
-export! { 974, glProgramUniformMatrix2x3fvEXT, first_glProgramUniformMatrix2x3fvEXT, hook_glProgramUniformMatrix2x3fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 981, glProgramUniformMatrix2x3fvEXT, first_glProgramUniformMatrix2x3fvEXT, hook_glProgramUniformMatrix2x3fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix2x3fvEXT(program, location, count, transpose, value) };
 } }
-export! { 975, glProgramUniformMatrix2x4dv, first_glProgramUniformMatrix2x4dv, hook_glProgramUniformMatrix2x4dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 982, glProgramUniformMatrix2x4dv, first_glProgramUniformMatrix2x4dv, hook_glProgramUniformMatrix2x4dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix2x4dv(program, location, count, transpose, value) };
 } }
-export! { 976, glProgramUniformMatrix2x4fv, first_glProgramUniformMatrix2x4fv, hook_glProgramUniformMatrix2x4fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 983, glProgramUniformMatrix2x4fv, first_glProgramUniformMatrix2x4fv, hook_glProgramUniformMatrix2x4fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix2x4fv(program, location, count, transpose, value) };
 } }
-export! { 977, glProgramUniformMatrix2x4fvEXT, first_glProgramUniformMatrix2x4fvEXT, hook_glProgramUniformMatrix2x4fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 984, glProgramUniformMatrix2x4fvEXT, first_glProgramUniformMatrix2x4fvEXT, hook_glProgramUniformMatrix2x4fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix2x4fvEXT(program, location, count, transpose, value) };
 } }
-export! { 978, glProgramUniformMatrix3dv, first_glProgramUniformMatrix3dv, hook_glProgramUniformMatrix3dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 985, glProgramUniformMatrix3dv, first_glProgramUniformMatrix3dv, hook_glProgramUniformMatrix3dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix3dv(program, location, count, transpose, value) };
 } }
-export! { 979, glProgramUniformMatrix3fv, first_glProgramUniformMatrix3fv, hook_glProgramUniformMatrix3fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 986, glProgramUniformMatrix3fv, first_glProgramUniformMatrix3fv, hook_glProgramUniformMatrix3fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix3fv(program, location, count, transpose, value) };
 } }
-export! { 980, glProgramUniformMatrix3fvEXT, first_glProgramUniformMatrix3fvEXT, hook_glProgramUniformMatrix3fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 987, glProgramUniformMatrix3fvEXT, first_glProgramUniformMatrix3fvEXT, hook_glProgramUniformMatrix3fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix3fvEXT(program, location, count, transpose, value) };
 } }
-export! { 981, glProgramUniformMatrix3x2dv, first_glProgramUniformMatrix3x2dv, hook_glProgramUniformMatrix3x2dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 988, glProgramUniformMatrix3x2dv, first_glProgramUniformMatrix3x2dv, hook_glProgramUniformMatrix3x2dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix3x2dv(program, location, count, transpose, value) };
 } }
-export! { 982, glProgramUniformMatrix3x2fv, first_glProgramUniformMatrix3x2fv, hook_glProgramUniformMatrix3x2fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 989, glProgramUniformMatrix3x2fv, first_glProgramUniformMatrix3x2fv, hook_glProgramUniformMatrix3x2fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix3x2fv(program, location, count, transpose, value) };
 } }
-export! { 983, glProgramUniformMatrix3x2fvEXT, first_glProgramUniformMatrix3x2fvEXT, hook_glProgramUniformMatrix3x2fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 990, glProgramUniformMatrix3x2fvEXT, first_glProgramUniformMatrix3x2fvEXT, hook_glProgramUniformMatrix3x2fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix3x2fvEXT(program, location, count, transpose, value) };
 } }
-export! { 984, glProgramUniformMatrix3x4dv, first_glProgramUniformMatrix3x4dv, hook_glProgramUniformMatrix3x4dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 991, glProgramUniformMatrix3x4dv, first_glProgramUniformMatrix3x4dv, hook_glProgramUniformMatrix3x4dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix3x4dv(program, location, count, transpose, value) };
 } }
-export! { 985, glProgramUniformMatrix3x4fv, first_glProgramUniformMatrix3x4fv, hook_glProgramUniformMatrix3x4fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 992, glProgramUniformMatrix3x4fv, first_glProgramUniformMatrix3x4fv, hook_glProgramUniformMatrix3x4fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix3x4fv(program, location, count, transpose, value) };
 } }
-export! { 986, glProgramUniformMatrix3x4fvEXT, first_glProgramUniformMatrix3x4fvEXT, hook_glProgramUniformMatrix3x4fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 993, glProgramUniformMatrix3x4fvEXT, first_glProgramUniformMatrix3x4fvEXT, hook_glProgramUniformMatrix3x4fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix3x4fvEXT(program, location, count, transpose, value) };
 } }
-export! { 987, glProgramUniformMatrix4dv, first_glProgramUniformMatrix4dv, hook_glProgramUniformMatrix4dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 994, glProgramUniformMatrix4dv, first_glProgramUniformMatrix4dv, hook_glProgramUniformMatrix4dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix4dv(program, location, count, transpose, value) };
 } }
-export! { 988, glProgramUniformMatrix4fv, first_glProgramUniformMatrix4fv, hook_glProgramUniformMatrix4fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 995, glProgramUniformMatrix4fv, first_glProgramUniformMatrix4fv, hook_glProgramUniformMatrix4fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix4fv(program, location, count, transpose, value) };
 } }
-export! { 989, glProgramUniformMatrix4fvEXT, first_glProgramUniformMatrix4fvEXT, hook_glProgramUniformMatrix4fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 996, glProgramUniformMatrix4fvEXT, first_glProgramUniformMatrix4fvEXT, hook_glProgramUniformMatrix4fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix4fvEXT(program, location, count, transpose, value) };
 } }
-export! { 990, glProgramUniformMatrix4x2dv, first_glProgramUniformMatrix4x2dv, hook_glProgramUniformMatrix4x2dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 997, glProgramUniformMatrix4x2dv, first_glProgramUniformMatrix4x2dv, hook_glProgramUniformMatrix4x2dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix4x2dv(program, location, count, transpose, value) };
 } }
-export! { 991, glProgramUniformMatrix4x2fv, first_glProgramUniformMatrix4x2fv, hook_glProgramUniformMatrix4x2fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 998, glProgramUniformMatrix4x2fv, first_glProgramUniformMatrix4x2fv, hook_glProgramUniformMatrix4x2fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix4x2fv(program, location, count, transpose, value) };
 } }
-export! { 992, glProgramUniformMatrix4x2fvEXT, first_glProgramUniformMatrix4x2fvEXT, hook_glProgramUniformMatrix4x2fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 999, glProgramUniformMatrix4x2fvEXT, first_glProgramUniformMatrix4x2fvEXT, hook_glProgramUniformMatrix4x2fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix4x2fvEXT(program, location, count, transpose, value) };
 } }
-export! { 993, glProgramUniformMatrix4x3dv, first_glProgramUniformMatrix4x3dv, hook_glProgramUniformMatrix4x3dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1000, glProgramUniformMatrix4x3dv, first_glProgramUniformMatrix4x3dv, hook_glProgramUniformMatrix4x3dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix4x3dv(program, location, count, transpose, value) };
 } }
-export! { 994, glProgramUniformMatrix4x3fv, first_glProgramUniformMatrix4x3fv, hook_glProgramUniformMatrix4x3fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1001, glProgramUniformMatrix4x3fv, first_glProgramUniformMatrix4x3fv, hook_glProgramUniformMatrix4x3fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix4x3fv(program, location, count, transpose, value) };
 } }
-export! { 995, glProgramUniformMatrix4x3fvEXT, first_glProgramUniformMatrix4x3fvEXT, hook_glProgramUniformMatrix4x3fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1002, glProgramUniformMatrix4x3fvEXT, first_glProgramUniformMatrix4x3fvEXT, hook_glProgramUniformMatrix4x3fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix4x3fvEXT(program, location, count, transpose, value) };
 } }
-export! { 996, glUniformBlockBinding, first_glUniformBlockBinding, hook_glUniformBlockBinding, (program: u32, uniformBlockIndex: u32, uniformBlockBinding: u32) -> (), {
+export! { 1003, glUniformBlockBinding, first_glUniformBlockBinding, hook_glUniformBlockBinding, (program: u32, uniformBlockIndex: u32, uniformBlockBinding: u32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformBlockBinding(program, uniformBlockIndex, uniformBlockBinding) };
 } }
-export! { 997, glLinkProgram, first_glLinkProgram, hook_glLinkProgram, (program: u32) -> (), {
+export! { 1004, glLinkProgram, first_glLinkProgram, hook_glLinkProgram, (program: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glLinkProgram(program) }
 } }
-export! { 998, glLinkProgramARB, first_glLinkProgramARB, hook_glLinkProgramARB, (programObj: u32) -> (), {
+export! { 1005, glLinkProgramARB, first_glLinkProgramARB, hook_glLinkProgramARB, (programObj: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glLinkProgram(programObj) }
 } }
-export! { 999, glProgramBinary, first_glProgramBinary, hook_glProgramBinary, (program: u32, binaryFormat: u32, binary: Ptr, length: i32) -> (), {
+export! { 1006, glProgramBinary, first_glProgramBinary, hook_glProgramBinary, (program: u32, binaryFormat: u32, binary: Ptr, length: i32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glProgramBinary(program, binaryFormat, binary, length) }
 } }
-export! { 1000, glProgramBinaryOES, first_glProgramBinaryOES, hook_glProgramBinaryOES, (program: u32, binaryFormat: u32, binary: Ptr, length: i32) -> (), {
+export! { 1007, glProgramBinaryOES, first_glProgramBinaryOES, hook_glProgramBinaryOES, (program: u32, binaryFormat: u32, binary: Ptr, length: i32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glProgramBinary(program, binaryFormat, binary, length) }
 } }
-export! { 1001, glUseProgram, first_glUseProgram, hook_glUseProgram, (program: u32) -> (), {
+export! { 1008, glUseProgram, first_glUseProgram, hook_glUseProgram, (program: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glUseProgram(program) }
 } }
-export! { 1002, glUseProgramObjectARB, first_glUseProgramObjectARB, hook_glUseProgramObjectARB, (programObj: u32) -> (), {
+export! { 1009, glUseProgramObjectARB, first_glUseProgramObjectARB, hook_glUseProgramObjectARB, (programObj: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glUseProgram(programObj) }
 } }
-export! { 1003, glDeleteProgram, first_glDeleteProgram, hook_glDeleteProgram, (program: u32) -> (), {
+export! { 1010, glDeleteProgram, first_glDeleteProgram, hook_glDeleteProgram, (program: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDeleteProgram(program) }
 } }
-export! { 1004, glGetProgramiv, first_glGetProgramiv, hook_glGetProgramiv, (program: u32, pname: u32, params: Ptr) -> (), {
+export! { 1011, glGetProgramiv, first_glGetProgramiv, hook_glGetProgramiv, (program: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetProgramiv(program, pname, params) }
 } }
-export! { 1005, glClear, first_glClear, hook_glClear, (mask: u32) -> (), {
+export! { 1012, glClear, first_glClear, hook_glClear, (mask: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glClear(mask) }
 } }
-export! { 1006, glClearBufferfi, first_glClearBufferfi, hook_glClearBufferfi, (buffer: u32, drawbuffer: i32, depth: f32, stencil: i32) -> (), {
+export! { 1013, glClearBufferfi, first_glClearBufferfi, hook_glClearBufferfi, (buffer: u32, drawbuffer: i32, depth: f32, stencil: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::CLEAR, &mut |gl| unsafe { gl.glClearBufferfi(buffer, drawbuffer, depth, stencil) })
 } }
-export! { 1007, glClearBufferfv, first_glClearBufferfv, hook_glClearBufferfv, (buffer: u32, drawbuffer: i32, value: Ptr) -> (), {
+export! { 1014, glClearBufferfv, first_glClearBufferfv, hook_glClearBufferfv, (buffer: u32, drawbuffer: i32, value: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::CLEAR, &mut |gl| unsafe { gl.glClearBufferfv(buffer, drawbuffer, value) })
 } }
-export! { 1008, glClearBufferiv, first_glClearBufferiv, hook_glClearBufferiv, (buffer: u32, drawbuffer: i32, value: Ptr) -> (), {
+export! { 1015, glClearBufferiv, first_glClearBufferiv, hook_glClearBufferiv, (buffer: u32, drawbuffer: i32, value: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::CLEAR, &mut |gl| unsafe { gl.glClearBufferiv(buffer, drawbuffer, value) })
 } }
-export! { 1009, glClearBufferuiv, first_glClearBufferuiv, hook_glClearBufferuiv, (buffer: u32, drawbuffer: i32, value: Ptr) -> (), {
+export! { 1016, glClearBufferuiv, first_glClearBufferuiv, hook_glClearBufferuiv, (buffer: u32, drawbuffer: i32, value: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::CLEAR, &mut |gl| unsafe { gl.glClearBufferuiv(buffer, drawbuffer, value) })
 } }
-export! { 1010, glDrawArrays, first_glDrawArrays, hook_glDrawArrays, (mode: u32, first: i32, count: i32) -> (), {
+export! { 1017, glDrawArrays, first_glDrawArrays, hook_glDrawArrays, (mode: u32, first: i32, count: i32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDrawArrays(mode, first, count) }
 } }
-export! { 1011, glDrawArraysEXT, first_glDrawArraysEXT, hook_glDrawArraysEXT, (mode: u32, first: i32, count: i32) -> (), {
+export! { 1018, glDrawArraysEXT, first_glDrawArraysEXT, hook_glDrawArraysEXT, (mode: u32, first: i32, count: i32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDrawArrays(mode, first, count) }
 } }
-export! { 1012, glDrawElements, first_glDrawElements, hook_glDrawElements, (mode: u32, count: i32, type_: u32, indices: Ptr) -> (), {
+export! { 1019, glDrawElements, first_glDrawElements, hook_glDrawElements, (mode: u32, count: i32, type_: u32, indices: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDrawElements(mode, count, type_, indices) }
 } }
-export! { 1013, glDrawRangeElements, first_glDrawRangeElements, hook_glDrawRangeElements, (mode: u32, start: u32, end: u32, count: i32, type_: u32, indices: Ptr) -> (), {
+export! { 1020, glDrawRangeElements, first_glDrawRangeElements, hook_glDrawRangeElements, (mode: u32, start: u32, end: u32, count: i32, type_: u32, indices: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDrawRangeElements(mode, start, end, count, type_, indices) }
 } }
-export! { 1014, glDrawRangeElementsEXT, first_glDrawRangeElementsEXT, hook_glDrawRangeElementsEXT, (mode: u32, start: u32, end: u32, count: i32, type_: u32, indices: Ptr) -> (), {
+export! { 1021, glDrawRangeElementsEXT, first_glDrawRangeElementsEXT, hook_glDrawRangeElementsEXT, (mode: u32, start: u32, end: u32, count: i32, type_: u32, indices: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDrawRangeElements(mode, start, end, count, type_, indices) }
 } }
-export! { 1015, glMultiDrawArrays, first_glMultiDrawArrays, hook_glMultiDrawArrays, (mode: u32, first: Ptr, count: Ptr, drawcount: i32) -> (), {
+export! { 1022, glMultiDrawArrays, first_glMultiDrawArrays, hook_glMultiDrawArrays, (mode: u32, first: Ptr, count: Ptr, drawcount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawArrays(mode, first, count, drawcount) })
 } }
-export! { 1016, glMultiDrawArraysEXT, first_glMultiDrawArraysEXT, hook_glMultiDrawArraysEXT, (mode: u32, first: Ptr, count: Ptr, primcount: i32) -> (), {
+export! { 1023, glMultiDrawArraysEXT, first_glMultiDrawArraysEXT, hook_glMultiDrawArraysEXT, (mode: u32, first: Ptr, count: Ptr, primcount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawArraysEXT(mode, first, count, primcount) })
 } }
-export! { 1017, glMultiDrawElements, first_glMultiDrawElements, hook_glMultiDrawElements, (mode: u32, count: Ptr, type_: u32, indices: Ptr, drawcount: i32) -> (), {
+export! { 1024, glMultiDrawElements, first_glMultiDrawElements, hook_glMultiDrawElements, (mode: u32, count: Ptr, type_: u32, indices: Ptr, drawcount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawElements(mode, count, type_, indices, drawcount) })
 } }
-export! { 1018, glMultiDrawElementsEXT, first_glMultiDrawElementsEXT, hook_glMultiDrawElementsEXT, (mode: u32, count: Ptr, type_: u32, indices: Ptr, primcount: i32) -> (), {
+export! { 1025, glMultiDrawElementsEXT, first_glMultiDrawElementsEXT, hook_glMultiDrawElementsEXT, (mode: u32, count: Ptr, type_: u32, indices: Ptr, primcount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawElementsEXT(mode, count, type_, indices, primcount) })
 } }
-export! { 1019, glDrawElementsBaseVertex, first_glDrawElementsBaseVertex, hook_glDrawElementsBaseVertex, (mode: u32, count: i32, type_: u32, indices: Ptr, basevertex: i32) -> (), {
+export! { 1026, glDrawElementsBaseVertex, first_glDrawElementsBaseVertex, hook_glDrawElementsBaseVertex, (mode: u32, count: i32, type_: u32, indices: Ptr, basevertex: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsBaseVertex(mode, count, type_, indices, basevertex) })
 } }
-export! { 1020, glDrawElementsBaseVertexEXT, first_glDrawElementsBaseVertexEXT, hook_glDrawElementsBaseVertexEXT, (mode: u32, count: i32, type_: u32, indices: Ptr, basevertex: i32) -> (), {
+export! { 1027, glDrawElementsBaseVertexEXT, first_glDrawElementsBaseVertexEXT, hook_glDrawElementsBaseVertexEXT, (mode: u32, count: i32, type_: u32, indices: Ptr, basevertex: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsBaseVertexEXT(mode, count, type_, indices, basevertex) })
 } }
-export! { 1021, glDrawElementsBaseVertexOES, first_glDrawElementsBaseVertexOES, hook_glDrawElementsBaseVertexOES, (mode: u32, count: i32, type_: u32, indices: Ptr, basevertex: i32) -> (), {
+export! { 1028, glDrawElementsBaseVertexOES, first_glDrawElementsBaseVertexOES, hook_glDrawElementsBaseVertexOES, (mode: u32, count: i32, type_: u32, indices: Ptr, basevertex: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsBaseVertexOES(mode, count, type_, indices, basevertex) })
 } }
-export! { 1022, glDrawRangeElementsBaseVertex, first_glDrawRangeElementsBaseVertex, hook_glDrawRangeElementsBaseVertex, (mode: u32, start: u32, end: u32, count: i32, type_: u32, indices: Ptr, basevertex: i32) -> (), {
+export! { 1029, glDrawRangeElementsBaseVertex, first_glDrawRangeElementsBaseVertex, hook_glDrawRangeElementsBaseVertex, (mode: u32, start: u32, end: u32, count: i32, type_: u32, indices: Ptr, basevertex: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawRangeElementsBaseVertex(mode, start, end, count, type_, indices, basevertex) })
 } }
-export! { 1023, glDrawRangeElementsBaseVertexEXT, first_glDrawRangeElementsBaseVertexEXT, hook_glDrawRangeElementsBaseVertexEXT, (mode: u32, start: u32, end: u32, count: i32, type_: u32, indices: Ptr, basevertex: i32) -> (), {
+export! { 1030, glDrawRangeElementsBaseVertexEXT, first_glDrawRangeElementsBaseVertexEXT, hook_glDrawRangeElementsBaseVertexEXT, (mode: u32, start: u32, end: u32, count: i32, type_: u32, indices: Ptr, basevertex: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawRangeElementsBaseVertexEXT(mode, start, end, count, type_, indices, basevertex) })
 } }
-export! { 1024, glDrawRangeElementsBaseVertexOES, first_glDrawRangeElementsBaseVertexOES, hook_glDrawRangeElementsBaseVertexOES, (mode: u32, start: u32, end: u32, count: i32, type_: u32, indices: Ptr, basevertex: i32) -> (), {
+export! { 1031, glDrawRangeElementsBaseVertexOES, first_glDrawRangeElementsBaseVertexOES, hook_glDrawRangeElementsBaseVertexOES, (mode: u32, start: u32, end: u32, count: i32, type_: u32, indices: Ptr, basevertex: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawRangeElementsBaseVertexOES(mode, start, end, count, type_, indices, basevertex) })
 } }
-export! { 1025, glMultiDrawElementsBaseVertex, first_glMultiDrawElementsBaseVertex, hook_glMultiDrawElementsBaseVertex, (mode: u32, count: Ptr, type_: u32, indices: Ptr, drawcount: i32, basevertex: Ptr) -> (), {
+export! { 1032, glMultiDrawElementsBaseVertex, first_glMultiDrawElementsBaseVertex, hook_glMultiDrawElementsBaseVertex, (mode: u32, count: Ptr, type_: u32, indices: Ptr, drawcount: i32, basevertex: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawElementsBaseVertex(mode, count, type_, indices, drawcount, basevertex) })
 } }
-export! { 1026, glMultiDrawElementsBaseVertexEXT, first_glMultiDrawElementsBaseVertexEXT, hook_glMultiDrawElementsBaseVertexEXT, (mode: u32, count: Ptr, type_: u32, indices: Ptr, drawcount: i32, basevertex: Ptr) -> (), {
+export! { 1033, glMultiDrawElementsBaseVertexEXT, first_glMultiDrawElementsBaseVertexEXT, hook_glMultiDrawElementsBaseVertexEXT, (mode: u32, count: Ptr, type_: u32, indices: Ptr, drawcount: i32, basevertex: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawElementsBaseVertexEXT(mode, count, type_, indices, drawcount, basevertex) })
 } }
-export! { 1027, glDrawArraysInstanced, first_glDrawArraysInstanced, hook_glDrawArraysInstanced, (mode: u32, first: i32, count: i32, instancecount: i32) -> (), {
+export! { 1034, glDrawArraysInstanced, first_glDrawArraysInstanced, hook_glDrawArraysInstanced, (mode: u32, first: i32, count: i32, instancecount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawArraysInstanced(mode, first, count, instancecount) })
 } }
-export! { 1028, glDrawArraysInstancedANGLE, first_glDrawArraysInstancedANGLE, hook_glDrawArraysInstancedANGLE, (mode: u32, first: i32, count: i32, primcount: i32) -> (), {
+export! { 1035, glDrawArraysInstancedANGLE, first_glDrawArraysInstancedANGLE, hook_glDrawArraysInstancedANGLE, (mode: u32, first: i32, count: i32, primcount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawArraysInstancedANGLE(mode, first, count, primcount) })
 } }
-export! { 1029, glDrawArraysInstancedARB, first_glDrawArraysInstancedARB, hook_glDrawArraysInstancedARB, (mode: u32, first: i32, count: i32, primcount: i32) -> (), {
+export! { 1036, glDrawArraysInstancedARB, first_glDrawArraysInstancedARB, hook_glDrawArraysInstancedARB, (mode: u32, first: i32, count: i32, primcount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawArraysInstancedARB(mode, first, count, primcount) })
 } }
-export! { 1030, glDrawArraysInstancedEXT, first_glDrawArraysInstancedEXT, hook_glDrawArraysInstancedEXT, (mode: u32, start: i32, count: i32, primcount: i32) -> (), {
+export! { 1037, glDrawArraysInstancedEXT, first_glDrawArraysInstancedEXT, hook_glDrawArraysInstancedEXT, (mode: u32, start: i32, count: i32, primcount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawArraysInstancedEXT(mode, start, count, primcount) })
 } }
-export! { 1031, glDrawArraysInstancedNV, first_glDrawArraysInstancedNV, hook_glDrawArraysInstancedNV, (mode: u32, first: i32, count: i32, primcount: i32) -> (), {
+export! { 1038, glDrawArraysInstancedNV, first_glDrawArraysInstancedNV, hook_glDrawArraysInstancedNV, (mode: u32, first: i32, count: i32, primcount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawArraysInstancedNV(mode, first, count, primcount) })
 } }
-export! { 1032, glDrawElementsInstanced, first_glDrawElementsInstanced, hook_glDrawElementsInstanced, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32) -> (), {
+export! { 1039, glDrawElementsInstanced, first_glDrawElementsInstanced, hook_glDrawElementsInstanced, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsInstanced(mode, count, type_, indices, instancecount) })
 } }
-export! { 1033, glDrawElementsInstancedANGLE, first_glDrawElementsInstancedANGLE, hook_glDrawElementsInstancedANGLE, (mode: u32, count: i32, type_: u32, indices: Ptr, primcount: i32) -> (), {
+export! { 1040, glDrawElementsInstancedANGLE, first_glDrawElementsInstancedANGLE, hook_glDrawElementsInstancedANGLE, (mode: u32, count: i32, type_: u32, indices: Ptr, primcount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsInstancedANGLE(mode, count, type_, indices, primcount) })
 } }
-export! { 1034, glDrawElementsInstancedARB, first_glDrawElementsInstancedARB, hook_glDrawElementsInstancedARB, (mode: u32, count: i32, type_: u32, indices: Ptr, primcount: i32) -> (), {
+export! { 1041, glDrawElementsInstancedARB, first_glDrawElementsInstancedARB, hook_glDrawElementsInstancedARB, (mode: u32, count: i32, type_: u32, indices: Ptr, primcount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsInstancedARB(mode, count, type_, indices, primcount) })
 } }
-export! { 1035, glDrawElementsInstancedEXT, first_glDrawElementsInstancedEXT, hook_glDrawElementsInstancedEXT, (mode: u32, count: i32, type_: u32, indices: Ptr, primcount: i32) -> (), {
+export! { 1042, glDrawElementsInstancedEXT, first_glDrawElementsInstancedEXT, hook_glDrawElementsInstancedEXT, (mode: u32, count: i32, type_: u32, indices: Ptr, primcount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsInstancedEXT(mode, count, type_, indices, primcount) })
 } }
-export! { 1036, glDrawElementsInstancedNV, first_glDrawElementsInstancedNV, hook_glDrawElementsInstancedNV, (mode: u32, count: i32, type_: u32, indices: Ptr, primcount: i32) -> (), {
+export! { 1043, glDrawElementsInstancedNV, first_glDrawElementsInstancedNV, hook_glDrawElementsInstancedNV, (mode: u32, count: i32, type_: u32, indices: Ptr, primcount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsInstancedNV(mode, count, type_, indices, primcount) })
 } }
-export! { 1037, glDrawElementsInstancedBaseVertex, first_glDrawElementsInstancedBaseVertex, hook_glDrawElementsInstancedBaseVertex, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32, basevertex: i32) -> (), {
+export! { 1044, glDrawElementsInstancedBaseVertex, first_glDrawElementsInstancedBaseVertex, hook_glDrawElementsInstancedBaseVertex, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32, basevertex: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsInstancedBaseVertex(mode, count, type_, indices, instancecount, basevertex) })
 } }
-export! { 1038, glDrawElementsInstancedBaseVertexEXT, first_glDrawElementsInstancedBaseVertexEXT, hook_glDrawElementsInstancedBaseVertexEXT, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32, basevertex: i32) -> (), {
+export! { 1045, glDrawElementsInstancedBaseVertexEXT, first_glDrawElementsInstancedBaseVertexEXT, hook_glDrawElementsInstancedBaseVertexEXT, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32, basevertex: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsInstancedBaseVertexEXT(mode, count, type_, indices, instancecount, basevertex) })
 } }
-export! { 1039, glDrawElementsInstancedBaseVertexOES, first_glDrawElementsInstancedBaseVertexOES, hook_glDrawElementsInstancedBaseVertexOES, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32, basevertex: i32) -> (), {
+export! { 1046, glDrawElementsInstancedBaseVertexOES, first_glDrawElementsInstancedBaseVertexOES, hook_glDrawElementsInstancedBaseVertexOES, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32, basevertex: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsInstancedBaseVertexOES(mode, count, type_, indices, instancecount, basevertex) })
 } }
-export! { 1040, glDrawArraysInstancedBaseInstance, first_glDrawArraysInstancedBaseInstance, hook_glDrawArraysInstancedBaseInstance, (mode: u32, first: i32, count: i32, instancecount: i32, baseinstance: u32) -> (), {
+export! { 1047, glDrawArraysInstancedBaseInstance, first_glDrawArraysInstancedBaseInstance, hook_glDrawArraysInstancedBaseInstance, (mode: u32, first: i32, count: i32, instancecount: i32, baseinstance: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawArraysInstancedBaseInstance(mode, first, count, instancecount, baseinstance) })
 } }
-export! { 1041, glDrawArraysInstancedBaseInstanceEXT, first_glDrawArraysInstancedBaseInstanceEXT, hook_glDrawArraysInstancedBaseInstanceEXT, (mode: u32, first: i32, count: i32, instancecount: i32, baseinstance: u32) -> (), {
+export! { 1048, glDrawArraysInstancedBaseInstanceEXT, first_glDrawArraysInstancedBaseInstanceEXT, hook_glDrawArraysInstancedBaseInstanceEXT, (mode: u32, first: i32, count: i32, instancecount: i32, baseinstance: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawArraysInstancedBaseInstanceEXT(mode, first, count, instancecount, baseinstance) })
 } }
-export! { 1042, glDrawElementsInstancedBaseInstance, first_glDrawElementsInstancedBaseInstance, hook_glDrawElementsInstancedBaseInstance, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32, baseinstance: u32) -> (), {
+export! { 1049, glDrawElementsInstancedBaseInstance, first_glDrawElementsInstancedBaseInstance, hook_glDrawElementsInstancedBaseInstance, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32, baseinstance: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsInstancedBaseInstance(mode, count, type_, indices, instancecount, baseinstance) })
 } }
-export! { 1043, glDrawElementsInstancedBaseInstanceEXT, first_glDrawElementsInstancedBaseInstanceEXT, hook_glDrawElementsInstancedBaseInstanceEXT, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32, baseinstance: u32) -> (), {
+export! { 1050, glDrawElementsInstancedBaseInstanceEXT, first_glDrawElementsInstancedBaseInstanceEXT, hook_glDrawElementsInstancedBaseInstanceEXT, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32, baseinstance: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsInstancedBaseInstanceEXT(mode, count, type_, indices, instancecount, baseinstance) })
 } }
-export! { 1044, glDrawElementsInstancedBaseVertexBaseInstance, first_glDrawElementsInstancedBaseVertexBaseInstance, hook_glDrawElementsInstancedBaseVertexBaseInstance, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32, basevertex: i32, baseinstance: u32) -> (), {
+export! { 1051, glDrawElementsInstancedBaseVertexBaseInstance, first_glDrawElementsInstancedBaseVertexBaseInstance, hook_glDrawElementsInstancedBaseVertexBaseInstance, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32, basevertex: i32, baseinstance: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsInstancedBaseVertexBaseInstance(mode, count, type_, indices, instancecount, basevertex, baseinstance) })
 } }
-export! { 1045, glDrawElementsInstancedBaseVertexBaseInstanceEXT, first_glDrawElementsInstancedBaseVertexBaseInstanceEXT, hook_glDrawElementsInstancedBaseVertexBaseInstanceEXT, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32, basevertex: i32, baseinstance: u32) -> (), {
+export! { 1052, glDrawElementsInstancedBaseVertexBaseInstanceEXT, first_glDrawElementsInstancedBaseVertexBaseInstanceEXT, hook_glDrawElementsInstancedBaseVertexBaseInstanceEXT, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32, basevertex: i32, baseinstance: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsInstancedBaseVertexBaseInstanceEXT(mode, count, type_, indices, instancecount, basevertex, baseinstance) })
 } }
-export! { 1046, glDrawArraysIndirect, first_glDrawArraysIndirect, hook_glDrawArraysIndirect, (mode: u32, indirect: Ptr) -> (), {
+export! { 1053, glDrawArraysIndirect, first_glDrawArraysIndirect, hook_glDrawArraysIndirect, (mode: u32, indirect: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawArraysIndirect(mode, indirect) })
 } }
-export! { 1047, glDrawElementsIndirect, first_glDrawElementsIndirect, hook_glDrawElementsIndirect, (mode: u32, type_: u32, indirect: Ptr) -> (), {
+export! { 1054, glDrawElementsIndirect, first_glDrawElementsIndirect, hook_glDrawElementsIndirect, (mode: u32, type_: u32, indirect: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsIndirect(mode, type_, indirect) })
 } }
-export! { 1048, glMultiDrawArraysIndirect, first_glMultiDrawArraysIndirect, hook_glMultiDrawArraysIndirect, (mode: u32, indirect: Ptr, drawcount: i32, stride: i32) -> (), {
+export! { 1055, glMultiDrawArraysIndirect, first_glMultiDrawArraysIndirect, hook_glMultiDrawArraysIndirect, (mode: u32, indirect: Ptr, drawcount: i32, stride: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawArraysIndirect(mode, indirect, drawcount, stride) })
 } }
-export! { 1049, glMultiDrawArraysIndirectAMD, first_glMultiDrawArraysIndirectAMD, hook_glMultiDrawArraysIndirectAMD, (mode: u32, indirect: Ptr, primcount: i32, stride: i32) -> (), {
+export! { 1056, glMultiDrawArraysIndirectAMD, first_glMultiDrawArraysIndirectAMD, hook_glMultiDrawArraysIndirectAMD, (mode: u32, indirect: Ptr, primcount: i32, stride: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawArraysIndirectAMD(mode, indirect, primcount, stride) })
 } }
-export! { 1050, glMultiDrawArraysIndirectEXT, first_glMultiDrawArraysIndirectEXT, hook_glMultiDrawArraysIndirectEXT, (mode: u32, indirect: Ptr, drawcount: i32, stride: i32) -> (), {
+export! { 1057, glMultiDrawArraysIndirectEXT, first_glMultiDrawArraysIndirectEXT, hook_glMultiDrawArraysIndirectEXT, (mode: u32, indirect: Ptr, drawcount: i32, stride: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawArraysIndirectEXT(mode, indirect, drawcount, stride) })
 } }
-export! { 1051, glMultiDrawElementsIndirect, first_glMultiDrawElementsIndirect, hook_glMultiDrawElementsIndirect, (mode: u32, type_: u32, indirect: Ptr, drawcount: i32, stride: i32) -> (), {
+export! { 1058, glMultiDrawElementsIndirect, first_glMultiDrawElementsIndirect, hook_glMultiDrawElementsIndirect, (mode: u32, type_: u32, indirect: Ptr, drawcount: i32, stride: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawElementsIndirect(mode, type_, indirect, drawcount, stride) })
 } }
-export! { 1052, glMultiDrawElementsIndirectAMD, first_glMultiDrawElementsIndirectAMD, hook_glMultiDrawElementsIndirectAMD, (mode: u32, type_: u32, indirect: Ptr, primcount: i32, stride: i32) -> (), {
+export! { 1059, glMultiDrawElementsIndirectAMD, first_glMultiDrawElementsIndirectAMD, hook_glMultiDrawElementsIndirectAMD, (mode: u32, type_: u32, indirect: Ptr, primcount: i32, stride: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawElementsIndirectAMD(mode, type_, indirect, primcount, stride) })
 } }
-export! { 1053, glMultiDrawElementsIndirectEXT, first_glMultiDrawElementsIndirectEXT, hook_glMultiDrawElementsIndirectEXT, (mode: u32, type_: u32, indirect: Ptr, drawcount: i32, stride: i32) -> (), {
+export! { 1060, glMultiDrawElementsIndirectEXT, first_glMultiDrawElementsIndirectEXT, hook_glMultiDrawElementsIndirectEXT, (mode: u32, type_: u32, indirect: Ptr, drawcount: i32, stride: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawElementsIndirectEXT(mode, type_, indirect, drawcount, stride) })
 } }
-export! { 1054, glDrawTransformFeedback, first_glDrawTransformFeedback, hook_glDrawTransformFeedback, (mode: u32, id: u32) -> (), {
+export! { 1061, glDrawTransformFeedback, first_glDrawTransformFeedback, hook_glDrawTransformFeedback, (mode: u32, id: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawTransformFeedback(mode, id) })
 } }
-export! { 1055, glDrawTransformFeedbackEXT, first_glDrawTransformFeedbackEXT, hook_glDrawTransformFeedbackEXT, (mode: u32, id: u32) -> (), {
+export! { 1062, glDrawTransformFeedbackEXT, first_glDrawTransformFeedbackEXT, hook_glDrawTransformFeedbackEXT, (mode: u32, id: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawTransformFeedbackEXT(mode, id) })
 } }
-export! { 1056, glDrawTransformFeedbackNV, first_glDrawTransformFeedbackNV, hook_glDrawTransformFeedbackNV, (mode: u32, id: u32) -> (), {
+export! { 1063, glDrawTransformFeedbackNV, first_glDrawTransformFeedbackNV, hook_glDrawTransformFeedbackNV, (mode: u32, id: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawTransformFeedbackNV(mode, id) })
 } }
-export! { 1057, glDrawTransformFeedbackInstanced, first_glDrawTransformFeedbackInstanced, hook_glDrawTransformFeedbackInstanced, (mode: u32, id: u32, instancecount: i32) -> (), {
+export! { 1064, glDrawTransformFeedbackInstanced, first_glDrawTransformFeedbackInstanced, hook_glDrawTransformFeedbackInstanced, (mode: u32, id: u32, instancecount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawTransformFeedbackInstanced(mode, id, instancecount) })
 } }
-export! { 1058, glDrawTransformFeedbackInstancedEXT, first_glDrawTransformFeedbackInstancedEXT, hook_glDrawTransformFeedbackInstancedEXT, (mode: u32, id: u32, instancecount: i32) -> (), {
+export! { 1065, glDrawTransformFeedbackInstancedEXT, first_glDrawTransformFeedbackInstancedEXT, hook_glDrawTransformFeedbackInstancedEXT, (mode: u32, id: u32, instancecount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawTransformFeedbackInstancedEXT(mode, id, instancecount) })
 } }
-export! { 1059, glDrawTransformFeedbackStream, first_glDrawTransformFeedbackStream, hook_glDrawTransformFeedbackStream, (mode: u32, id: u32, stream: u32) -> (), {
+export! { 1066, glDrawTransformFeedbackStream, first_glDrawTransformFeedbackStream, hook_glDrawTransformFeedbackStream, (mode: u32, id: u32, stream: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawTransformFeedbackStream(mode, id, stream) })
 } }
-export! { 1060, glDrawTransformFeedbackStreamInstanced, first_glDrawTransformFeedbackStreamInstanced, hook_glDrawTransformFeedbackStreamInstanced, (mode: u32, id: u32, stream: u32, instancecount: i32) -> (), {
+export! { 1067, glDrawTransformFeedbackStreamInstanced, first_glDrawTransformFeedbackStreamInstanced, hook_glDrawTransformFeedbackStreamInstanced, (mode: u32, id: u32, stream: u32, instancecount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawTransformFeedbackStreamInstanced(mode, id, stream, instancecount) })
 } }
-export! { 1061, glRectd, first_glRectd, hook_glRectd, (x1: f64, y1: f64, x2: f64, y2: f64) -> (), {
+export! { 1068, glRectd, first_glRectd, hook_glRectd, (x1: f64, y1: f64, x2: f64, y2: f64) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glRectd(x1, y1, x2, y2) })
 } }
-export! { 1062, glRectdv, first_glRectdv, hook_glRectdv, (v1: Ptr, v2: Ptr) -> (), {
+export! { 1069, glRectdv, first_glRectdv, hook_glRectdv, (v1: Ptr, v2: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glRectdv(v1, v2) })
 } }
-export! { 1063, glRectf, first_glRectf, hook_glRectf, (x1: f32, y1: f32, x2: f32, y2: f32) -> (), {
+export! { 1070, glRectf, first_glRectf, hook_glRectf, (x1: f32, y1: f32, x2: f32, y2: f32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glRectf(x1, y1, x2, y2) })
 } }
-export! { 1064, glRectfv, first_glRectfv, hook_glRectfv, (v1: Ptr, v2: Ptr) -> (), {
+export! { 1071, glRectfv, first_glRectfv, hook_glRectfv, (v1: Ptr, v2: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glRectfv(v1, v2) })
 } }
-export! { 1065, glRecti, first_glRecti, hook_glRecti, (x1: i32, y1: i32, x2: i32, y2: i32) -> (), {
+export! { 1072, glRecti, first_glRecti, hook_glRecti, (x1: i32, y1: i32, x2: i32, y2: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glRecti(x1, y1, x2, y2) })
 } }
-export! { 1066, glRectiv, first_glRectiv, hook_glRectiv, (v1: Ptr, v2: Ptr) -> (), {
+export! { 1073, glRectiv, first_glRectiv, hook_glRectiv, (v1: Ptr, v2: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glRectiv(v1, v2) })
 } }
-export! { 1067, glRects, first_glRects, hook_glRects, (x1: i16, y1: i16, x2: i16, y2: i16) -> (), {
+export! { 1074, glRects, first_glRects, hook_glRects, (x1: i16, y1: i16, x2: i16, y2: i16) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glRects(x1, y1, x2, y2) })
 } }
-export! { 1068, glRectsv, first_glRectsv, hook_glRectsv, (v1: Ptr, v2: Ptr) -> (), {
+export! { 1075, glRectsv, first_glRectsv, hook_glRectsv, (v1: Ptr, v2: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glRectsv(v1, v2) })
 } }
-export! { 1069, glEvalMesh1, first_glEvalMesh1, hook_glEvalMesh1, (mode: u32, i1: i32, i2: i32) -> (), {
+export! { 1076, glEvalMesh1, first_glEvalMesh1, hook_glEvalMesh1, (mode: u32, i1: i32, i2: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glEvalMesh1(mode, i1, i2) })
 } }
-export! { 1070, glEvalMesh2, first_glEvalMesh2, hook_glEvalMesh2, (mode: u32, i1: i32, i2: i32, j1: i32, j2: i32) -> (), {
+export! { 1077, glEvalMesh2, first_glEvalMesh2, hook_glEvalMesh2, (mode: u32, i1: i32, i2: i32, j1: i32, j2: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glEvalMesh2(mode, i1, i2, j1, j2) })
 } }
-export! { 1071, glAccum, first_glAccum, hook_glAccum, (op: u32, value: f32) -> (), {
+export! { 1078, glAccum, first_glAccum, hook_glAccum, (op: u32, value: f32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glAccum(op, value) }
 } }
-export! { 1072, glBitmap, first_glBitmap, hook_glBitmap, (width: i32, height: i32, xorig: f32, yorig: f32, xmove: f32, ymove: f32, bitmap: Ptr) -> (), {
+export! { 1079, glBitmap, first_glBitmap, hook_glBitmap, (width: i32, height: i32, xorig: f32, yorig: f32, xmove: f32, ymove: f32, bitmap: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBitmap(width, height, xorig, yorig, xmove, ymove, bitmap) }
 } }
-export! { 1073, glDrawPixels, first_glDrawPixels, hook_glDrawPixels, (width: i32, height: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
+export! { 1080, glDrawPixels, first_glDrawPixels, hook_glDrawPixels, (width: i32, height: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDrawPixels(width, height, format, type_, pixels) }
 } }
-export! { 1074, glCopyPixels, first_glCopyPixels, hook_glCopyPixels, (x: i32, y: i32, width: i32, height: i32, type_: u32) -> (), {
+export! { 1081, glCopyPixels, first_glCopyPixels, hook_glCopyPixels, (x: i32, y: i32, width: i32, height: i32, type_: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glCopyPixels(x, y, width, height, type_) }
 } }
-export! { 1075, glNewList, first_glNewList, hook_glNewList, (list: u32, mode: u32) -> (), {
+export! { 1082, glNewList, first_glNewList, hook_glNewList, (list: u32, mode: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glNewList(list, mode) }
 } }
-export! { 1076, glEndList, first_glEndList, hook_glEndList, () -> (), {
+export! { 1083, glEndList, first_glEndList, hook_glEndList, () -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glEndList() }
 } }
-export! { 1077, glCallList, first_glCallList, hook_glCallList, (list: u32) -> (), {
+export! { 1084, glCallList, first_glCallList, hook_glCallList, (list: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glCallList(list) }
 } }
-export! { 1078, glCallLists, first_glCallLists, hook_glCallLists, (n: i32, type_: u32, lists: Ptr) -> (), {
+export! { 1085, glCallLists, first_glCallLists, hook_glCallLists, (n: i32, type_: u32, lists: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glCallLists(n, type_, lists) }
 } }
-export! { 1079, glDeleteLists, first_glDeleteLists, hook_glDeleteLists, (list: u32, range: i32) -> (), {
+export! { 1086, glDeleteLists, first_glDeleteLists, hook_glDeleteLists, (list: u32, range: i32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDeleteLists(list, range) }
 } }
-export! { 1080, glGenLists, first_glGenLists, hook_glGenLists, (range: i32) -> u32, {
+export! { 1087, glGenLists, first_glGenLists, hook_glGenLists, (range: i32) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::glGenLists(range) }
 } }
-export! { 1081, glIsList, first_glIsList, hook_glIsList, (list: u32) -> u8, {
+export! { 1088, glIsList, first_glIsList, hook_glIsList, (list: u32) -> u8, {
     // SAFETY: the program's own arguments.
     unsafe { special::glIsList(list) }
 } }
-export! { 1082, glBindTexture, first_glBindTexture, hook_glBindTexture, (target: u32, texture: u32) -> (), {
+export! { 1089, glBindTexture, first_glBindTexture, hook_glBindTexture, (target: u32, texture: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBindTexture(target, texture) }
 } }
-export! { 1083, glBindTextureEXT, first_glBindTextureEXT, hook_glBindTextureEXT, (target: u32, texture: u32) -> (), {
+export! { 1090, glBindTextureEXT, first_glBindTextureEXT, hook_glBindTextureEXT, (target: u32, texture: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBindTexture(target, texture) }
 } }
-export! { 1084, glDeleteTextures, first_glDeleteTextures, hook_glDeleteTextures, (n: i32, textures: Ptr) -> (), {
+export! { 1091, glDeleteTextures, first_glDeleteTextures, hook_glDeleteTextures, (n: i32, textures: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDeleteTextures(n, textures) }
 } }
-export! { 1085, glIsTexture, first_glIsTexture, hook_glIsTexture, (texture: u32) -> u8, {
+export! { 1092, glIsTexture, first_glIsTexture, hook_glIsTexture, (texture: u32) -> u8, {
     // SAFETY: the program's own arguments.
     unsafe { special::glIsTexture(texture) }
 } }
-export! { 1086, glIsFramebuffer, first_glIsFramebuffer, hook_glIsFramebuffer, (framebuffer: u32) -> u8, {
+export! { 1093, glIsFramebuffer, first_glIsFramebuffer, hook_glIsFramebuffer, (framebuffer: u32) -> u8, {
     // SAFETY: the program's own arguments.
     unsafe { special::glIsFramebuffer(framebuffer) }
 } }
-export! { 1087, glIsFramebufferEXT, first_glIsFramebufferEXT, hook_glIsFramebufferEXT, (framebuffer: u32) -> u8, {
+export! { 1094, glIsFramebufferEXT, first_glIsFramebufferEXT, hook_glIsFramebufferEXT, (framebuffer: u32) -> u8, {
     // SAFETY: the program's own arguments.
     unsafe { special::glIsFramebuffer(framebuffer) }
 } }
-export! { 1088, glBindFramebuffer, first_glBindFramebuffer, hook_glBindFramebuffer, (target: u32, framebuffer: u32) -> (), {
+export! { 1095, glBindFramebuffer, first_glBindFramebuffer, hook_glBindFramebuffer, (target: u32, framebuffer: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBindFramebuffer(target, framebuffer) }
 } }
-export! { 1089, glBindFramebufferEXT, first_glBindFramebufferEXT, hook_glBindFramebufferEXT, (target: u32, framebuffer: u32) -> (), {
+export! { 1096, glBindFramebufferEXT, first_glBindFramebufferEXT, hook_glBindFramebufferEXT, (target: u32, framebuffer: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBindFramebufferEXT(target, framebuffer) }
 } }
-export! { 1090, glDeleteFramebuffers, first_glDeleteFramebuffers, hook_glDeleteFramebuffers, (n: i32, framebuffers: Ptr) -> (), {
+export! { 1097, glDeleteFramebuffers, first_glDeleteFramebuffers, hook_glDeleteFramebuffers, (n: i32, framebuffers: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDeleteFramebuffers(n, framebuffers) }
 } }
-export! { 1091, glDeleteFramebuffersEXT, first_glDeleteFramebuffersEXT, hook_glDeleteFramebuffersEXT, (n: i32, framebuffers: Ptr) -> (), {
+export! { 1098, glDeleteFramebuffersEXT, first_glDeleteFramebuffersEXT, hook_glDeleteFramebuffersEXT, (n: i32, framebuffers: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDeleteFramebuffers(n, framebuffers) }
 } }
-export! { 1092, glDrawBuffer, first_glDrawBuffer, hook_glDrawBuffer, (buf: u32) -> (), {
+export! { 1099, glDrawBuffer, first_glDrawBuffer, hook_glDrawBuffer, (buf: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDrawBuffer(buf) }
 } }
-export! { 1093, glDrawBuffers, first_glDrawBuffers, hook_glDrawBuffers, (n: i32, bufs: Ptr) -> (), {
+export! { 1100, glDrawBuffers, first_glDrawBuffers, hook_glDrawBuffers, (n: i32, bufs: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDrawBuffers(n, bufs) }
 } }
-export! { 1094, glDrawBuffersARB, first_glDrawBuffersARB, hook_glDrawBuffersARB, (n: i32, bufs: Ptr) -> (), {
+export! { 1101, glDrawBuffersARB, first_glDrawBuffersARB, hook_glDrawBuffersARB, (n: i32, bufs: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDrawBuffers(n, bufs) }
 } }
-export! { 1095, glDrawBuffersATI, first_glDrawBuffersATI, hook_glDrawBuffersATI, (n: i32, bufs: Ptr) -> (), {
+export! { 1102, glDrawBuffersATI, first_glDrawBuffersATI, hook_glDrawBuffersATI, (n: i32, bufs: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDrawBuffers(n, bufs) }
 } }
-export! { 1096, glDrawBuffersEXT, first_glDrawBuffersEXT, hook_glDrawBuffersEXT, (n: i32, bufs: Ptr) -> (), {
+export! { 1103, glDrawBuffersEXT, first_glDrawBuffersEXT, hook_glDrawBuffersEXT, (n: i32, bufs: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDrawBuffers(n, bufs) }
 } }
-export! { 1097, glReadBuffer, first_glReadBuffer, hook_glReadBuffer, (src: u32) -> (), {
+export! { 1104, glReadBuffer, first_glReadBuffer, hook_glReadBuffer, (src: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glReadBuffer(src) }
 } }
-export! { 1098, glNamedFramebufferDrawBuffer, first_glNamedFramebufferDrawBuffer, hook_glNamedFramebufferDrawBuffer, (framebuffer: u32, buf: u32) -> (), {
+export! { 1105, glNamedFramebufferDrawBuffer, first_glNamedFramebufferDrawBuffer, hook_glNamedFramebufferDrawBuffer, (framebuffer: u32, buf: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glNamedFramebufferDrawBuffer(framebuffer, buf) }
 } }
-export! { 1099, glNamedFramebufferDrawBuffers, first_glNamedFramebufferDrawBuffers, hook_glNamedFramebufferDrawBuffers, (framebuffer: u32, n: i32, bufs: Ptr) -> (), {
+export! { 1106, glNamedFramebufferDrawBuffers, first_glNamedFramebufferDrawBuffers, hook_glNamedFramebufferDrawBuffers, (framebuffer: u32, n: i32, bufs: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glNamedFramebufferDrawBuffers(framebuffer, n, bufs) }
 } }
-export! { 1100, glNamedFramebufferReadBuffer, first_glNamedFramebufferReadBuffer, hook_glNamedFramebufferReadBuffer, (framebuffer: u32, src: u32) -> (), {
+export! { 1107, glNamedFramebufferReadBuffer, first_glNamedFramebufferReadBuffer, hook_glNamedFramebufferReadBuffer, (framebuffer: u32, src: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glNamedFramebufferReadBuffer(framebuffer, src) }
 } }
-export! { 1101, glFramebufferDrawBufferEXT, first_glFramebufferDrawBufferEXT, hook_glFramebufferDrawBufferEXT, (framebuffer: u32, mode: u32) -> (), {
+export! { 1108, glFramebufferDrawBufferEXT, first_glFramebufferDrawBufferEXT, hook_glFramebufferDrawBufferEXT, (framebuffer: u32, mode: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glFramebufferDrawBufferEXT(framebuffer, mode) }
 } }
-export! { 1102, glFramebufferDrawBuffersEXT, first_glFramebufferDrawBuffersEXT, hook_glFramebufferDrawBuffersEXT, (framebuffer: u32, n: i32, bufs: Ptr) -> (), {
+export! { 1109, glFramebufferDrawBuffersEXT, first_glFramebufferDrawBuffersEXT, hook_glFramebufferDrawBuffersEXT, (framebuffer: u32, n: i32, bufs: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glFramebufferDrawBuffersEXT(framebuffer, n, bufs) }
 } }
-export! { 1103, glFramebufferReadBufferEXT, first_glFramebufferReadBufferEXT, hook_glFramebufferReadBufferEXT, (framebuffer: u32, mode: u32) -> (), {
+export! { 1110, glFramebufferReadBufferEXT, first_glFramebufferReadBufferEXT, hook_glFramebufferReadBufferEXT, (framebuffer: u32, mode: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glFramebufferReadBufferEXT(framebuffer, mode) }
 } }
-export! { 1104, glBlitFramebuffer, first_glBlitFramebuffer, hook_glBlitFramebuffer, (srcX0: i32, srcY0: i32, srcX1: i32, srcY1: i32, dstX0: i32, dstY0: i32, dstX1: i32, dstY1: i32, mask: u32, filter: u32) -> (), {
+export! { 1111, glBlitFramebuffer, first_glBlitFramebuffer, hook_glBlitFramebuffer, (srcX0: i32, srcY0: i32, srcX1: i32, srcY1: i32, dstX0: i32, dstY0: i32, dstX1: i32, dstY1: i32, mask: u32, filter: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBlitFramebuffer(srcX0, srcY0, srcX1, srcY1, dstX0, dstY0, dstX1, dstY1, mask, filter) }
 } }
-export! { 1105, glBlitFramebufferEXT, first_glBlitFramebufferEXT, hook_glBlitFramebufferEXT, (srcX0: i32, srcY0: i32, srcX1: i32, srcY1: i32, dstX0: i32, dstY0: i32, dstX1: i32, dstY1: i32, mask: u32, filter: u32) -> (), {
+export! { 1112, glBlitFramebufferEXT, first_glBlitFramebufferEXT, hook_glBlitFramebufferEXT, (srcX0: i32, srcY0: i32, srcX1: i32, srcY1: i32, dstX0: i32, dstY0: i32, dstX1: i32, dstY1: i32, mask: u32, filter: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBlitFramebuffer(srcX0, srcY0, srcX1, srcY1, dstX0, dstY0, dstX1, dstY1, mask, filter) }
 } }
-export! { 1106, glBlitFramebufferNV, first_glBlitFramebufferNV, hook_glBlitFramebufferNV, (srcX0: i32, srcY0: i32, srcX1: i32, srcY1: i32, dstX0: i32, dstY0: i32, dstX1: i32, dstY1: i32, mask: u32, filter: u32) -> (), {
+export! { 1113, glBlitFramebufferNV, first_glBlitFramebufferNV, hook_glBlitFramebufferNV, (srcX0: i32, srcY0: i32, srcX1: i32, srcY1: i32, dstX0: i32, dstY0: i32, dstX1: i32, dstY1: i32, mask: u32, filter: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBlitFramebuffer(srcX0, srcY0, srcX1, srcY1, dstX0, dstY0, dstX1, dstY1, mask, filter) }
 } }
-export! { 1107, glBlitNamedFramebuffer, first_glBlitNamedFramebuffer, hook_glBlitNamedFramebuffer, (readFramebuffer: u32, drawFramebuffer: u32, srcX0: i32, srcY0: i32, srcX1: i32, srcY1: i32, dstX0: i32, dstY0: i32, dstX1: i32, dstY1: i32, mask: u32, filter: u32) -> (), {
+export! { 1114, glBlitNamedFramebuffer, first_glBlitNamedFramebuffer, hook_glBlitNamedFramebuffer, (readFramebuffer: u32, drawFramebuffer: u32, srcX0: i32, srcY0: i32, srcX1: i32, srcY1: i32, dstX0: i32, dstY0: i32, dstX1: i32, dstY1: i32, mask: u32, filter: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBlitNamedFramebuffer(readFramebuffer, drawFramebuffer, srcX0, srcY0, srcX1, srcY1, dstX0, dstY0, dstX1, dstY1, mask, filter) }
 } }
-export! { 1108, glClearNamedFramebufferfv, first_glClearNamedFramebufferfv, hook_glClearNamedFramebufferfv, (framebuffer: u32, buffer: u32, drawbuffer: i32, value: Ptr) -> (), {
+export! { 1115, glClearNamedFramebufferfv, first_glClearNamedFramebufferfv, hook_glClearNamedFramebufferfv, (framebuffer: u32, buffer: u32, drawbuffer: i32, value: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glClearNamedFramebufferfv(framebuffer, buffer, drawbuffer, value) }
 } }
-export! { 1109, glClearNamedFramebufferiv, first_glClearNamedFramebufferiv, hook_glClearNamedFramebufferiv, (framebuffer: u32, buffer: u32, drawbuffer: i32, value: Ptr) -> (), {
+export! { 1116, glClearNamedFramebufferiv, first_glClearNamedFramebufferiv, hook_glClearNamedFramebufferiv, (framebuffer: u32, buffer: u32, drawbuffer: i32, value: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glClearNamedFramebufferiv(framebuffer, buffer, drawbuffer, value) }
 } }
-export! { 1110, glClearNamedFramebufferuiv, first_glClearNamedFramebufferuiv, hook_glClearNamedFramebufferuiv, (framebuffer: u32, buffer: u32, drawbuffer: i32, value: Ptr) -> (), {
+export! { 1117, glClearNamedFramebufferuiv, first_glClearNamedFramebufferuiv, hook_glClearNamedFramebufferuiv, (framebuffer: u32, buffer: u32, drawbuffer: i32, value: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glClearNamedFramebufferuiv(framebuffer, buffer, drawbuffer, value) }
 } }
-export! { 1111, glClearNamedFramebufferfi, first_glClearNamedFramebufferfi, hook_glClearNamedFramebufferfi, (framebuffer: u32, buffer: u32, drawbuffer: i32, depth: f32, stencil: i32) -> (), {
+export! { 1118, glClearNamedFramebufferfi, first_glClearNamedFramebufferfi, hook_glClearNamedFramebufferfi, (framebuffer: u32, buffer: u32, drawbuffer: i32, depth: f32, stencil: i32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glClearNamedFramebufferfi(framebuffer, buffer, drawbuffer, depth, stencil) }
 } }
-export! { 1112, glGetIntegerv, first_glGetIntegerv, hook_glGetIntegerv, (pname: u32, data: Ptr) -> (), {
+export! { 1119, glGetIntegerv, first_glGetIntegerv, hook_glGetIntegerv, (pname: u32, data: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetIntegerv(pname, data) }
 } }
-export! { 1113, glGetBooleanv, first_glGetBooleanv, hook_glGetBooleanv, (pname: u32, data: Ptr) -> (), {
+export! { 1120, glGetBooleanv, first_glGetBooleanv, hook_glGetBooleanv, (pname: u32, data: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetBooleanv(pname, data) }
 } }
-export! { 1114, glGetFloatv, first_glGetFloatv, hook_glGetFloatv, (pname: u32, data: Ptr) -> (), {
+export! { 1121, glGetFloatv, first_glGetFloatv, hook_glGetFloatv, (pname: u32, data: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetFloatv(pname, data) }
 } }
-export! { 1115, glGetDoublev, first_glGetDoublev, hook_glGetDoublev, (pname: u32, data: Ptr) -> (), {
+export! { 1122, glGetDoublev, first_glGetDoublev, hook_glGetDoublev, (pname: u32, data: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetDoublev(pname, data) }
 } }
-export! { 1116, glGetInteger64v, first_glGetInteger64v, hook_glGetInteger64v, (pname: u32, data: Ptr) -> (), {
+export! { 1123, glGetInteger64v, first_glGetInteger64v, hook_glGetInteger64v, (pname: u32, data: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetInteger64v(pname, data) }
 } }
-export! { 1117, glGetInteger64vAPPLE, first_glGetInteger64vAPPLE, hook_glGetInteger64vAPPLE, (pname: u32, params: Ptr) -> (), {
+export! { 1124, glGetInteger64vAPPLE, first_glGetInteger64vAPPLE, hook_glGetInteger64vAPPLE, (pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetInteger64v(pname, params) }
 } }
-export! { 1118, glGetInteger64vEXT, first_glGetInteger64vEXT, hook_glGetInteger64vEXT, (pname: u32, data: Ptr) -> (), {
+export! { 1125, glGetInteger64vEXT, first_glGetInteger64vEXT, hook_glGetInteger64vEXT, (pname: u32, data: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetInteger64v(pname, data) }
 } }
-export! { 1119, glFramebufferTexture, first_glFramebufferTexture, hook_glFramebufferTexture, (target: u32, attachment: u32, texture: u32, level: i32) -> (), {
+export! { 1126, glFramebufferTexture, first_glFramebufferTexture, hook_glFramebufferTexture, (target: u32, attachment: u32, texture: u32, level: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferTexture(target, attachment, texture, level) })
 } }
-export! { 1120, glFramebufferTextureARB, first_glFramebufferTextureARB, hook_glFramebufferTextureARB, (target: u32, attachment: u32, texture: u32, level: i32) -> (), {
+export! { 1127, glFramebufferTextureARB, first_glFramebufferTextureARB, hook_glFramebufferTextureARB, (target: u32, attachment: u32, texture: u32, level: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferTextureARB(target, attachment, texture, level) })
 } }
-export! { 1121, glFramebufferTextureEXT, first_glFramebufferTextureEXT, hook_glFramebufferTextureEXT, (target: u32, attachment: u32, texture: u32, level: i32) -> (), {
+export! { 1128, glFramebufferTextureEXT, first_glFramebufferTextureEXT, hook_glFramebufferTextureEXT, (target: u32, attachment: u32, texture: u32, level: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferTextureEXT(target, attachment, texture, level) })
 } }
-export! { 1122, glFramebufferTextureOES, first_glFramebufferTextureOES, hook_glFramebufferTextureOES, (target: u32, attachment: u32, texture: u32, level: i32) -> (), {
+export! { 1129, glFramebufferTextureOES, first_glFramebufferTextureOES, hook_glFramebufferTextureOES, (target: u32, attachment: u32, texture: u32, level: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferTextureOES(target, attachment, texture, level) })
 } }
-export! { 1123, glFramebufferTexture1D, first_glFramebufferTexture1D, hook_glFramebufferTexture1D, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32) -> (), {
+export! { 1130, glFramebufferTexture1D, first_glFramebufferTexture1D, hook_glFramebufferTexture1D, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferTexture1D(target, attachment, textarget, texture, level) })
 } }
-export! { 1124, glFramebufferTexture1DEXT, first_glFramebufferTexture1DEXT, hook_glFramebufferTexture1DEXT, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32) -> (), {
+export! { 1131, glFramebufferTexture1DEXT, first_glFramebufferTexture1DEXT, hook_glFramebufferTexture1DEXT, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferTexture1DEXT(target, attachment, textarget, texture, level) })
 } }
-export! { 1125, glFramebufferTexture2D, first_glFramebufferTexture2D, hook_glFramebufferTexture2D, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32) -> (), {
+export! { 1132, glFramebufferTexture2D, first_glFramebufferTexture2D, hook_glFramebufferTexture2D, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferTexture2D(target, attachment, textarget, texture, level) })
 } }
-export! { 1126, glFramebufferTexture2DEXT, first_glFramebufferTexture2DEXT, hook_glFramebufferTexture2DEXT, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32) -> (), {
+export! { 1133, glFramebufferTexture2DEXT, first_glFramebufferTexture2DEXT, hook_glFramebufferTexture2DEXT, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferTexture2DEXT(target, attachment, textarget, texture, level) })
 } }
-export! { 1127, glFramebufferTexture3D, first_glFramebufferTexture3D, hook_glFramebufferTexture3D, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32, zoffset: i32) -> (), {
+export! { 1134, glFramebufferTexture3D, first_glFramebufferTexture3D, hook_glFramebufferTexture3D, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32, zoffset: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferTexture3D(target, attachment, textarget, texture, level, zoffset) })
 } }
-export! { 1128, glFramebufferTexture3DEXT, first_glFramebufferTexture3DEXT, hook_glFramebufferTexture3DEXT, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32, zoffset: i32) -> (), {
+export! { 1135, glFramebufferTexture3DEXT, first_glFramebufferTexture3DEXT, hook_glFramebufferTexture3DEXT, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32, zoffset: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferTexture3DEXT(target, attachment, textarget, texture, level, zoffset) })
 } }
-export! { 1129, glFramebufferTextureLayer, first_glFramebufferTextureLayer, hook_glFramebufferTextureLayer, (target: u32, attachment: u32, texture: u32, level: i32, layer: i32) -> (), {
+export! { 1136, glFramebufferTextureLayer, first_glFramebufferTextureLayer, hook_glFramebufferTextureLayer, (target: u32, attachment: u32, texture: u32, level: i32, layer: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferTextureLayer(target, attachment, texture, level, layer) })
 } }
-export! { 1130, glFramebufferTextureLayerARB, first_glFramebufferTextureLayerARB, hook_glFramebufferTextureLayerARB, (target: u32, attachment: u32, texture: u32, level: i32, layer: i32) -> (), {
+export! { 1137, glFramebufferTextureLayerARB, first_glFramebufferTextureLayerARB, hook_glFramebufferTextureLayerARB, (target: u32, attachment: u32, texture: u32, level: i32, layer: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferTextureLayerARB(target, attachment, texture, level, layer) })
 } }
-export! { 1131, glFramebufferTextureLayerEXT, first_glFramebufferTextureLayerEXT, hook_glFramebufferTextureLayerEXT, (target: u32, attachment: u32, texture: u32, level: i32, layer: i32) -> (), {
+export! { 1138, glFramebufferTextureLayerEXT, first_glFramebufferTextureLayerEXT, hook_glFramebufferTextureLayerEXT, (target: u32, attachment: u32, texture: u32, level: i32, layer: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferTextureLayerEXT(target, attachment, texture, level, layer) })
 } }
-export! { 1132, glFramebufferRenderbuffer, first_glFramebufferRenderbuffer, hook_glFramebufferRenderbuffer, (target: u32, attachment: u32, renderbuffertarget: u32, renderbuffer: u32) -> (), {
+export! { 1139, glFramebufferRenderbuffer, first_glFramebufferRenderbuffer, hook_glFramebufferRenderbuffer, (target: u32, attachment: u32, renderbuffertarget: u32, renderbuffer: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferRenderbuffer(target, attachment, renderbuffertarget, renderbuffer) })
 } }
-export! { 1133, glFramebufferRenderbufferEXT, first_glFramebufferRenderbufferEXT, hook_glFramebufferRenderbufferEXT, (target: u32, attachment: u32, renderbuffertarget: u32, renderbuffer: u32) -> (), {
+export! { 1140, glFramebufferRenderbufferEXT, first_glFramebufferRenderbufferEXT, hook_glFramebufferRenderbufferEXT, (target: u32, attachment: u32, renderbuffertarget: u32, renderbuffer: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferRenderbufferEXT(target, attachment, renderbuffertarget, renderbuffer) })
 } }
-export! { 1134, glNamedFramebufferTexture, first_glNamedFramebufferTexture, hook_glNamedFramebufferTexture, (framebuffer: u32, attachment: u32, texture: u32, level: i32) -> (), {
+export! { 1141, glNamedFramebufferTexture, first_glNamedFramebufferTexture, hook_glNamedFramebufferTexture, (framebuffer: u32, attachment: u32, texture: u32, level: i32) -> (), {
     hooks::attached();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glNamedFramebufferTexture(framebuffer, attachment, texture, level) };
 } }
-export! { 1135, glNamedFramebufferTextureLayer, first_glNamedFramebufferTextureLayer, hook_glNamedFramebufferTextureLayer, (framebuffer: u32, attachment: u32, texture: u32, level: i32, layer: i32) -> (), {
+export! { 1142, glNamedFramebufferTextureLayer, first_glNamedFramebufferTextureLayer, hook_glNamedFramebufferTextureLayer, (framebuffer: u32, attachment: u32, texture: u32, level: i32, layer: i32) -> (), {
     hooks::attached();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glNamedFramebufferTextureLayer(framebuffer, attachment, texture, level, layer) };
 } }
-export! { 1136, glNamedFramebufferRenderbuffer, first_glNamedFramebufferRenderbuffer, hook_glNamedFramebufferRenderbuffer, (framebuffer: u32, attachment: u32, renderbuffertarget: u32, renderbuffer: u32) -> (), {
+export! { 1143, glNamedFramebufferRenderbuffer, first_glNamedFramebufferRenderbuffer, hook_glNamedFramebufferRenderbuffer, (framebuffer: u32, attachment: u32, renderbuffertarget: u32, renderbuffer: u32) -> (), {
     hooks::attached();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glNamedFramebufferRenderbuffer(framebuffer, attachment, renderbuffertarget, renderbuffer) };
 } }
-export! { 1137, glGetFramebufferAttachmentParameteriv, first_glGetFramebufferAttachmentParameteriv, hook_glGetFramebufferAttachmentParameteriv, (target: u32, attachment: u32, pname: u32, params: Ptr) -> (), {
+export! { 1144, glGetFramebufferAttachmentParameteriv, first_glGetFramebufferAttachmentParameteriv, hook_glGetFramebufferAttachmentParameteriv, (target: u32, attachment: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glGetFramebufferAttachmentParameteriv(target, attachment, pname, params) })
 } }
-export! { 1138, glGetFramebufferAttachmentParameterivEXT, first_glGetFramebufferAttachmentParameterivEXT, hook_glGetFramebufferAttachmentParameterivEXT, (target: u32, attachment: u32, pname: u32, params: Ptr) -> (), {
+export! { 1145, glGetFramebufferAttachmentParameterivEXT, first_glGetFramebufferAttachmentParameterivEXT, hook_glGetFramebufferAttachmentParameterivEXT, (target: u32, attachment: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glGetFramebufferAttachmentParameterivEXT(target, attachment, pname, params) })
 } }
-export! { 1139, glCheckFramebufferStatus, first_glCheckFramebufferStatus, hook_glCheckFramebufferStatus, (target: u32) -> u32, {
+export! { 1146, glCheckFramebufferStatus, first_glCheckFramebufferStatus, hook_glCheckFramebufferStatus, (target: u32) -> u32, {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glCheckFramebufferStatus(target) })
 } }
-export! { 1140, glCheckFramebufferStatusEXT, first_glCheckFramebufferStatusEXT, hook_glCheckFramebufferStatusEXT, (target: u32) -> u32, {
+export! { 1147, glCheckFramebufferStatusEXT, first_glCheckFramebufferStatusEXT, hook_glCheckFramebufferStatusEXT, (target: u32) -> u32, {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glCheckFramebufferStatusEXT(target) })
 } }
-export! { 1141, glFramebufferParameteri, first_glFramebufferParameteri, hook_glFramebufferParameteri, (target: u32, pname: u32, param: i32) -> (), {
+export! { 1148, glFramebufferParameteri, first_glFramebufferParameteri, hook_glFramebufferParameteri, (target: u32, pname: u32, param: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glFramebufferParameteri(target, pname, param) })
 } }
-export! { 1142, glGetFramebufferParameteriv, first_glGetFramebufferParameteriv, hook_glGetFramebufferParameteriv, (target: u32, pname: u32, params: Ptr) -> (), {
+export! { 1149, glGetFramebufferParameteriv, first_glGetFramebufferParameteriv, hook_glGetFramebufferParameteriv, (target: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glGetFramebufferParameteriv(target, pname, params) })
 } }
-export! { 1143, glInvalidateFramebuffer, first_glInvalidateFramebuffer, hook_glInvalidateFramebuffer, (target: u32, numAttachments: i32, attachments: Ptr) -> (), {
+export! { 1150, glInvalidateFramebuffer, first_glInvalidateFramebuffer, hook_glInvalidateFramebuffer, (target: u32, numAttachments: i32, attachments: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glInvalidateFramebuffer(target, numAttachments, attachments) })
 } }
-export! { 1144, glInvalidateSubFramebuffer, first_glInvalidateSubFramebuffer, hook_glInvalidateSubFramebuffer, (target: u32, numAttachments: i32, attachments: Ptr, x: i32, y: i32, width: i32, height: i32) -> (), {
+export! { 1151, glInvalidateSubFramebuffer, first_glInvalidateSubFramebuffer, hook_glInvalidateSubFramebuffer, (target: u32, numAttachments: i32, attachments: Ptr, x: i32, y: i32, width: i32, height: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glInvalidateSubFramebuffer(target, numAttachments, attachments, x, y, width, height) })
 } }
-export! { 1145, glDiscardFramebufferEXT, first_glDiscardFramebufferEXT, hook_glDiscardFramebufferEXT, (target: u32, numAttachments: i32, attachments: Ptr) -> (), {
+export! { 1152, glDiscardFramebufferEXT, first_glDiscardFramebufferEXT, hook_glDiscardFramebufferEXT, (target: u32, numAttachments: i32, attachments: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glDiscardFramebufferEXT(target, numAttachments, attachments) })
 } }
-export! { 1146, glCopyTexImage1D, first_glCopyTexImage1D, hook_glCopyTexImage1D, (target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, border: i32) -> (), {
+export! { 1153, glCopyTexImage1D, first_glCopyTexImage1D, hook_glCopyTexImage1D, (target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, border: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::copy(target, x, width, &mut |gl| unsafe { gl.glCopyTexImage1D(target, level, internalformat, x, y, width, border) })
 } }
-export! { 1147, glCopyTexImage1DEXT, first_glCopyTexImage1DEXT, hook_glCopyTexImage1DEXT, (target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, border: i32) -> (), {
+export! { 1154, glCopyTexImage1DEXT, first_glCopyTexImage1DEXT, hook_glCopyTexImage1DEXT, (target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, border: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::copy(target, x, width, &mut |gl| unsafe { gl.glCopyTexImage1DEXT(target, level, internalformat, x, y, width, border) })
 } }
-export! { 1148, glCopyTexImage2D, first_glCopyTexImage2D, hook_glCopyTexImage2D, (target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, height: i32, border: i32) -> (), {
+export! { 1155, glCopyTexImage2D, first_glCopyTexImage2D, hook_glCopyTexImage2D, (target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, height: i32, border: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::copy(target, x, width, &mut |gl| unsafe { gl.glCopyTexImage2D(target, level, internalformat, x, y, width, height, border) })
 } }
-export! { 1149, glCopyTexImage2DEXT, first_glCopyTexImage2DEXT, hook_glCopyTexImage2DEXT, (target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, height: i32, border: i32) -> (), {
+export! { 1156, glCopyTexImage2DEXT, first_glCopyTexImage2DEXT, hook_glCopyTexImage2DEXT, (target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, height: i32, border: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::copy(target, x, width, &mut |gl| unsafe { gl.glCopyTexImage2DEXT(target, level, internalformat, x, y, width, height, border) })
 } }
-export! { 1150, glCopyTexSubImage1D, first_glCopyTexSubImage1D, hook_glCopyTexSubImage1D, (target: u32, level: i32, xoffset: i32, x: i32, y: i32, width: i32) -> (), {
+export! { 1157, glCopyTexSubImage1D, first_glCopyTexSubImage1D, hook_glCopyTexSubImage1D, (target: u32, level: i32, xoffset: i32, x: i32, y: i32, width: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::copy(target, x, width, &mut |gl| unsafe { gl.glCopyTexSubImage1D(target, level, xoffset, x, y, width) })
 } }
-export! { 1151, glCopyTexSubImage1DEXT, first_glCopyTexSubImage1DEXT, hook_glCopyTexSubImage1DEXT, (target: u32, level: i32, xoffset: i32, x: i32, y: i32, width: i32) -> (), {
+export! { 1158, glCopyTexSubImage1DEXT, first_glCopyTexSubImage1DEXT, hook_glCopyTexSubImage1DEXT, (target: u32, level: i32, xoffset: i32, x: i32, y: i32, width: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::copy(target, x, width, &mut |gl| unsafe { gl.glCopyTexSubImage1DEXT(target, level, xoffset, x, y, width) })
 } }
-export! { 1152, glCopyTexSubImage2D, first_glCopyTexSubImage2D, hook_glCopyTexSubImage2D, (target: u32, level: i32, xoffset: i32, yoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
+export! { 1159, glCopyTexSubImage2D, first_glCopyTexSubImage2D, hook_glCopyTexSubImage2D, (target: u32, level: i32, xoffset: i32, yoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::copy(target, x, width, &mut |gl| unsafe { gl.glCopyTexSubImage2D(target, level, xoffset, yoffset, x, y, width, height) })
 } }
-export! { 1153, glCopyTexSubImage2DEXT, first_glCopyTexSubImage2DEXT, hook_glCopyTexSubImage2DEXT, (target: u32, level: i32, xoffset: i32, yoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
+export! { 1160, glCopyTexSubImage2DEXT, first_glCopyTexSubImage2DEXT, hook_glCopyTexSubImage2DEXT, (target: u32, level: i32, xoffset: i32, yoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::copy(target, x, width, &mut |gl| unsafe { gl.glCopyTexSubImage2DEXT(target, level, xoffset, yoffset, x, y, width, height) })
 } }
-export! { 1154, glReadPixels, first_glReadPixels, hook_glReadPixels, (x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
+export! { 1161, glReadPixels, first_glReadPixels, hook_glReadPixels, (x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::read_now(x, width, &mut |gl| unsafe { gl.glReadPixels(x, y, width, height, format, type_, pixels) })
 } }
-export! { 1155, glReadnPixels, first_glReadnPixels, hook_glReadnPixels, (x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, bufSize: i32, data: Ptr) -> (), {
+export! { 1162, glReadnPixels, first_glReadnPixels, hook_glReadnPixels, (x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, bufSize: i32, data: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::read_now(x, width, &mut |gl| unsafe { gl.glReadnPixels(x, y, width, height, format, type_, bufSize, data) })
 } }
-export! { 1156, glReadnPixelsARB, first_glReadnPixelsARB, hook_glReadnPixelsARB, (x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, bufSize: i32, data: Ptr) -> (), {
+export! { 1163, glReadnPixelsARB, first_glReadnPixelsARB, hook_glReadnPixelsARB, (x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, bufSize: i32, data: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::read_now(x, width, &mut |gl| unsafe { gl.glReadnPixelsARB(x, y, width, height, format, type_, bufSize, data) })
 } }
-export! { 1157, glReadnPixelsEXT, first_glReadnPixelsEXT, hook_glReadnPixelsEXT, (x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, bufSize: i32, data: Ptr) -> (), {
+export! { 1164, glReadnPixelsEXT, first_glReadnPixelsEXT, hook_glReadnPixelsEXT, (x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, bufSize: i32, data: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::read_now(x, width, &mut |gl| unsafe { gl.glReadnPixelsEXT(x, y, width, height, format, type_, bufSize, data) })
 } }
-export! { 1158, glReadnPixelsKHR, first_glReadnPixelsKHR, hook_glReadnPixelsKHR, (x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, bufSize: i32, data: Ptr) -> (), {
+export! { 1165, glReadnPixelsKHR, first_glReadnPixelsKHR, hook_glReadnPixelsKHR, (x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, bufSize: i32, data: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::read_now(x, width, &mut |gl| unsafe { gl.glReadnPixelsKHR(x, y, width, height, format, type_, bufSize, data) })
 } }
-export! { 1159, glCopyTexSubImage3D, first_glCopyTexSubImage3D, hook_glCopyTexSubImage3D, (target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
+export! { 1166, glCopyTexSubImage3D, first_glCopyTexSubImage3D, hook_glCopyTexSubImage3D, (target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyTexSubImage3D(target, level, xoffset, yoffset, zoffset, x, y, width, height) })
 } }
-export! { 1160, glCopyTexSubImage3DEXT, first_glCopyTexSubImage3DEXT, hook_glCopyTexSubImage3DEXT, (target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
+export! { 1167, glCopyTexSubImage3DEXT, first_glCopyTexSubImage3DEXT, hook_glCopyTexSubImage3DEXT, (target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyTexSubImage3DEXT(target, level, xoffset, yoffset, zoffset, x, y, width, height) })
 } }
-export! { 1161, glCopyTextureSubImage1D, first_glCopyTextureSubImage1D, hook_glCopyTextureSubImage1D, (texture: u32, level: i32, xoffset: i32, x: i32, y: i32, width: i32) -> (), {
+export! { 1168, glCopyTextureSubImage1D, first_glCopyTextureSubImage1D, hook_glCopyTextureSubImage1D, (texture: u32, level: i32, xoffset: i32, x: i32, y: i32, width: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyTextureSubImage1D(texture, level, xoffset, x, y, width) })
 } }
-export! { 1162, glCopyTextureSubImage2D, first_glCopyTextureSubImage2D, hook_glCopyTextureSubImage2D, (texture: u32, level: i32, xoffset: i32, yoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
+export! { 1169, glCopyTextureSubImage2D, first_glCopyTextureSubImage2D, hook_glCopyTextureSubImage2D, (texture: u32, level: i32, xoffset: i32, yoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyTextureSubImage2D(texture, level, xoffset, yoffset, x, y, width, height) })
 } }
-export! { 1163, glCopyTextureSubImage3D, first_glCopyTextureSubImage3D, hook_glCopyTextureSubImage3D, (texture: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
+export! { 1170, glCopyTextureSubImage3D, first_glCopyTextureSubImage3D, hook_glCopyTextureSubImage3D, (texture: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyTextureSubImage3D(texture, level, xoffset, yoffset, zoffset, x, y, width, height) })
 } }
-export! { 1164, glCopyMultiTexImage1DEXT, first_glCopyMultiTexImage1DEXT, hook_glCopyMultiTexImage1DEXT, (texunit: u32, target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, border: i32) -> (), {
+export! { 1171, glCopyMultiTexImage1DEXT, first_glCopyMultiTexImage1DEXT, hook_glCopyMultiTexImage1DEXT, (texunit: u32, target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, border: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyMultiTexImage1DEXT(texunit, target, level, internalformat, x, y, width, border) })
 } }
-export! { 1165, glCopyMultiTexImage2DEXT, first_glCopyMultiTexImage2DEXT, hook_glCopyMultiTexImage2DEXT, (texunit: u32, target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, height: i32, border: i32) -> (), {
+export! { 1172, glCopyMultiTexImage2DEXT, first_glCopyMultiTexImage2DEXT, hook_glCopyMultiTexImage2DEXT, (texunit: u32, target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, height: i32, border: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyMultiTexImage2DEXT(texunit, target, level, internalformat, x, y, width, height, border) })
 } }
-export! { 1166, glCopyTextureImage1DEXT, first_glCopyTextureImage1DEXT, hook_glCopyTextureImage1DEXT, (texture: u32, target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, border: i32) -> (), {
+export! { 1173, glCopyTextureImage1DEXT, first_glCopyTextureImage1DEXT, hook_glCopyTextureImage1DEXT, (texture: u32, target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, border: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyTextureImage1DEXT(texture, target, level, internalformat, x, y, width, border) })
 } }
-export! { 1167, glCopyTextureImage2DEXT, first_glCopyTextureImage2DEXT, hook_glCopyTextureImage2DEXT, (texture: u32, target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, height: i32, border: i32) -> (), {
+export! { 1174, glCopyTextureImage2DEXT, first_glCopyTextureImage2DEXT, hook_glCopyTextureImage2DEXT, (texture: u32, target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, height: i32, border: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyTextureImage2DEXT(texture, target, level, internalformat, x, y, width, height, border) })
 } }
-export! { 1168, glCopyColorTable, first_glCopyColorTable, hook_glCopyColorTable, (target: u32, internalformat: u32, x: i32, y: i32, width: i32) -> (), {
+export! { 1175, glCopyColorTable, first_glCopyColorTable, hook_glCopyColorTable, (target: u32, internalformat: u32, x: i32, y: i32, width: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyColorTable(target, internalformat, x, y, width) })
 } }
-export! { 1169, glCopyColorTableSGI, first_glCopyColorTableSGI, hook_glCopyColorTableSGI, (target: u32, internalformat: u32, x: i32, y: i32, width: i32) -> (), {
+export! { 1176, glCopyColorTableSGI, first_glCopyColorTableSGI, hook_glCopyColorTableSGI, (target: u32, internalformat: u32, x: i32, y: i32, width: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyColorTableSGI(target, internalformat, x, y, width) })
 } }
-export! { 1170, glCopyConvolutionFilter1D, first_glCopyConvolutionFilter1D, hook_glCopyConvolutionFilter1D, (target: u32, internalformat: u32, x: i32, y: i32, width: i32) -> (), {
+export! { 1177, glCopyConvolutionFilter1D, first_glCopyConvolutionFilter1D, hook_glCopyConvolutionFilter1D, (target: u32, internalformat: u32, x: i32, y: i32, width: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyConvolutionFilter1D(target, internalformat, x, y, width) })
 } }
-export! { 1171, glCopyConvolutionFilter1DEXT, first_glCopyConvolutionFilter1DEXT, hook_glCopyConvolutionFilter1DEXT, (target: u32, internalformat: u32, x: i32, y: i32, width: i32) -> (), {
+export! { 1178, glCopyConvolutionFilter1DEXT, first_glCopyConvolutionFilter1DEXT, hook_glCopyConvolutionFilter1DEXT, (target: u32, internalformat: u32, x: i32, y: i32, width: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyConvolutionFilter1DEXT(target, internalformat, x, y, width) })
 } }
-export! { 1172, glCopyConvolutionFilter2D, first_glCopyConvolutionFilter2D, hook_glCopyConvolutionFilter2D, (target: u32, internalformat: u32, x: i32, y: i32, width: i32, height: i32) -> (), {
+export! { 1179, glCopyConvolutionFilter2D, first_glCopyConvolutionFilter2D, hook_glCopyConvolutionFilter2D, (target: u32, internalformat: u32, x: i32, y: i32, width: i32, height: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyConvolutionFilter2D(target, internalformat, x, y, width, height) })
 } }
-export! { 1173, glCopyConvolutionFilter2DEXT, first_glCopyConvolutionFilter2DEXT, hook_glCopyConvolutionFilter2DEXT, (target: u32, internalformat: u32, x: i32, y: i32, width: i32, height: i32) -> (), {
+export! { 1180, glCopyConvolutionFilter2DEXT, first_glCopyConvolutionFilter2DEXT, hook_glCopyConvolutionFilter2DEXT, (target: u32, internalformat: u32, x: i32, y: i32, width: i32, height: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyConvolutionFilter2DEXT(target, internalformat, x, y, width, height) })
 } }
-export! { 1174, glFinish, first_glFinish, hook_glFinish, () -> (), {
+export! { 1181, glFinish, first_glFinish, hook_glFinish, () -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glFinish() }
 } }
-export! { 1175, glFlush, first_glFlush, hook_glFlush, () -> (), {
+export! { 1182, glFlush, first_glFlush, hook_glFlush, () -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glFlush() }
 } }
-export! { 1176, glGetError, first_glGetError, hook_glGetError, () -> u32, {
+export! { 1183, glGetError, first_glGetError, hook_glGetError, () -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetError() }
 } }
-export! { 1177, glBeginConditionalRender, first_glBeginConditionalRender, hook_glBeginConditionalRender, (id: u32, mode: u32) -> (), {
+export! { 1184, glBeginConditionalRender, first_glBeginConditionalRender, hook_glBeginConditionalRender, (id: u32, mode: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBeginConditionalRender(id, mode) }
 } }
-export! { 1178, glBeginConditionalRenderNV, first_glBeginConditionalRenderNV, hook_glBeginConditionalRenderNV, (id: u32, mode: u32) -> (), {
+export! { 1185, glBeginConditionalRenderNV, first_glBeginConditionalRenderNV, hook_glBeginConditionalRenderNV, (id: u32, mode: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBeginConditionalRender(id, mode) }
 } }
-export! { 1179, glEndConditionalRender, first_glEndConditionalRender, hook_glEndConditionalRender, () -> (), {
+export! { 1186, glEndConditionalRender, first_glEndConditionalRender, hook_glEndConditionalRender, () -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glEndConditionalRender() }
 } }
-export! { 1180, glEndConditionalRenderNV, first_glEndConditionalRenderNV, hook_glEndConditionalRenderNV, () -> (), {
+export! { 1187, glEndConditionalRenderNV, first_glEndConditionalRenderNV, hook_glEndConditionalRenderNV, () -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glEndConditionalRender() }
 } }
-export! { 1181, glEndConditionalRenderNVX, first_glEndConditionalRenderNVX, hook_glEndConditionalRenderNVX, () -> (), {
+export! { 1188, glEndConditionalRenderNVX, first_glEndConditionalRenderNVX, hook_glEndConditionalRenderNVX, () -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glEndConditionalRender() }
 } }
-export! { 1182, glBeginQuery, first_glBeginQuery, hook_glBeginQuery, (target: u32, id: u32) -> (), {
+export! { 1189, glBeginQuery, first_glBeginQuery, hook_glBeginQuery, (target: u32, id: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBeginQuery(target, id) }
 } }
-export! { 1183, glBeginQueryARB, first_glBeginQueryARB, hook_glBeginQueryARB, (target: u32, id: u32) -> (), {
+export! { 1190, glBeginQueryARB, first_glBeginQueryARB, hook_glBeginQueryARB, (target: u32, id: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBeginQuery(target, id) }
 } }
-export! { 1184, glEndQuery, first_glEndQuery, hook_glEndQuery, (target: u32) -> (), {
+export! { 1191, glEndQuery, first_glEndQuery, hook_glEndQuery, (target: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glEndQuery(target) }
 } }
-export! { 1185, glEndQueryARB, first_glEndQueryARB, hook_glEndQueryARB, (target: u32) -> (), {
+export! { 1192, glEndQueryARB, first_glEndQueryARB, hook_glEndQueryARB, (target: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glEndQuery(target) }
 } }
-export! { 1186, glDeleteQueries, first_glDeleteQueries, hook_glDeleteQueries, (n: i32, ids: Ptr) -> (), {
+export! { 1193, glDeleteQueries, first_glDeleteQueries, hook_glDeleteQueries, (n: i32, ids: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDeleteQueries(n, ids) }
 } }
-export! { 1187, glDeleteQueriesARB, first_glDeleteQueriesARB, hook_glDeleteQueriesARB, (n: i32, ids: Ptr) -> (), {
+export! { 1194, glDeleteQueriesARB, first_glDeleteQueriesARB, hook_glDeleteQueriesARB, (n: i32, ids: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDeleteQueries(n, ids) }
 } }
-export! { 1188, glGetQueryiv, first_glGetQueryiv, hook_glGetQueryiv, (target: u32, pname: u32, params: Ptr) -> (), {
+export! { 1195, glGetQueryiv, first_glGetQueryiv, hook_glGetQueryiv, (target: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryiv(target, pname, params) }
 } }
-export! { 1189, glGetQueryivARB, first_glGetQueryivARB, hook_glGetQueryivARB, (target: u32, pname: u32, params: Ptr) -> (), {
+export! { 1196, glGetQueryivARB, first_glGetQueryivARB, hook_glGetQueryivARB, (target: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryiv(target, pname, params) }
 } }
-export! { 1190, glGetQueryObjectiv, first_glGetQueryObjectiv, hook_glGetQueryObjectiv, (id: u32, pname: u32, params: Ptr) -> (), {
+export! { 1197, glGetQueryObjectiv, first_glGetQueryObjectiv, hook_glGetQueryObjectiv, (id: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryObjectiv(id, pname, params) }
 } }
-export! { 1191, glGetQueryObjectivARB, first_glGetQueryObjectivARB, hook_glGetQueryObjectivARB, (id: u32, pname: u32, params: Ptr) -> (), {
+export! { 1198, glGetQueryObjectivARB, first_glGetQueryObjectivARB, hook_glGetQueryObjectivARB, (id: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryObjectiv(id, pname, params) }
 } }
-export! { 1192, glGetQueryObjectivEXT, first_glGetQueryObjectivEXT, hook_glGetQueryObjectivEXT, (id: u32, pname: u32, params: Ptr) -> (), {
+export! { 1199, glGetQueryObjectivEXT, first_glGetQueryObjectivEXT, hook_glGetQueryObjectivEXT, (id: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryObjectiv(id, pname, params) }
 } }
-export! { 1193, glGetQueryObjectuiv, first_glGetQueryObjectuiv, hook_glGetQueryObjectuiv, (id: u32, pname: u32, params: Ptr) -> (), {
+export! { 1200, glGetQueryObjectuiv, first_glGetQueryObjectuiv, hook_glGetQueryObjectuiv, (id: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryObjectuiv(id, pname, params) }
 } }
-export! { 1194, glGetQueryObjectuivARB, first_glGetQueryObjectuivARB, hook_glGetQueryObjectuivARB, (id: u32, pname: u32, params: Ptr) -> (), {
+export! { 1201, glGetQueryObjectuivARB, first_glGetQueryObjectuivARB, hook_glGetQueryObjectuivARB, (id: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryObjectuiv(id, pname, params) }
 } }
-export! { 1195, glGetQueryObjecti64v, first_glGetQueryObjecti64v, hook_glGetQueryObjecti64v, (id: u32, pname: u32, params: Ptr) -> (), {
+export! { 1202, glGetQueryObjecti64v, first_glGetQueryObjecti64v, hook_glGetQueryObjecti64v, (id: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryObjecti64v(id, pname, params) }
 } }
-export! { 1196, glGetQueryObjecti64vEXT, first_glGetQueryObjecti64vEXT, hook_glGetQueryObjecti64vEXT, (id: u32, pname: u32, params: Ptr) -> (), {
+export! { 1203, glGetQueryObjecti64vEXT, first_glGetQueryObjecti64vEXT, hook_glGetQueryObjecti64vEXT, (id: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryObjecti64v(id, pname, params) }
 } }
-export! { 1197, glGetQueryObjectui64v, first_glGetQueryObjectui64v, hook_glGetQueryObjectui64v, (id: u32, pname: u32, params: Ptr) -> (), {
+export! { 1204, glGetQueryObjectui64v, first_glGetQueryObjectui64v, hook_glGetQueryObjectui64v, (id: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryObjectui64v(id, pname, params) }
 } }
-export! { 1198, glGetQueryObjectui64vEXT, first_glGetQueryObjectui64vEXT, hook_glGetQueryObjectui64vEXT, (id: u32, pname: u32, params: Ptr) -> (), {
+export! { 1205, glGetQueryObjectui64vEXT, first_glGetQueryObjectui64vEXT, hook_glGetQueryObjectui64vEXT, (id: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryObjectui64v(id, pname, params) }
 } }
-export! { 1199, glIsEnabled, first_glIsEnabled, hook_glIsEnabled, (cap: u32) -> u8, {
+export! { 1206, glIsEnabled, first_glIsEnabled, hook_glIsEnabled, (cap: u32) -> u8, {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glIsEnabled(cap) }
 } }
-export! { 1200, glIsEnabledi, first_glIsEnabledi, hook_glIsEnabledi, (target: u32, index: u32) -> u8, {
+export! { 1207, glIsEnabledi, first_glIsEnabledi, hook_glIsEnabledi, (target: u32, index: u32) -> u8, {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glIsEnabledi(target, index) }
 } }
-export! { 1201, glIsEnabledIndexedEXT, first_glIsEnabledIndexedEXT, hook_glIsEnabledIndexedEXT, (target: u32, index: u32) -> u8, {
+export! { 1208, glIsEnabledIndexedEXT, first_glIsEnabledIndexedEXT, hook_glIsEnabledIndexedEXT, (target: u32, index: u32) -> u8, {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glIsEnabledIndexedEXT(target, index) }
 } }
-export! { 1202, glIsEnablediEXT, first_glIsEnablediEXT, hook_glIsEnablediEXT, (target: u32, index: u32) -> u8, {
+export! { 1209, glIsEnablediEXT, first_glIsEnablediEXT, hook_glIsEnablediEXT, (target: u32, index: u32) -> u8, {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glIsEnablediEXT(target, index) }
 } }
-export! { 1203, glIsEnablediNV, first_glIsEnablediNV, hook_glIsEnablediNV, (target: u32, index: u32) -> u8, {
+export! { 1210, glIsEnablediNV, first_glIsEnablediNV, hook_glIsEnablediNV, (target: u32, index: u32) -> u8, {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glIsEnablediNV(target, index) }
 } }
-export! { 1204, glIsEnablediOES, first_glIsEnablediOES, hook_glIsEnablediOES, (target: u32, index: u32) -> u8, {
+export! { 1211, glIsEnablediOES, first_glIsEnablediOES, hook_glIsEnablediOES, (target: u32, index: u32) -> u8, {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glIsEnablediOES(target, index) }
 } }
-export! { 1205, glGetTexGendv, first_glGetTexGendv, hook_glGetTexGendv, (coord: u32, pname: u32, params: Ptr) -> (), {
+export! { 1212, glGetTexGendv, first_glGetTexGendv, hook_glGetTexGendv, (coord: u32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetTexGendv(coord, pname, params) };
 } }
-export! { 1206, glGetTexGenfv, first_glGetTexGenfv, hook_glGetTexGenfv, (coord: u32, pname: u32, params: Ptr) -> (), {
+export! { 1213, glGetTexGenfv, first_glGetTexGenfv, hook_glGetTexGenfv, (coord: u32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetTexGenfv(coord, pname, params) };
 } }
-export! { 1207, glGetTexGeniv, first_glGetTexGeniv, hook_glGetTexGeniv, (coord: u32, pname: u32, params: Ptr) -> (), {
+export! { 1214, glGetTexGeniv, first_glGetTexGeniv, hook_glGetTexGeniv, (coord: u32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetTexGeniv(coord, pname, params) };
 } }
-export! { 1208, glGetTexEnvfv, first_glGetTexEnvfv, hook_glGetTexEnvfv, (target: u32, pname: u32, params: Ptr) -> (), {
+export! { 1215, glGetTexEnvfv, first_glGetTexEnvfv, hook_glGetTexEnvfv, (target: u32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetTexEnvfv(target, pname, params) };
 } }
-export! { 1209, glGetTexEnviv, first_glGetTexEnviv, hook_glGetTexEnviv, (target: u32, pname: u32, params: Ptr) -> (), {
+export! { 1216, glGetTexEnviv, first_glGetTexEnviv, hook_glGetTexEnviv, (target: u32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetTexEnviv(target, pname, params) };
 } }
-export! { 1210, glGetLightfv, first_glGetLightfv, hook_glGetLightfv, (light: u32, pname: u32, params: Ptr) -> (), {
+export! { 1217, glGetLightfv, first_glGetLightfv, hook_glGetLightfv, (light: u32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetLightfv(light, pname, params) };
 } }
-export! { 1211, glGetLightiv, first_glGetLightiv, hook_glGetLightiv, (light: u32, pname: u32, params: Ptr) -> (), {
+export! { 1218, glGetLightiv, first_glGetLightiv, hook_glGetLightiv, (light: u32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetLightiv(light, pname, params) };
 } }
-export! { 1212, glGetMaterialfv, first_glGetMaterialfv, hook_glGetMaterialfv, (face: u32, pname: u32, params: Ptr) -> (), {
+export! { 1219, glGetMaterialfv, first_glGetMaterialfv, hook_glGetMaterialfv, (face: u32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetMaterialfv(face, pname, params) };
 } }
-export! { 1213, glGetMaterialiv, first_glGetMaterialiv, hook_glGetMaterialiv, (face: u32, pname: u32, params: Ptr) -> (), {
+export! { 1220, glGetMaterialiv, first_glGetMaterialiv, hook_glGetMaterialiv, (face: u32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetMaterialiv(face, pname, params) };
 } }
-export! { 1214, glGetTexParameterfv, first_glGetTexParameterfv, hook_glGetTexParameterfv, (target: u32, pname: u32, params: Ptr) -> (), {
+export! { 1221, glGetTexParameterfv, first_glGetTexParameterfv, hook_glGetTexParameterfv, (target: u32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetTexParameterfv(target, pname, params) };
 } }
-export! { 1215, glGetTexParameteriv, first_glGetTexParameteriv, hook_glGetTexParameteriv, (target: u32, pname: u32, params: Ptr) -> (), {
+export! { 1222, glGetTexParameteriv, first_glGetTexParameteriv, hook_glGetTexParameteriv, (target: u32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetTexParameteriv(target, pname, params) };
 } }
-export! { 1216, glGetTexLevelParameterfv, first_glGetTexLevelParameterfv, hook_glGetTexLevelParameterfv, (target: u32, level: i32, pname: u32, params: Ptr) -> (), {
+export! { 1223, glGetTexLevelParameterfv, first_glGetTexLevelParameterfv, hook_glGetTexLevelParameterfv, (target: u32, level: i32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetTexLevelParameterfv(target, level, pname, params) };
 } }
-export! { 1217, glGetTexLevelParameteriv, first_glGetTexLevelParameteriv, hook_glGetTexLevelParameteriv, (target: u32, level: i32, pname: u32, params: Ptr) -> (), {
+export! { 1224, glGetTexLevelParameteriv, first_glGetTexLevelParameteriv, hook_glGetTexLevelParameteriv, (target: u32, level: i32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetTexLevelParameteriv(target, level, pname, params) };
 } }
-export! { 1218, glGetClipPlane, first_glGetClipPlane, hook_glGetClipPlane, (plane: u32, equation: Ptr) -> (), {
+export! { 1225, glGetClipPlane, first_glGetClipPlane, hook_glGetClipPlane, (plane: u32, equation: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetClipPlane(plane, equation) };
 } }
-export! { 1219, glGetMapdv, first_glGetMapdv, hook_glGetMapdv, (target: u32, query: u32, v: Ptr) -> (), {
+export! { 1226, glGetMapdv, first_glGetMapdv, hook_glGetMapdv, (target: u32, query: u32, v: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetMapdv(target, query, v) };
 } }
-export! { 1220, glGetMapfv, first_glGetMapfv, hook_glGetMapfv, (target: u32, query: u32, v: Ptr) -> (), {
+export! { 1227, glGetMapfv, first_glGetMapfv, hook_glGetMapfv, (target: u32, query: u32, v: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetMapfv(target, query, v) };
 } }
-export! { 1221, glGetMapiv, first_glGetMapiv, hook_glGetMapiv, (target: u32, query: u32, v: Ptr) -> (), {
+export! { 1228, glGetMapiv, first_glGetMapiv, hook_glGetMapiv, (target: u32, query: u32, v: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetMapiv(target, query, v) };
 } }
-export! { 1222, glGetPixelMapfv, first_glGetPixelMapfv, hook_glGetPixelMapfv, (map: u32, values: Ptr) -> (), {
+export! { 1229, glGetPixelMapfv, first_glGetPixelMapfv, hook_glGetPixelMapfv, (map: u32, values: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetPixelMapfv(map, values) };
 } }
-export! { 1223, glGetPixelMapuiv, first_glGetPixelMapuiv, hook_glGetPixelMapuiv, (map: u32, values: Ptr) -> (), {
+export! { 1230, glGetPixelMapuiv, first_glGetPixelMapuiv, hook_glGetPixelMapuiv, (map: u32, values: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetPixelMapuiv(map, values) };
 } }
-export! { 1224, glGetPixelMapusv, first_glGetPixelMapusv, hook_glGetPixelMapusv, (map: u32, values: Ptr) -> (), {
+export! { 1231, glGetPixelMapusv, first_glGetPixelMapusv, hook_glGetPixelMapusv, (map: u32, values: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetPixelMapusv(map, values) };
 } }
-export! { 1225, glGetPolygonStipple, first_glGetPolygonStipple, hook_glGetPolygonStipple, (mask: Ptr) -> (), {
+export! { 1232, glGetPolygonStipple, first_glGetPolygonStipple, hook_glGetPolygonStipple, (mask: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetPolygonStipple(mask) };
 } }
-export! { 1226, glGetPointerv, first_glGetPointerv, hook_glGetPointerv, (pname: u32, params: Ptr) -> (), {
+export! { 1233, glGetPointerv, first_glGetPointerv, hook_glGetPointerv, (pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetPointerv(pname, params) };
 } }
-export! { 1227, glGetPointervEXT, first_glGetPointervEXT, hook_glGetPointervEXT, (pname: u32, params: Ptr) -> (), {
+export! { 1234, glGetPointervEXT, first_glGetPointervEXT, hook_glGetPointervEXT, (pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetPointervEXT(pname, params) };
 } }
-export! { 1228, glGetPointervKHR, first_glGetPointervKHR, hook_glGetPointervKHR, (pname: u32, params: Ptr) -> (), {
+export! { 1235, glGetPointervKHR, first_glGetPointervKHR, hook_glGetPointervKHR, (pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetPointervKHR(pname, params) };
 } }
-export! { 1229, glGetIntegeri_v, first_glGetIntegeri_v, hook_glGetIntegeri_v, (target: u32, index: u32, data: Ptr) -> (), {
+export! { 1236, glGetIntegeri_v, first_glGetIntegeri_v, hook_glGetIntegeri_v, (target: u32, index: u32, data: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetIntegeri_v(target, index, data) };
 } }
-export! { 1230, glGetIntegerIndexedvEXT, first_glGetIntegerIndexedvEXT, hook_glGetIntegerIndexedvEXT, (target: u32, index: u32, data: Ptr) -> (), {
+export! { 1237, glGetIntegerIndexedvEXT, first_glGetIntegerIndexedvEXT, hook_glGetIntegerIndexedvEXT, (target: u32, index: u32, data: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetIntegerIndexedvEXT(target, index, data) };
 } }
-export! { 1231, glGetTexImage, first_glGetTexImage, hook_glGetTexImage, (target: u32, level: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
+export! { 1238, glGetTexImage, first_glGetTexImage, hook_glGetTexImage, (target: u32, level: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
     hooks::settle();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetTexImage(target, level, format, type_, pixels) };
 } }
-export! { 1232, glGetnTexImage, first_glGetnTexImage, hook_glGetnTexImage, (target: u32, level: i32, format: u32, type_: u32, bufSize: i32, pixels: Ptr) -> (), {
+export! { 1239, glGetnTexImage, first_glGetnTexImage, hook_glGetnTexImage, (target: u32, level: i32, format: u32, type_: u32, bufSize: i32, pixels: Ptr) -> (), {
     hooks::settle();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetnTexImage(target, level, format, type_, bufSize, pixels) };
 } }
-export! { 1233, glGetCompressedTexImage, first_glGetCompressedTexImage, hook_glGetCompressedTexImage, (target: u32, level: i32, img: Ptr) -> (), {
+export! { 1240, glGetCompressedTexImage, first_glGetCompressedTexImage, hook_glGetCompressedTexImage, (target: u32, level: i32, img: Ptr) -> (), {
     hooks::settle();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetCompressedTexImage(target, level, img) };
 } }
-export! { 1234, glGetCompressedTexImageARB, first_glGetCompressedTexImageARB, hook_glGetCompressedTexImageARB, (target: u32, level: i32, img: Ptr) -> (), {
+export! { 1241, glGetCompressedTexImageARB, first_glGetCompressedTexImageARB, hook_glGetCompressedTexImageARB, (target: u32, level: i32, img: Ptr) -> (), {
     hooks::settle();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetCompressedTexImageARB(target, level, img) };
 } }
-export! { 1235, glGetnCompressedTexImage, first_glGetnCompressedTexImage, hook_glGetnCompressedTexImage, (target: u32, lod: i32, bufSize: i32, pixels: Ptr) -> (), {
+export! { 1242, glGetnCompressedTexImage, first_glGetnCompressedTexImage, hook_glGetnCompressedTexImage, (target: u32, lod: i32, bufSize: i32, pixels: Ptr) -> (), {
     hooks::settle();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetnCompressedTexImage(target, lod, bufSize, pixels) };
 } }
-export! { 1236, glGetUniformfv, first_glGetUniformfv, hook_glGetUniformfv, (program: u32, location: i32, params: Ptr) -> (), {
+export! { 1243, glGetUniformfv, first_glGetUniformfv, hook_glGetUniformfv, (program: u32, location: i32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetUniformfv(program, location, params) };
 } }
-export! { 1237, glGetUniformfvARB, first_glGetUniformfvARB, hook_glGetUniformfvARB, (programObj: u32, location: i32, params: Ptr) -> (), {
+export! { 1244, glGetUniformfvARB, first_glGetUniformfvARB, hook_glGetUniformfvARB, (programObj: u32, location: i32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetUniformfvARB(programObj, location, params) };
 } }
-export! { 1238, glGetUniformiv, first_glGetUniformiv, hook_glGetUniformiv, (program: u32, location: i32, params: Ptr) -> (), {
+export! { 1245, glGetUniformiv, first_glGetUniformiv, hook_glGetUniformiv, (program: u32, location: i32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetUniformiv(program, location, params) };
 } }
-export! { 1239, glGetUniformivARB, first_glGetUniformivARB, hook_glGetUniformivARB, (programObj: u32, location: i32, params: Ptr) -> (), {
+export! { 1246, glGetUniformivARB, first_glGetUniformivARB, hook_glGetUniformivARB, (programObj: u32, location: i32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetUniformivARB(programObj, location, params) };
 } }
-export! { 1240, glGetVertexAttribdv, first_glGetVertexAttribdv, hook_glGetVertexAttribdv, (index: u32, pname: u32, params: Ptr) -> (), {
+export! { 1247, glGetVertexAttribdv, first_glGetVertexAttribdv, hook_glGetVertexAttribdv, (index: u32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribdv(index, pname, params) };
 } }
-export! { 1241, glGetVertexAttribdvARB, first_glGetVertexAttribdvARB, hook_glGetVertexAttribdvARB, (index: u32, pname: u32, params: Ptr) -> (), {
+export! { 1248, glGetVertexAttribdvARB, first_glGetVertexAttribdvARB, hook_glGetVertexAttribdvARB, (index: u32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribdvARB(index, pname, params) };
 } }
-export! { 1242, glGetVertexAttribdvNV, first_glGetVertexAttribdvNV, hook_glGetVertexAttribdvNV, (index: u32, pname: u32, params: Ptr) -> (), {
+export! { 1249, glGetVertexAttribdvNV, first_glGetVertexAttribdvNV, hook_glGetVertexAttribdvNV, (index: u32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribdvNV(index, pname, params) };
 } }
-export! { 1243, glGetVertexAttribfv, first_glGetVertexAttribfv, hook_glGetVertexAttribfv, (index: u32, pname: u32, params: Ptr) -> (), {
+export! { 1250, glGetVertexAttribfv, first_glGetVertexAttribfv, hook_glGetVertexAttribfv, (index: u32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribfv(index, pname, params) };
 } }
-export! { 1244, glGetVertexAttribfvARB, first_glGetVertexAttribfvARB, hook_glGetVertexAttribfvARB, (index: u32, pname: u32, params: Ptr) -> (), {
+export! { 1251, glGetVertexAttribfvARB, first_glGetVertexAttribfvARB, hook_glGetVertexAttribfvARB, (index: u32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribfvARB(index, pname, params) };
 } }
-export! { 1245, glGetVertexAttribfvNV, first_glGetVertexAttribfvNV, hook_glGetVertexAttribfvNV, (index: u32, pname: u32, params: Ptr) -> (), {
+export! { 1252, glGetVertexAttribfvNV, first_glGetVertexAttribfvNV, hook_glGetVertexAttribfvNV, (index: u32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribfvNV(index, pname, params) };
 } }
-export! { 1246, glGetVertexAttribiv, first_glGetVertexAttribiv, hook_glGetVertexAttribiv, (index: u32, pname: u32, params: Ptr) -> (), {
+export! { 1253, glGetVertexAttribiv, first_glGetVertexAttribiv, hook_glGetVertexAttribiv, (index: u32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribiv(index, pname, params) };
 } }
-export! { 1247, glGetVertexAttribivARB, first_glGetVertexAttribivARB, hook_glGetVertexAttribivARB, (index: u32, pname: u32, params: Ptr) -> (), {
+export! { 1254, glGetVertexAttribivARB, first_glGetVertexAttribivARB, hook_glGetVertexAttribivARB, (index: u32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribivARB(index, pname, params) };
 } }
-export! { 1248, glGetVertexAttribivNV, first_glGetVertexAttribivNV, hook_glGetVertexAttribivNV, (index: u32, pname: u32, params: Ptr) -> (), {
+export! { 1255, glGetVertexAttribivNV, first_glGetVertexAttribivNV, hook_glGetVertexAttribivNV, (index: u32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribivNV(index, pname, params) };
 } }
-export! { 1249, glGetVertexAttribPointerv, first_glGetVertexAttribPointerv, hook_glGetVertexAttribPointerv, (index: u32, pname: u32, pointer: Ptr) -> (), {
+export! { 1256, glGetVertexAttribPointerv, first_glGetVertexAttribPointerv, hook_glGetVertexAttribPointerv, (index: u32, pname: u32, pointer: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribPointerv(index, pname, pointer) };
 } }
-export! { 1250, glGetVertexAttribPointervARB, first_glGetVertexAttribPointervARB, hook_glGetVertexAttribPointervARB, (index: u32, pname: u32, pointer: Ptr) -> (), {
+export! { 1257, glGetVertexAttribPointervARB, first_glGetVertexAttribPointervARB, hook_glGetVertexAttribPointervARB, (index: u32, pname: u32, pointer: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribPointervARB(index, pname, pointer) };
 } }
-export! { 1251, glGetVertexAttribPointervNV, first_glGetVertexAttribPointervNV, hook_glGetVertexAttribPointervNV, (index: u32, pname: u32, pointer: Ptr) -> (), {
+export! { 1258, glGetVertexAttribPointervNV, first_glGetVertexAttribPointervNV, hook_glGetVertexAttribPointervNV, (index: u32, pname: u32, pointer: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribPointervNV(index, pname, pointer) };
 } }
-export! { 1252, glFeedbackBuffer, first_glFeedbackBuffer, hook_glFeedbackBuffer, (size: i32, type_: u32, buffer: Ptr) -> (), {
+export! { 1259, glFeedbackBuffer, first_glFeedbackBuffer, hook_glFeedbackBuffer, (size: i32, type_: u32, buffer: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glFeedbackBuffer(size, type_, buffer) };
 } }
-export! { 1253, glSelectBuffer, first_glSelectBuffer, hook_glSelectBuffer, (size: i32, buffer: Ptr) -> (), {
+export! { 1260, glSelectBuffer, first_glSelectBuffer, hook_glSelectBuffer, (size: i32, buffer: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glSelectBuffer(size, buffer) };
 } }
-export! { 1254, glGenTextures, first_glGenTextures, hook_glGenTextures, (n: i32, textures: Ptr) -> (), {
+export! { 1261, glGenTextures, first_glGenTextures, hook_glGenTextures, (n: i32, textures: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGenTextures(n, textures) };
 } }
-export! { 1255, glGenFramebuffers, first_glGenFramebuffers, hook_glGenFramebuffers, (n: i32, framebuffers: Ptr) -> (), {
+export! { 1262, glGenFramebuffers, first_glGenFramebuffers, hook_glGenFramebuffers, (n: i32, framebuffers: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGenFramebuffers(n, framebuffers) };
 } }
-export! { 1256, glGenFramebuffersEXT, first_glGenFramebuffersEXT, hook_glGenFramebuffersEXT, (n: i32, framebuffers: Ptr) -> (), {
+export! { 1263, glGenFramebuffersEXT, first_glGenFramebuffersEXT, hook_glGenFramebuffersEXT, (n: i32, framebuffers: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGenFramebuffersEXT(n, framebuffers) };
 } }
-export! { 1257, glGenRenderbuffers, first_glGenRenderbuffers, hook_glGenRenderbuffers, (n: i32, renderbuffers: Ptr) -> (), {
+export! { 1264, glGenRenderbuffers, first_glGenRenderbuffers, hook_glGenRenderbuffers, (n: i32, renderbuffers: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGenRenderbuffers(n, renderbuffers) };
 } }
-export! { 1258, glGenRenderbuffersEXT, first_glGenRenderbuffersEXT, hook_glGenRenderbuffersEXT, (n: i32, renderbuffers: Ptr) -> (), {
+export! { 1265, glGenRenderbuffersEXT, first_glGenRenderbuffersEXT, hook_glGenRenderbuffersEXT, (n: i32, renderbuffers: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGenRenderbuffersEXT(n, renderbuffers) };
 } }
-export! { 1259, glBindRenderbuffer, first_glBindRenderbuffer, hook_glBindRenderbuffer, (target: u32, renderbuffer: u32) -> (), {
+export! { 1266, glBindRenderbuffer, first_glBindRenderbuffer, hook_glBindRenderbuffer, (target: u32, renderbuffer: u32) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBindRenderbuffer(target, renderbuffer) };
 } }
-export! { 1260, glRenderbufferStorage, first_glRenderbufferStorage, hook_glRenderbufferStorage, (target: u32, internalformat: u32, width: i32, height: i32) -> (), {
+export! { 1267, glRenderbufferStorage, first_glRenderbufferStorage, hook_glRenderbufferStorage, (target: u32, internalformat: u32, width: i32, height: i32) -> (), {
     hooks::storage();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glRenderbufferStorage(target, internalformat, width, height) };
 } }
-export! { 1261, glRenderbufferStorageEXT, first_glRenderbufferStorageEXT, hook_glRenderbufferStorageEXT, (target: u32, internalformat: u32, width: i32, height: i32) -> (), {
+export! { 1268, glRenderbufferStorageEXT, first_glRenderbufferStorageEXT, hook_glRenderbufferStorageEXT, (target: u32, internalformat: u32, width: i32, height: i32) -> (), {
     hooks::storage();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glRenderbufferStorageEXT(target, internalformat, width, height) };
 } }
-export! { 1262, glRenderbufferStorageMultisample, first_glRenderbufferStorageMultisample, hook_glRenderbufferStorageMultisample, (target: u32, samples: i32, internalformat: u32, width: i32, height: i32) -> (), {
+export! { 1269, glRenderbufferStorageMultisample, first_glRenderbufferStorageMultisample, hook_glRenderbufferStorageMultisample, (target: u32, samples: i32, internalformat: u32, width: i32, height: i32) -> (), {
     hooks::storage();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glRenderbufferStorageMultisample(target, samples, internalformat, width, height) };
 } }
-export! { 1263, glRenderbufferStorageMultisampleEXT, first_glRenderbufferStorageMultisampleEXT, hook_glRenderbufferStorageMultisampleEXT, (target: u32, samples: i32, internalformat: u32, width: i32, height: i32) -> (), {
+export! { 1270, glRenderbufferStorageMultisampleEXT, first_glRenderbufferStorageMultisampleEXT, hook_glRenderbufferStorageMultisampleEXT, (target: u32, samples: i32, internalformat: u32, width: i32, height: i32) -> (), {
     hooks::storage();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glRenderbufferStorageMultisampleEXT(target, samples, internalformat, width, height) };
 } }
-export! { 1264, glRenderbufferStorageMultisampleNV, first_glRenderbufferStorageMultisampleNV, hook_glRenderbufferStorageMultisampleNV, (target: u32, samples: i32, internalformat: u32, width: i32, height: i32) -> (), {
+export! { 1271, glRenderbufferStorageMultisampleNV, first_glRenderbufferStorageMultisampleNV, hook_glRenderbufferStorageMultisampleNV, (target: u32, samples: i32, internalformat: u32, width: i32, height: i32) -> (), {
     hooks::storage();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glRenderbufferStorageMultisampleNV(target, samples, internalformat, width, height) };
 } }
-export! { 1265, glDeleteRenderbuffers, first_glDeleteRenderbuffers, hook_glDeleteRenderbuffers, (n: i32, renderbuffers: Ptr) -> (), {
+export! { 1272, glDeleteRenderbuffers, first_glDeleteRenderbuffers, hook_glDeleteRenderbuffers, (n: i32, renderbuffers: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDeleteRenderbuffers(n, renderbuffers) }
 } }
-export! { 1266, glDeleteRenderbuffersEXT, first_glDeleteRenderbuffersEXT, hook_glDeleteRenderbuffersEXT, (n: i32, renderbuffers: Ptr) -> (), {
+export! { 1273, glDeleteRenderbuffersEXT, first_glDeleteRenderbuffersEXT, hook_glDeleteRenderbuffersEXT, (n: i32, renderbuffers: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDeleteRenderbuffers(n, renderbuffers) }
 } }
-export! { 1267, glBindBuffer, first_glBindBuffer, hook_glBindBuffer, (target: u32, buffer: u32) -> (), {
+export! { 1274, glBindBuffer, first_glBindBuffer, hook_glBindBuffer, (target: u32, buffer: u32) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBindBuffer(target, buffer) };
 } }
-export! { 1268, glBindBufferARB, first_glBindBufferARB, hook_glBindBufferARB, (target: u32, buffer: u32) -> (), {
+export! { 1275, glBindBufferARB, first_glBindBufferARB, hook_glBindBufferARB, (target: u32, buffer: u32) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBindBufferARB(target, buffer) };
 } }
-export! { 1269, glBufferData, first_glBufferData, hook_glBufferData, (target: u32, size: isize, data: Ptr, usage: u32) -> (), {
+export! { 1276, glBufferData, first_glBufferData, hook_glBufferData, (target: u32, size: isize, data: Ptr, usage: u32) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBufferData(target, size, data, usage) };
 } }
-export! { 1270, glBufferDataARB, first_glBufferDataARB, hook_glBufferDataARB, (target: u32, size: isize, data: Ptr, usage: u32) -> (), {
+export! { 1277, glBufferDataARB, first_glBufferDataARB, hook_glBufferDataARB, (target: u32, size: isize, data: Ptr, usage: u32) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBufferDataARB(target, size, data, usage) };
 } }
-export! { 1271, glBufferSubData, first_glBufferSubData, hook_glBufferSubData, (target: u32, offset: isize, size: isize, data: Ptr) -> (), {
+export! { 1278, glBufferSubData, first_glBufferSubData, hook_glBufferSubData, (target: u32, offset: isize, size: isize, data: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBufferSubData(target, offset, size, data) };
 } }
-export! { 1272, glBufferSubDataARB, first_glBufferSubDataARB, hook_glBufferSubDataARB, (target: u32, offset: isize, size: isize, data: Ptr) -> (), {
+export! { 1279, glBufferSubDataARB, first_glBufferSubDataARB, hook_glBufferSubDataARB, (target: u32, offset: isize, size: isize, data: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBufferSubDataARB(target, offset, size, data) };
 } }
-export! { 1273, glDeleteBuffers, first_glDeleteBuffers, hook_glDeleteBuffers, (n: i32, buffers: Ptr) -> (), {
+export! { 1280, glDeleteBuffers, first_glDeleteBuffers, hook_glDeleteBuffers, (n: i32, buffers: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glDeleteBuffers(n, buffers) };
 } }
-export! { 1274, glDeleteBuffersARB, first_glDeleteBuffersARB, hook_glDeleteBuffersARB, (n: i32, buffers: Ptr) -> (), {
+export! { 1281, glDeleteBuffersARB, first_glDeleteBuffersARB, hook_glDeleteBuffersARB, (n: i32, buffers: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glDeleteBuffersARB(n, buffers) };
 } }
-export! { 1275, glPixelStoref, first_glPixelStoref, hook_glPixelStoref, (pname: u32, param: f32) -> (), {
+export! { 1282, glPixelStoref, first_glPixelStoref, hook_glPixelStoref, (pname: u32, param: f32) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPixelStoref(pname, param) };
 } }
-export! { 1276, glPixelStorei, first_glPixelStorei, hook_glPixelStorei, (pname: u32, param: i32) -> (), {
+export! { 1283, glPixelStorei, first_glPixelStorei, hook_glPixelStorei, (pname: u32, param: i32) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPixelStorei(pname, param) };
 } }
-export! { 1277, glPushClientAttrib, first_glPushClientAttrib, hook_glPushClientAttrib, (mask: u32) -> (), {
+export! { 1284, glPushClientAttrib, first_glPushClientAttrib, hook_glPushClientAttrib, (mask: u32) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPushClientAttrib(mask) };
 } }
-export! { 1278, glPopClientAttrib, first_glPopClientAttrib, hook_glPopClientAttrib, () -> (), {
+export! { 1285, glPopClientAttrib, first_glPopClientAttrib, hook_glPopClientAttrib, () -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPopClientAttrib() };
 } }
-export! { 1279, glEnableClientState, first_glEnableClientState, hook_glEnableClientState, (array: u32) -> (), {
+export! { 1286, glEnableClientState, first_glEnableClientState, hook_glEnableClientState, (array: u32) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glEnableClientState(array) };
 } }
-export! { 1280, glDisableClientState, first_glDisableClientState, hook_glDisableClientState, (array: u32) -> (), {
+export! { 1287, glDisableClientState, first_glDisableClientState, hook_glDisableClientState, (array: u32) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glDisableClientState(array) };
 } }
-export! { 1281, glClientActiveTexture, first_glClientActiveTexture, hook_glClientActiveTexture, (texture: u32) -> (), {
+export! { 1288, glClientActiveTexture, first_glClientActiveTexture, hook_glClientActiveTexture, (texture: u32) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glClientActiveTexture(texture) };
 } }
-export! { 1282, glClientActiveTextureARB, first_glClientActiveTextureARB, hook_glClientActiveTextureARB, (texture: u32) -> (), {
+export! { 1289, glClientActiveTextureARB, first_glClientActiveTextureARB, hook_glClientActiveTextureARB, (texture: u32) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glClientActiveTextureARB(texture) };
 } }
-export! { 1283, glInterleavedArrays, first_glInterleavedArrays, hook_glInterleavedArrays, (format: u32, stride: i32, pointer: Ptr) -> (), {
+export! { 1290, glInterleavedArrays, first_glInterleavedArrays, hook_glInterleavedArrays, (format: u32, stride: i32, pointer: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glInterleavedArrays(format, stride, pointer) };
 } }
-export! { 1284, glColorPointer, first_glColorPointer, hook_glColorPointer, (size: i32, type_: u32, stride: i32, pointer: Ptr) -> (), {
+export! { 1291, glColorPointer, first_glColorPointer, hook_glColorPointer, (size: i32, type_: u32, stride: i32, pointer: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glColorPointer(size, type_, stride, pointer) };
 } }
-export! { 1285, glSecondaryColorPointer, first_glSecondaryColorPointer, hook_glSecondaryColorPointer, (size: i32, type_: u32, stride: i32, pointer: Ptr) -> (), {
+export! { 1292, glSecondaryColorPointer, first_glSecondaryColorPointer, hook_glSecondaryColorPointer, (size: i32, type_: u32, stride: i32, pointer: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glSecondaryColorPointer(size, type_, stride, pointer) };
 } }
-export! { 1286, glSecondaryColorPointerEXT, first_glSecondaryColorPointerEXT, hook_glSecondaryColorPointerEXT, (size: i32, type_: u32, stride: i32, pointer: Ptr) -> (), {
+export! { 1293, glSecondaryColorPointerEXT, first_glSecondaryColorPointerEXT, hook_glSecondaryColorPointerEXT, (size: i32, type_: u32, stride: i32, pointer: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glSecondaryColorPointerEXT(size, type_, stride, pointer) };
 } }
-export! { 1287, glTexCoordPointer, first_glTexCoordPointer, hook_glTexCoordPointer, (size: i32, type_: u32, stride: i32, pointer: Ptr) -> (), {
+export! { 1294, glTexCoordPointer, first_glTexCoordPointer, hook_glTexCoordPointer, (size: i32, type_: u32, stride: i32, pointer: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexCoordPointer(size, type_, stride, pointer) };
 } }
-export! { 1288, glVertexPointer, first_glVertexPointer, hook_glVertexPointer, (size: i32, type_: u32, stride: i32, pointer: Ptr) -> (), {
+export! { 1295, glVertexPointer, first_glVertexPointer, hook_glVertexPointer, (size: i32, type_: u32, stride: i32, pointer: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glVertexPointer(size, type_, stride, pointer) };
 } }
-export! { 1289, glEdgeFlagPointer, first_glEdgeFlagPointer, hook_glEdgeFlagPointer, (stride: i32, pointer: Ptr) -> (), {
+export! { 1296, glEdgeFlagPointer, first_glEdgeFlagPointer, hook_glEdgeFlagPointer, (stride: i32, pointer: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glEdgeFlagPointer(stride, pointer) };
 } }
-export! { 1290, glFogCoordPointer, first_glFogCoordPointer, hook_glFogCoordPointer, (type_: u32, stride: i32, pointer: Ptr) -> (), {
+export! { 1297, glFogCoordPointer, first_glFogCoordPointer, hook_glFogCoordPointer, (type_: u32, stride: i32, pointer: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glFogCoordPointer(type_, stride, pointer) };
 } }
-export! { 1291, glFogCoordPointerEXT, first_glFogCoordPointerEXT, hook_glFogCoordPointerEXT, (type_: u32, stride: i32, pointer: Ptr) -> (), {
+export! { 1298, glFogCoordPointerEXT, first_glFogCoordPointerEXT, hook_glFogCoordPointerEXT, (type_: u32, stride: i32, pointer: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glFogCoordPointerEXT(type_, stride, pointer) };
 } }
-export! { 1292, glIndexPointer, first_glIndexPointer, hook_glIndexPointer, (type_: u32, stride: i32, pointer: Ptr) -> (), {
+export! { 1299, glIndexPointer, first_glIndexPointer, hook_glIndexPointer, (type_: u32, stride: i32, pointer: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glIndexPointer(type_, stride, pointer) };
 } }
-export! { 1293, glNormalPointer, first_glNormalPointer, hook_glNormalPointer, (type_: u32, stride: i32, pointer: Ptr) -> (), {
+export! { 1300, glNormalPointer, first_glNormalPointer, hook_glNormalPointer, (type_: u32, stride: i32, pointer: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glNormalPointer(type_, stride, pointer) };
 } }
-export! { 1294, glVertexAttribPointer, first_glVertexAttribPointer, hook_glVertexAttribPointer, (index: u32, size: i32, type_: u32, normalized: u8, stride: i32, pointer: Ptr) -> (), {
+export! { 1301, glVertexAttribPointer, first_glVertexAttribPointer, hook_glVertexAttribPointer, (index: u32, size: i32, type_: u32, normalized: u8, stride: i32, pointer: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glVertexAttribPointer(index, size, type_, normalized, stride, pointer) };
 } }
-export! { 1295, glVertexAttribPointerARB, first_glVertexAttribPointerARB, hook_glVertexAttribPointerARB, (index: u32, size: i32, type_: u32, normalized: u8, stride: i32, pointer: Ptr) -> (), {
+export! { 1302, glVertexAttribPointerARB, first_glVertexAttribPointerARB, hook_glVertexAttribPointerARB, (index: u32, size: i32, type_: u32, normalized: u8, stride: i32, pointer: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glVertexAttribPointerARB(index, size, type_, normalized, stride, pointer) };
 } }
-export! { 1296, glEnableVertexAttribArray, first_glEnableVertexAttribArray, hook_glEnableVertexAttribArray, (index: u32) -> (), {
+export! { 1303, glEnableVertexAttribArray, first_glEnableVertexAttribArray, hook_glEnableVertexAttribArray, (index: u32) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glEnableVertexAttribArray(index) };
 } }
-export! { 1297, glEnableVertexAttribArrayARB, first_glEnableVertexAttribArrayARB, hook_glEnableVertexAttribArrayARB, (index: u32) -> (), {
+export! { 1304, glEnableVertexAttribArrayARB, first_glEnableVertexAttribArrayARB, hook_glEnableVertexAttribArrayARB, (index: u32) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glEnableVertexAttribArrayARB(index) };
 } }
-export! { 1298, glDisableVertexAttribArray, first_glDisableVertexAttribArray, hook_glDisableVertexAttribArray, (index: u32) -> (), {
+export! { 1305, glDisableVertexAttribArray, first_glDisableVertexAttribArray, hook_glDisableVertexAttribArray, (index: u32) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glDisableVertexAttribArray(index) };
 } }
-export! { 1299, glDisableVertexAttribArrayARB, first_glDisableVertexAttribArrayARB, hook_glDisableVertexAttribArrayARB, (index: u32) -> (), {
+export! { 1306, glDisableVertexAttribArrayARB, first_glDisableVertexAttribArrayARB, hook_glDisableVertexAttribArrayARB, (index: u32) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glDisableVertexAttribArrayARB(index) };
 } }
-export! { 1300, glXChooseVisual, first_glXChooseVisual, hook_glXChooseVisual, (dpy: Ptr, screen: i32, attribs: Ptr) -> Ptr, {
+export! { 1307, glXChooseVisual, first_glXChooseVisual, hook_glXChooseVisual, (dpy: Ptr, screen: i32, attribs: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXChooseVisual(dpy, screen, attribs) }
 } }
-export! { 1301, glXChooseFBConfig, first_glXChooseFBConfig, hook_glXChooseFBConfig, (dpy: Ptr, screen: i32, attribs: Ptr, count: Ptr) -> Ptr, {
+export! { 1308, glXChooseFBConfig, first_glXChooseFBConfig, hook_glXChooseFBConfig, (dpy: Ptr, screen: i32, attribs: Ptr, count: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXChooseFBConfig(dpy, screen, attribs, count) }
 } }
-export! { 1302, glXChooseFBConfigSGIX, first_glXChooseFBConfigSGIX, hook_glXChooseFBConfigSGIX, (dpy: Ptr, screen: i32, attribs: Ptr, count: Ptr) -> Ptr, {
+export! { 1309, glXChooseFBConfigSGIX, first_glXChooseFBConfigSGIX, hook_glXChooseFBConfigSGIX, (dpy: Ptr, screen: i32, attribs: Ptr, count: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXChooseFBConfigSGIX(dpy, screen, attribs, count) }
 } }
-export! { 1303, glXSwapBuffers, first_glXSwapBuffers, hook_glXSwapBuffers, (dpy: Ptr, drawable: c_ulong) -> (), {
+export! { 1310, glXSwapBuffers, first_glXSwapBuffers, hook_glXSwapBuffers, (dpy: Ptr, drawable: c_ulong) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glXSwapBuffers(dpy, drawable) }
 } }
-export! { 1304, glXSwapBuffersMscOML, first_glXSwapBuffersMscOML, hook_glXSwapBuffersMscOML, (dpy: Ptr, drawable: c_ulong, target_msc: i64, divisor: i64, remainder: i64) -> i64, {
+export! { 1311, glXSwapBuffersMscOML, first_glXSwapBuffersMscOML, hook_glXSwapBuffersMscOML, (dpy: Ptr, drawable: c_ulong, target_msc: i64, divisor: i64, remainder: i64) -> i64, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXSwapBuffersMscOML(dpy, drawable, target_msc, divisor, remainder) }
 } }
-export! { 1305, glXMakeCurrent, first_glXMakeCurrent, hook_glXMakeCurrent, (dpy: Ptr, drawable: c_ulong, ctx: Ptr) -> i32, {
+export! { 1312, glXMakeCurrent, first_glXMakeCurrent, hook_glXMakeCurrent, (dpy: Ptr, drawable: c_ulong, ctx: Ptr) -> i32, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXMakeCurrent(dpy, drawable, ctx) }
 } }
-export! { 1306, glXMakeContextCurrent, first_glXMakeContextCurrent, hook_glXMakeContextCurrent, (dpy: Ptr, draw: c_ulong, read: c_ulong, ctx: Ptr) -> i32, {
+export! { 1313, glXMakeContextCurrent, first_glXMakeContextCurrent, hook_glXMakeContextCurrent, (dpy: Ptr, draw: c_ulong, read: c_ulong, ctx: Ptr) -> i32, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXMakeContextCurrent(dpy, draw, read, ctx) }
 } }
-export! { 1307, glXMakeCurrentReadSGI, first_glXMakeCurrentReadSGI, hook_glXMakeCurrentReadSGI, (dpy: Ptr, draw: c_ulong, read: c_ulong, ctx: Ptr) -> i32, {
+export! { 1314, glXMakeCurrentReadSGI, first_glXMakeCurrentReadSGI, hook_glXMakeCurrentReadSGI, (dpy: Ptr, draw: c_ulong, read: c_ulong, ctx: Ptr) -> i32, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXMakeCurrentReadSGI(dpy, draw, read, ctx) }
 } }
-export! { 1308, glXCreateContext, first_glXCreateContext, hook_glXCreateContext, (dpy: Ptr, vis: Ptr, share: Ptr, direct: i32) -> Ptr, {
+export! { 1315, glXCreateContext, first_glXCreateContext, hook_glXCreateContext, (dpy: Ptr, vis: Ptr, share: Ptr, direct: i32) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXCreateContext(dpy, vis, share, direct) }
 } }
-export! { 1309, glXCreateNewContext, first_glXCreateNewContext, hook_glXCreateNewContext, (dpy: Ptr, config: Ptr, kind: i32, share: Ptr, direct: i32) -> Ptr, {
+export! { 1316, glXCreateNewContext, first_glXCreateNewContext, hook_glXCreateNewContext, (dpy: Ptr, config: Ptr, kind: i32, share: Ptr, direct: i32) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXCreateNewContext(dpy, config, kind, share, direct) }
 } }
-export! { 1310, glXCreateContextAttribsARB, first_glXCreateContextAttribsARB, hook_glXCreateContextAttribsARB, (dpy: Ptr, config: Ptr, share: Ptr, direct: i32, attribs: Ptr) -> Ptr, {
+export! { 1317, glXCreateContextAttribsARB, first_glXCreateContextAttribsARB, hook_glXCreateContextAttribsARB, (dpy: Ptr, config: Ptr, share: Ptr, direct: i32, attribs: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXCreateContextAttribsARB(dpy, config, share, direct, attribs) }
 } }
-export! { 1311, glXCreateContextWithConfigSGIX, first_glXCreateContextWithConfigSGIX, hook_glXCreateContextWithConfigSGIX, (dpy: Ptr, config: Ptr, kind: i32, share: Ptr, direct: i32) -> Ptr, {
+export! { 1318, glXCreateContextWithConfigSGIX, first_glXCreateContextWithConfigSGIX, hook_glXCreateContextWithConfigSGIX, (dpy: Ptr, config: Ptr, kind: i32, share: Ptr, direct: i32) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXCreateContextWithConfigSGIX(dpy, config, kind, share, direct) }
 } }
-export! { 1312, glXDestroyContext, first_glXDestroyContext, hook_glXDestroyContext, (dpy: Ptr, ctx: Ptr) -> (), {
+export! { 1319, glXDestroyContext, first_glXDestroyContext, hook_glXDestroyContext, (dpy: Ptr, ctx: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glXDestroyContext(dpy, ctx) }
 } }
-export! { 1313, glXCreateWindow, first_glXCreateWindow, hook_glXCreateWindow, (dpy: Ptr, config: Ptr, win: c_ulong, attribs: Ptr) -> c_ulong, {
+export! { 1320, glXCreateWindow, first_glXCreateWindow, hook_glXCreateWindow, (dpy: Ptr, config: Ptr, win: c_ulong, attribs: Ptr) -> c_ulong, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXCreateWindow(dpy, config, win, attribs) }
 } }
-export! { 1314, glXDestroyWindow, first_glXDestroyWindow, hook_glXDestroyWindow, (dpy: Ptr, win: c_ulong) -> (), {
+export! { 1321, glXDestroyWindow, first_glXDestroyWindow, hook_glXDestroyWindow, (dpy: Ptr, win: c_ulong) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glXDestroyWindow(dpy, win) }
 } }
-export! { 1315, glXGetProcAddress, first_glXGetProcAddress, hook_glXGetProcAddress, (name: Ptr) -> Ptr, {
+export! { 1322, glXGetProcAddress, first_glXGetProcAddress, hook_glXGetProcAddress, (name: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXGetProcAddress(name) }
 } }
-export! { 1316, glXGetProcAddressARB, first_glXGetProcAddressARB, hook_glXGetProcAddressARB, (name: Ptr) -> Ptr, {
+export! { 1323, glXGetProcAddressARB, first_glXGetProcAddressARB, hook_glXGetProcAddressARB, (name: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXGetProcAddressARB(name) }
 } }
-export! { 1318, eglSwapBuffers, first_eglSwapBuffers, hook_eglSwapBuffers, (dpy: Ptr, surface: Ptr) -> u32, {
+export! { 1325, eglSwapBuffers, first_eglSwapBuffers, hook_eglSwapBuffers, (dpy: Ptr, surface: Ptr) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglSwapBuffers(dpy, surface) }
 } }
-export! { 1319, eglSwapBuffersWithDamageKHR, first_eglSwapBuffersWithDamageKHR, hook_eglSwapBuffersWithDamageKHR, (dpy: Ptr, surface: Ptr, rects: Ptr, n: i32) -> u32, {
+export! { 1326, eglSwapBuffersWithDamageKHR, first_eglSwapBuffersWithDamageKHR, hook_eglSwapBuffersWithDamageKHR, (dpy: Ptr, surface: Ptr, rects: Ptr, n: i32) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglSwapBuffersWithDamageKHR(dpy, surface, rects, n) }
 } }
-export! { 1320, eglSwapBuffersWithDamageEXT, first_eglSwapBuffersWithDamageEXT, hook_eglSwapBuffersWithDamageEXT, (dpy: Ptr, surface: Ptr, rects: Ptr, n: i32) -> u32, {
+export! { 1327, eglSwapBuffersWithDamageEXT, first_eglSwapBuffersWithDamageEXT, hook_eglSwapBuffersWithDamageEXT, (dpy: Ptr, surface: Ptr, rects: Ptr, n: i32) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglSwapBuffersWithDamageEXT(dpy, surface, rects, n) }
 } }
-export! { 1321, eglMakeCurrent, first_eglMakeCurrent, hook_eglMakeCurrent, (dpy: Ptr, draw: Ptr, read: Ptr, ctx: Ptr) -> u32, {
+export! { 1328, eglMakeCurrent, first_eglMakeCurrent, hook_eglMakeCurrent, (dpy: Ptr, draw: Ptr, read: Ptr, ctx: Ptr) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglMakeCurrent(dpy, draw, read, ctx) }
 } }
-export! { 1322, eglCreateContext, first_eglCreateContext, hook_eglCreateContext, (dpy: Ptr, config: Ptr, share: Ptr, attribs: Ptr) -> Ptr, {
+export! { 1329, eglCreateContext, first_eglCreateContext, hook_eglCreateContext, (dpy: Ptr, config: Ptr, share: Ptr, attribs: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglCreateContext(dpy, config, share, attribs) }
 } }
-export! { 1323, eglDestroyContext, first_eglDestroyContext, hook_eglDestroyContext, (dpy: Ptr, ctx: Ptr) -> u32, {
+export! { 1330, eglDestroyContext, first_eglDestroyContext, hook_eglDestroyContext, (dpy: Ptr, ctx: Ptr) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglDestroyContext(dpy, ctx) }
 } }
-export! { 1324, eglReleaseThread, first_eglReleaseThread, hook_eglReleaseThread, () -> u32, {
+export! { 1331, eglReleaseThread, first_eglReleaseThread, hook_eglReleaseThread, () -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglReleaseThread() }
 } }
-export! { 1325, eglGetDisplay, first_eglGetDisplay, hook_eglGetDisplay, (native: Ptr) -> Ptr, {
+export! { 1332, eglGetDisplay, first_eglGetDisplay, hook_eglGetDisplay, (native: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglGetDisplay(native) }
 } }
-export! { 1326, eglGetPlatformDisplay, first_eglGetPlatformDisplay, hook_eglGetPlatformDisplay, (platform: u32, native: Ptr, attribs: Ptr) -> Ptr, {
+export! { 1333, eglGetPlatformDisplay, first_eglGetPlatformDisplay, hook_eglGetPlatformDisplay, (platform: u32, native: Ptr, attribs: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglGetPlatformDisplay(platform, native, attribs) }
 } }
-export! { 1327, eglGetPlatformDisplayEXT, first_eglGetPlatformDisplayEXT, hook_eglGetPlatformDisplayEXT, (platform: u32, native: Ptr, attribs: Ptr) -> Ptr, {
+export! { 1334, eglGetPlatformDisplayEXT, first_eglGetPlatformDisplayEXT, hook_eglGetPlatformDisplayEXT, (platform: u32, native: Ptr, attribs: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglGetPlatformDisplayEXT(platform, native, attribs) }
 } }
-export! { 1328, eglCreateWindowSurface, first_eglCreateWindowSurface, hook_eglCreateWindowSurface, (dpy: Ptr, config: Ptr, win: Ptr, attribs: Ptr) -> Ptr, {
+export! { 1335, eglCreateWindowSurface, first_eglCreateWindowSurface, hook_eglCreateWindowSurface, (dpy: Ptr, config: Ptr, win: Ptr, attribs: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglCreateWindowSurface(dpy, config, win, attribs) }
 } }
-export! { 1329, eglCreatePlatformWindowSurface, first_eglCreatePlatformWindowSurface, hook_eglCreatePlatformWindowSurface, (dpy: Ptr, config: Ptr, win: Ptr, attribs: Ptr) -> Ptr, {
+export! { 1336, eglCreatePlatformWindowSurface, first_eglCreatePlatformWindowSurface, hook_eglCreatePlatformWindowSurface, (dpy: Ptr, config: Ptr, win: Ptr, attribs: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglCreatePlatformWindowSurface(dpy, config, win, attribs) }
 } }
-export! { 1330, eglCreatePlatformWindowSurfaceEXT, first_eglCreatePlatformWindowSurfaceEXT, hook_eglCreatePlatformWindowSurfaceEXT, (dpy: Ptr, config: Ptr, win: Ptr, attribs: Ptr) -> Ptr, {
+export! { 1337, eglCreatePlatformWindowSurfaceEXT, first_eglCreatePlatformWindowSurfaceEXT, hook_eglCreatePlatformWindowSurfaceEXT, (dpy: Ptr, config: Ptr, win: Ptr, attribs: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglCreatePlatformWindowSurfaceEXT(dpy, config, win, attribs) }
 } }
-export! { 1331, eglDestroySurface, first_eglDestroySurface, hook_eglDestroySurface, (dpy: Ptr, surface: Ptr) -> u32, {
+export! { 1338, eglDestroySurface, first_eglDestroySurface, hook_eglDestroySurface, (dpy: Ptr, surface: Ptr) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglDestroySurface(dpy, surface) }
 } }
-export! { 1332, eglGetProcAddress, first_eglGetProcAddress, hook_eglGetProcAddress, (name: Ptr) -> Ptr, {
+export! { 1339, eglGetProcAddress, first_eglGetProcAddress, hook_eglGetProcAddress, (name: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglGetProcAddress(name) }
 } }
-export! { 1337, OSMesaMakeCurrent, first_OSMesaMakeCurrent, hook_OSMesaMakeCurrent, (ctx: Ptr, buffer: Ptr, kind: u32, width: i32, height: i32) -> u8, {
+export! { 1344, OSMesaMakeCurrent, first_OSMesaMakeCurrent, hook_OSMesaMakeCurrent, (ctx: Ptr, buffer: Ptr, kind: u32, width: i32, height: i32) -> u8, {
     // SAFETY: the program's own arguments.
     unsafe { special::OSMesaMakeCurrent(ctx, buffer, kind, width, height) }
 } }
-export! { 1338, OSMesaCreateContext, first_OSMesaCreateContext, hook_OSMesaCreateContext, (format: u32, share: Ptr) -> Ptr, {
+export! { 1345, OSMesaCreateContext, first_OSMesaCreateContext, hook_OSMesaCreateContext, (format: u32, share: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::OSMesaCreateContext(format, share) }
 } }
-export! { 1339, OSMesaCreateContextExt, first_OSMesaCreateContextExt, hook_OSMesaCreateContextExt, (format: u32, depth: i32, stencil: i32, accum: i32, share: Ptr) -> Ptr, {
+export! { 1346, OSMesaCreateContextExt, first_OSMesaCreateContextExt, hook_OSMesaCreateContextExt, (format: u32, depth: i32, stencil: i32, accum: i32, share: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::OSMesaCreateContextExt(format, depth, stencil, accum, share) }
 } }
-export! { 1340, OSMesaCreateContextAttribs, first_OSMesaCreateContextAttribs, hook_OSMesaCreateContextAttribs, (attribs: Ptr, share: Ptr) -> Ptr, {
+export! { 1347, OSMesaCreateContextAttribs, first_OSMesaCreateContextAttribs, hook_OSMesaCreateContextAttribs, (attribs: Ptr, share: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::OSMesaCreateContextAttribs(attribs, share) }
 } }
-export! { 1341, OSMesaDestroyContext, first_OSMesaDestroyContext, hook_OSMesaDestroyContext, (ctx: Ptr) -> (), {
+export! { 1348, OSMesaDestroyContext, first_OSMesaDestroyContext, hook_OSMesaDestroyContext, (ctx: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::OSMesaDestroyContext(ctx) }
 } }
-export! { 1342, OSMesaGetProcAddress, first_OSMesaGetProcAddress, hook_OSMesaGetProcAddress, (name: Ptr) -> Ptr, {
+export! { 1349, OSMesaGetProcAddress, first_OSMesaGetProcAddress, hook_OSMesaGetProcAddress, (name: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::OSMesaGetProcAddress(name) }
 } }

@@ -68,6 +68,13 @@ pub(crate) fn settle() {
     }
 }
 
+/// An attribute is about to advance by instances.
+#[inline]
+pub(crate) fn divide() {
+    ask();
+    context::peek(|l| l.divides());
+}
+
 /// A parameter of a texture is about to be set.
 #[inline]
 pub(crate) fn look() {

@@ -13,4 +13,4 @@ pub use amplified::{Amplified, Programs};
 pub use current::Current;
 pub use fixed_state::{Driver, FixedState, limits};
 pub use replay::{Again, cut, enter_own, others, place, replay, unplace};
-pub use twin::{Drawn, NoTwin, Twin, drawn};
+pub use twin::{Drawn, NoTwin, Twin, Way, drawn};

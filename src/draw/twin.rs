@@ -3,10 +3,23 @@
 
 use crate::gl::{Active, Gl};
 use crate::plan::Shear;
-use crate::rewrite::{Amplifier, Names, Options, Refusal, Stage, Target, Uniform, facts, rewrite};
+use crate::rewrite::{
+    Amplifier, Names, Options, Refusal, Stage, Target, Uniform, VertexLayer, facts, rewrite,
+};
 use crate::state::Text;
 use std::borrow::Cow;
 use std::ffi::{CStr, CString};
+
+/// How a twin draws the views.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Way {
+    /// One at a time, where its viewport or framebuffer is.
+    Alone,
+    /// One at a time, to a layer that it chooses.
+    Layer(VertexLayer),
+    /// All at once, up to so many: an instance for each, to the layer of each.
+    Instances(VertexLayer, u32),
+}
 
 /// What a program draws the views by.
 #[derive(Debug)]
@@ -43,6 +56,7 @@ pub struct Twin {
     name: u32,
     shift: i32,
     tile: i32,
+    views: i32,
     across: i32,
     up: i32,
     /// Type, location in the program, location here; one for each element of arrays.
@@ -51,9 +65,8 @@ pub struct Twin {
     blocks: Vec<Option<u32>>,
 }
 
-/// How the draws of a program get their views. `texts` are those that it was linked from; `target`: by what
-/// the views are told apart. Changes nothing of the program's state.
-pub fn drawn(gl: &Gl, program: u32, texts: &[Text], target: Target) -> Result<Drawn, NoTwin> {
+/// How the draws of a program get their views. `texts` are those that it was linked from. Changes nothing of the program's state.
+pub fn drawn(gl: &Gl, program: u32, texts: &[Text], way: Way) -> Result<Drawn, NoTwin> {
     if texts.is_empty() || texts.iter().any(|text| text.source.is_empty()) {
         return Err(NoTwin::NoText);
     }
@@ -68,10 +81,15 @@ pub fn drawn(gl: &Gl, program: u32, texts: &[Text], target: Target) -> Result<Dr
         .max_by_key(|&stage| rank(stage))
         .filter(|&stage| rank(stage) > 0);
     let last = last.ok_or(NoTwin::NoVertex)?;
+    let (amplifier, target, views) = match way {
+        Way::Alone => (Amplifier::Replay, Target::Whole, 1),
+        Way::Layer(by) => (Amplifier::Replay, Target::Layer(by), 1),
+        Way::Instances(by, views) => (Amplifier::Instanced, Target::Layer(by), views),
+    };
     let options = Options {
-        amplifier: Amplifier::Replay,
+        amplifier,
         target,
-        views: 1,
+        views,
         es: false,
     };
     let mut projection = false;
@@ -184,6 +202,7 @@ impl Twin {
             name,
             shift: ours(shift, Uniform::Shift),
             tile: ours(shift, Uniform::Tile),
+            views: ours(shift, Uniform::Views),
             across: window(Uniform::Across),
             up: window(Uniform::Up),
             uniforms,
@@ -211,27 +230,32 @@ impl Twin {
         }
     }
 
-    /// The layer of the view that is drawn next; the twin is in use, and chooses layers.
-    pub fn choose(&self, gl: &Gl, layer: u32) {
-        gl.uniform_4fv(self.tile, &[[0.0, 0.0, layer as f32, 0.0]]);
+    /// The layers of the views that are drawn next; the twin is in use, and chooses layers.
+    pub fn choose(&self, gl: &Gl, layers: &[u32]) {
+        let tiles: Vec<_> = layers.iter().map(|&l| [0.0, 0.0, l as f32, 0.0]).collect();
+        gl.uniform_4fv(self.tile, &tiles);
+        if self.views >= 0 {
+            gl.uniform_1i(self.views, layers.len() as i32);
+        }
     }
 
-    /// The view that is drawn next; the twin is in use. `shear` of the scene, `flat` of what has no depth, both at the view's `place`
-    /// (see [`crate::plan::Rig::place`]); `stride`: pixels from tile to tile.
+    /// The views that are drawn next; the twin is in use. `shear` of the scene, `flat` of what has no depth, both at the `places` of the
+    /// views (see [`crate::plan::Rig::place`]); `stride`: pixels from tile to tile.
     pub fn place(
         &self,
         gl: &Gl,
         (shear, flat): (Option<Shear>, Option<Shear>),
-        place: f64,
+        places: &[f64],
         stride: u32,
     ) {
-        let sep = |shear: &Shear| shear.separation(place);
-        let scene = shear.map_or((0.0, 0.0), |s| (sep(&s), sep(&s) * s.conv));
-        let flat = flat.map_or(0.0, |s| sep(&s));
-        gl.uniform_4fv(
-            self.shift,
-            &[[scene.0 as f32, scene.1 as f32, flat as f32, 0.0]],
-        );
+        let shift = |&place: &f64| {
+            let sep = |shear: &Shear| shear.separation(place);
+            let scene = shear.map_or((0.0, 0.0), |s| (sep(&s), sep(&s) * s.conv));
+            let flat = flat.map_or(0.0, |s| sep(&s));
+            [scene.0 as f32, scene.1 as f32, flat as f32, 0.0]
+        };
+        let shifts: Vec<_> = places.iter().map(shift).collect();
+        gl.uniform_4fv(self.shift, &shifts);
         if self.across >= 0 {
             gl.uniform_4fv(self.across, &[[1.0, 0.0, stride as f32, 0.0]]);
             gl.uniform_4fv(self.up, &[[0.0, 1.0, 0.0, 0.0]]);

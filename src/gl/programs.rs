@@ -132,6 +132,24 @@ impl Gl {
         actives(count, longest, &ask)
     }
 
+    /// Whether an attribute that is enabled advances by instances.
+    pub fn has_divisors(&self) -> bool {
+        let all = self.get_integer(c::MAX_VERTEX_ATTRIBS).clamp(1, 32) as u32;
+        let ask = |at, name| {
+            let mut v = [0i32; 4];
+            // SAFETY: room for one value.
+            unsafe {
+                self.real
+                    .glGetVertexAttribiv(at, name, v.as_mut_ptr().cast())
+            };
+            v[0]
+        };
+        (0..all).any(|at| {
+            ask(at, c::VERTEX_ATTRIB_ARRAY_DIVISOR) != 0
+                && ask(at, c::VERTEX_ATTRIB_ARRAY_ENABLED) != 0
+        })
+    }
+
     /// The active attributes of a program.
     pub fn active_attributes(&self, program: u32) -> Vec<Active> {
         let longest = self.program_parameter(program, c::ACTIVE_ATTRIBUTE_MAX_LENGTH);

@@ -1,7 +1,7 @@
 //! A draw call of the program: refresh, plan, execute, count.
 
 use super::Layer;
-use super::programs::Entered;
+use super::programs::{Entered, With};
 use crate::atlas::Surface;
 use crate::config::{Class, Output, Projection, Strategy, Word};
 use crate::draw::{Again, Amplified, FixedState, Programs, replay};
@@ -105,6 +105,20 @@ impl Layer {
         match plan.method {
             Method::Once => self.once(gl, call),
             Method::Replay => self.replay(gl, &plan, Again::Same, &mut |_| call()),
+            Method::Instanced if plan.twin => {
+                let mut draw = |views: i32| match primitives {
+                    Primitives::Arrays { mode, first, count } => {
+                        gl.draw_arrays_instanced(mode, first, count, views)
+                    }
+                    Primitives::Elements {
+                        mode,
+                        count,
+                        kind,
+                        indices,
+                    } => gl.draw_elements_instanced(mode, count, kind, indices, views),
+                };
+                self.draw_instances(gl, &plan, &mut draw, call);
+            }
             Method::Instanced | Method::Geometry => {
                 let Some(how) = self.amplify(gl, &plan, primitives.mode(), false) else {
                     return self.replay(gl, &plan, Again::Same, &mut |_| call());
@@ -217,6 +231,7 @@ impl Layer {
         let plan = plan(kind, &self.state, &self.rig, &self.means, &classed);
         let plan = self.plan_shaders(gl, kind, &classed, plan);
         let plan = self.follow(gl, kind, self.uncounted(plan));
+        let plan = self.by_instances(gl, kind, plan);
         self.keep_alike(gl, kind, &plan);
         self.explain_this(&facts, &classed);
         self.prove_this(gl, &facts, &plan);
@@ -258,11 +273,16 @@ impl Layer {
             return self.replay_aside(gl, target, plan, again, call);
         }
         let mut twins = std::mem::take(&mut self.twins);
-        match plan.twin.then(|| twins.enter(gl, program, false)).flatten() {
+        match plan
+            .twin
+            .then(|| twins.enter(gl, program, With::Views))
+            .flatten()
+        {
             Some(Entered { twin, .. }) => {
                 let (rig, stride) = (self.rig, self.atlas.tiles.stride);
                 self.replay_by(gl, None, None, again, &mut |view| {
-                    twin.place(gl, (plan.shear, plan.flat), rig.place(view), stride);
+                    let shifts = (plan.shear, plan.flat);
+                    twin.place(gl, shifts, &[rig.place(view)], stride);
                     call(view);
                 });
                 gl.use_program(program);

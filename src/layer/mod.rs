@@ -17,6 +17,7 @@ mod frame;
 mod framebuffer;
 mod frames;
 mod immediate;
+mod instances;
 mod left;
 mod lists;
 mod passes;
@@ -92,6 +93,8 @@ pub struct Layer {
     sampled: Vec<Bound>,
     /// The program, and the changes of uniforms and images, up to which that is known.
     sampled_by: Option<(u32, u64, u64)>,
+    /// The program has attributes that advance by instances.
+    divides: bool,
     /// How a vertex shader chooses the layer that it draws to, where the driver lets it.
     vertex_layer: Option<VertexLayer>,
     /// A of the camera that the window is drawn with, for telling it from a lamp's.
@@ -171,7 +174,7 @@ impl Layer {
         let program = profile::this_program();
         let all: Vec<Strategy> = [
             (Strategy::Replay, true),
-            (Strategy::Instanced, support.instanced()),
+            (Strategy::Instanced, support.instanced() || support.layers),
             (Strategy::Geometry, support.geometry()),
         ]
         .into_iter()
@@ -234,6 +237,7 @@ impl Layer {
             offscreen: Offscreen::new(gl, config.views, support.compatibility),
             sampled: Vec::new(),
             sampled_by: None,
+            divides: false,
             vertex_layer: crate::draw::limits(gl, support.glsl).vertex_layer,
             lens: None,
             executed: None,

@@ -5,7 +5,7 @@
 //! the window or the camera has. Shadow maps, cube faces, light maps have neither. Whatever samples, copies or blits from one that differs
 //! makes its own target differ.
 
-use super::programs::Entered;
+use super::programs::{Entered, With};
 use super::{Layer, keep_bindings};
 use crate::atlas::Surface;
 use crate::config::Class;
@@ -117,7 +117,7 @@ impl Layer {
             false => self.offscreen.is_split(gl, framebuffer) && self.split(gl, framebuffer),
         };
         if split && plan.twin && self.offscreen.target(gl, framebuffer).layered().is_some() {
-            self.know_layers(gl, self.state.program);
+            self.know_layers(gl, self.state.program, false);
         }
         plan.method = if split { Method::Replay } else { Method::Once };
         plan.reason = None;
@@ -136,8 +136,9 @@ impl Layer {
         let program = self.state.program;
         let mut twins = std::mem::take(&mut self.twins);
         let layered = target.layered();
+        let with = layered.map_or(With::Views, |_| With::Layers);
         let twin = match plan.twin {
-            true => twins.enter(gl, program, layered.is_some()),
+            true => twins.enter(gl, program, with),
             false => None,
         };
         let by_layers = twin.as_ref().is_some_and(|twin| twin.layers) || again == Again::Clear;
@@ -157,9 +158,9 @@ impl Layer {
                 let (rig, tiles) = (self.rig, target.tiles());
                 self.replay_by(gl, Some(&mut target), None, again, &mut |view| {
                     let shifts = (plan.shear, plan.flat);
-                    twin.place(gl, shifts, rig.place(view), tiles.stride);
+                    twin.place(gl, shifts, &[rig.place(view)], tiles.stride);
                     if *layers {
-                        twin.choose(gl, tiles.slot(view));
+                        twin.choose(gl, &[tiles.slot(view)]);
                     }
                     call(view);
                 });

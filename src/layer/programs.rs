@@ -2,10 +2,9 @@
 
 use super::Layer;
 use crate::config::Class;
-use crate::draw::{Drawn, NoTwin, Twin, drawn};
+use crate::draw::{Drawn, NoTwin, Twin, Way, drawn};
 use crate::gl::{Gl, Held, consts as c};
 use crate::plan::{Classed, Kind, Method, Plan, camera};
-use crate::rewrite::Target;
 use crate::state::{Matrices, Samplers, Shaders, texts, uniform_change};
 use std::collections::HashMap;
 use std::sync::PoisonError;
@@ -18,6 +17,17 @@ pub(super) struct Twins {
     camera: Option<[f32; 16]>,
     /// Deleted while in use: such a program lives until another one is in use, and so it must when the layer uses one.
     doomed: Vec<u32>,
+}
+
+/// What a twin is wanted for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum With {
+    /// One view, wherever that is.
+    Views,
+    /// One view in its layer, if that can be.
+    Layers,
+    /// All views in their layers.
+    Instances,
 }
 
 /// A twin in use.
@@ -34,8 +44,8 @@ struct Known {
     /// The link that it belongs to.
     link: u64,
     how: Result<Drawn, NoTwin>,
-    /// The twin that chooses the layer it draws to, once it has been wanted.
-    layered: Option<Option<Twin>>,
+    /// The twins that choose layers, once they have been wanted: for one view, and for all.
+    layered: [Option<Option<Twin>>; 2],
     matrices: Matrices,
     samplers: Samplers,
     /// Their units, and the changes of uniforms up to which they are known.
@@ -44,7 +54,7 @@ struct Known {
     camera: Option<(usize, [f32; 16])>,
     /// The changes of uniforms up to which its camera was looked for, and its values follow.
     seen: u64,
-    followed: (u64, u64),
+    followed: [u64; 3],
 }
 
 impl Known {
@@ -54,19 +64,22 @@ impl Known {
             Ok(Drawn::ByTwin(twin)) => Some(twin),
             _ => None,
         };
-        let layered = self.layered.as_ref().and_then(Option::as_ref);
+        let layered = self.layered.iter().flatten().flatten();
         whole.into_iter().chain(layered).map(Twin::name)
     }
 }
 
 impl Twins {
-    /// The twin of a program, in use, with the values of its uniforms; the one that chooses layers where it is there and `layers`.
-    pub(super) fn enter(&mut self, gl: &Gl, program: u32, layers: bool) -> Option<Entered<'_>> {
+    /// The twin of a program, in use, with the values of its uniforms; with layers only where one is there that chooses
+    /// them.
+    pub(super) fn enter(&mut self, gl: &Gl, program: u32, with: With) -> Option<Entered<'_>> {
         let known = self.known.get_mut(&program)?;
-        let layered = known.layered.as_ref().and_then(Option::as_ref);
-        let (twin, followed, layers) = match (layered.filter(|_| layers), &known.how) {
-            (Some(twin), _) => (twin, &mut known.followed.1, true),
-            (None, Ok(Drawn::ByTwin(twin))) => (twin, &mut known.followed.0, false),
+        let [alone, layer, instances] = &mut known.followed;
+        let [by_layer, by_instances] = known.layered.each_ref().map(|t| t.as_ref()?.as_ref());
+        let (twin, followed, layers) = match (with, by_layer, by_instances, &known.how) {
+            (With::Instances, _, Some(twin), _) => (twin, instances, true),
+            (With::Layers, Some(twin), _, _) => (twin, layer, true),
+            (With::Layers | With::Views, _, _, Ok(Drawn::ByTwin(twin))) => (twin, alone, false),
             _ => return None,
         };
         gl.use_program(twin.name());
@@ -261,7 +274,7 @@ impl Layer {
         }
         self.state.keep_errors(gl);
         let how = match &linked {
-            Some((_, texts)) => drawn(gl, program, texts, Target::Whole),
+            Some((_, texts)) => drawn(gl, program, texts, Way::Alone),
             None => Err(NoTwin::NoText),
         };
         let matrices = Matrices::of(gl, program);
@@ -285,24 +298,31 @@ impl Layer {
             units: (0, Vec::new()),
             camera: None,
             seen: 0,
-            followed: (0, 0),
-            layered: None,
+            followed: [0; 3],
+            layered: [None, None],
         };
         if let Some(old) = self.twins.known.insert(program, new) {
             old.twins().for_each(|twin| gl.delete_program(twin));
         }
     }
 
-    /// Makes the twin that chooses layers, where the driver can; once for each link.
-    pub(super) fn know_layers(&mut self, gl: &Gl, program: u32) {
+    /// Makes the twin that chooses layers, for one view or for all, where the driver can and once for each link; whether it is there.
+    pub(super) fn know_layers(&mut self, gl: &Gl, program: u32, all: bool) -> bool {
+        let at = usize::from(all);
         let known = self.twins.known.get(&program);
-        if known.is_none_or(|known| known.layered.is_some()) {
-            return;
+        match known.and_then(|known| known.layered.get(at)) {
+            Some(None) => {}
+            Some(Some(made)) => return made.is_some(),
+            None => return false,
         }
         let linked = self.shaders(|shaders| shaders.of(program));
+        let way = self.vertex_layer.map(|by| match all {
+            true => Way::Instances(by, self.config.views),
+            false => Way::Layer(by),
+        });
         self.state.keep_errors(gl);
-        let made = match (linked, self.vertex_layer) {
-            (Some((_, texts)), Some(by)) => drawn(gl, program, &texts, Target::Layer(by)).ok(),
+        let made = match (linked, way) {
+            (Some((_, texts)), Some(way)) => drawn(gl, program, &texts, way).ok(),
             _ => None,
         };
         self.drain_own_errors(gl);
@@ -310,12 +330,15 @@ impl Layer {
             Some(Drawn::ByTwin(twin)) => Some(twin),
             _ => None,
         };
-        if twin.is_some() {
+        let there = twin.is_some();
+        if there {
             self.programs.compiled += 1;
             self.report.shaders(self.programs.compiled);
         }
-        if let Some(known) = self.twins.known.get_mut(&program) {
-            known.layered = Some(twin);
+        let known = self.twins.known.get_mut(&program);
+        if let Some(slot) = known.and_then(|known| known.layered.get_mut(at)) {
+            *slot = Some(twin);
         }
+        there
     }
 }

@@ -62,7 +62,7 @@ impl Support {
             flip: gl.has_extension("GL_MESA_framebuffer_flip_y"),
             glsl,
             clip_distances,
-            layers: clip_distances >= 2 && crate::draw::limits(gl, glsl).vertex_layer.is_some(),
+            layers: crate::draw::limits(gl, glsl).vertex_layer.is_some(),
             viewports: version >= (4, 1) || gl.has_extension("GL_ARB_viewport_array"),
             limits: Limits {
                 side: side.max(1).unsigned_abs(),
@@ -91,7 +91,7 @@ impl Support {
     pub fn strategies(&self) -> Vec<&'static str> {
         [
             ("replay", true),
-            ("instanced", self.instanced()),
+            ("instanced", self.instanced() || self.layers),
             ("geometry", self.geometry()),
         ]
         .into_iter()
@@ -106,7 +106,7 @@ impl Support {
         if !self.flip {
             notes.push("the driver has no GL_MESA_framebuffer_flip_y: a view may differ from the window in single pixels".to_owned());
         }
-        if !self.instanced() {
+        if !self.instanced() && (self.compatibility || !self.layers) {
             let reason = match (self.compatibility, self.glsl) {
                 (false, _) => "a core profile has no fixed function to generate shaders for",
                 (_, 150..) => "the driver has fewer than two clip distances",

@@ -1,0 +1,101 @@
+//! Draws of a program with shaders of its own, all views at once: a twin with an instance for each view, which chooses its layer.
+
+use super::Layer;
+use super::drawing::method_name;
+use super::programs::{Entered, With};
+use crate::atlas::Surface;
+use crate::config::{Strategy, Word};
+use crate::draw::Again;
+use crate::gl::{Gl, consts as c};
+use crate::plan::{Kind, Method, Plan};
+
+impl Layer {
+    /// Whether a draw that goes by a twin takes all views by instances. Not where each view samples a texture of its own, or the program
+    /// counts what is drawn.
+    pub(super) fn by_instances(&mut self, gl: &Gl, kind: Kind, plan: Plan) -> Plan {
+        let wanted = self.means.strategy == Strategy::Instanced
+            && plan.twin
+            && plan.method == Method::Replay
+            && matches!(kind, Kind::Arrays(_) | Kind::Elements(_))
+            && self.sampled.is_empty()
+            && !self.queries.active()
+            && !self.means.together;
+        if !wanted || !self.has_layers(gl) || (self.divides && gl.has_divisors()) {
+            return plan;
+        }
+        match self.know_layers(gl, self.state.program, true) {
+            true => Plan {
+                method: Method::Instanced,
+                reason: None,
+                ..plan
+            },
+            false => plan,
+        }
+    }
+
+    /// Whether what is drawn to has all views as its layers.
+    fn has_layers(&mut self, gl: &Gl) -> bool {
+        let tiles = &self.atlas.tiles;
+        match self.state.framebuffers.draw {
+            0 => tiles.columns == 1 && tiles.grid.is_full() && self.atlas.layered().is_some(),
+            framebuffer => self.offscreen.target(gl, framebuffer).layered().is_some(),
+        }
+    }
+
+    /// Such a draw; `draw` makes it with a number of instances, `call` as the program does.
+    pub(super) fn draw_instances(
+        &mut self,
+        gl: &Gl,
+        plan: &Plan,
+        draw: &mut dyn FnMut(i32),
+        call: &mut dyn FnMut(),
+    ) {
+        let (program, rig) = (self.state.program, self.rig);
+        let framebuffer = self.state.framebuffers.draw;
+        let shifts = (plan.shear, plan.flat);
+        let mut twins = std::mem::take(&mut self.twins);
+        if self.proving.atlas().is_some()
+            && let Some(Entered { twin, .. }) = twins.enter(gl, program, With::Views)
+        {
+            let stride = self.atlas.tiles.stride;
+            self.prove(gl, None, Again::Same, &mut |view| {
+                twin.place(gl, shifts, &[rig.place(view)], stride);
+                call();
+            });
+        }
+        let target = self.offscreen.take(framebuffer, self.wanted_views());
+        let tiles = target
+            .as_ref()
+            .map_or(self.atlas.tiles, |target| target.tiles());
+        if let Some(Entered { twin, .. }) = twins.enter(gl, program, With::Instances) {
+            let views: Vec<u32> = tiles.order().collect();
+            let places: Vec<f64> = views.iter().map(|&view| rig.place(view)).collect();
+            let layers: Vec<u32> = views.iter().map(|&view| tiles.slot(view)).collect();
+            twin.place(gl, shifts, &places, tiles.stride);
+            twin.choose(gl, &layers);
+            match target.as_ref().and_then(|target| target.layered()) {
+                Some(name) => gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, name),
+                None => self.atlas.bind_layered(gl),
+            }
+            draw(views.len() as i32);
+        }
+        gl.use_program(program);
+        self.twins = twins;
+        match target {
+            Some(target) => {
+                gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, framebuffer);
+                self.offscreen.drawn_to(&target);
+                self.offscreen.put(target);
+            }
+            None => self.atlas.bind_row(gl, 0),
+        }
+        self.amplifies = true;
+        self.report
+            .draw(method_name(Method::Instanced), plan.class.word());
+    }
+
+    /// Some attribute is about to advance by instances.
+    pub fn divides(&mut self) {
+        self.divides = true;
+    }
+}
