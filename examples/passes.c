@@ -6,9 +6,10 @@
 #include <math.h>
 #include <stddef.h>
 
-static int copy, depth_blit, mipmap, screen_blit, samples;
+static int copy, depth_blit, from_depth, mipmap, screen_blit, samples;
 const struct demo_option demo_options[] = {
     {"--copy", "a glass ball that bends a copy of the picture (glCopyTexSubImage2D)", &copy, 0},
+    {"--from-depth", "positions are computed from the depths, by the inverse of the projection", &from_depth, 0},
     {"--depth-blit", "the light has a depth buffer of its own, a copy of the G-buffer's", &depth_blit, 0},
     {"--mipmap", "bloom gets from half to quarter size by glGenerateMipmap, not by a blit", &mipmap, 0},
     {"--screen-blit", "tone mapping into a texture that is blitted to the window", &screen_blit, 0},
@@ -40,8 +41,8 @@ static const struct thing glows[] = { /* with the power of their rims */
 static const struct thing glass = {SPHERE, {0.90f, 0.97f, 0.93f, 0.8f}, 0.05, 0.5, 2.6, {0.62, 0.62, 0.62}, 0.0, 0.0, 0.0};
 
 static GLuint programs[PROGRAMS], used, scene_arrays, no_arrays, block, first[SHAPES + 1];
-static GLuint albedo, normals, positions, open_sky, shadows, light, before, bright, quarter[2], final;
-static GLuint shadow_target, geometry_target, open_target, light_target, samples_target, bright_target, quarter_target[2], final_target;
+static GLuint albedo, normals, positions, open_sky, shadows, depths, light, before, bright, quarter[2], final;
+static GLuint shadow_target, geometry_target, position_target, open_target, light_target, samples_target, bright_target, quarter_target[2], final_target;
 
 /* ---- set up ---- */
 
@@ -137,7 +138,9 @@ static GLuint framebuffer(const GLuint colours[3], GLuint depth, int of)
         else
             glFramebufferTexture2D(GL_FRAMEBUFFER, buffers[n], GL_TEXTURE_2D, colours[n], 0);
     }
-    if (depth)
+    if (depth && depth == depths)
+        glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, depth, 0);
+    else if (depth)
         glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_STENCIL_ATTACHMENT, GL_RENDERBUFFER, depth);
     if (n) {
         glDrawBuffers(n, buffers);
@@ -158,6 +161,8 @@ static int half(int size) { return size > 1 ? size / 2 : 1; }
 void demo_setup(void)
 {
     int w = demo_width, h = demo_height;
+    if (from_depth && (samples || depth_blit))
+        demo_fail(2, "--from-depth: neither with --samples-inside nor with --depth-blit");
     if (samples && (copy || depth_blit))
         demo_fail(2, "--samples-inside: neither with --copy nor with --depth-blit");
     make_shapes();
@@ -182,9 +187,10 @@ void demo_setup(void)
         samples_target = framebuffer((GLuint[3]){renderbuffer(GL_RGBA16F, samples)}, depth, samples);
         light_target = framebuffer((GLuint[3]){light}, 0, 0);
     } else {
-        GLuint depth = renderbuffer(GL_DEPTH24_STENCIL8, 0);
+        GLuint depth = from_depth ? (depths = texture(GL_DEPTH_COMPONENT24, w, h)) : renderbuffer(GL_DEPTH24_STENCIL8, 0);
         albedo = texture(GL_RGBA8, w, h), normals = texture(GL_RGBA16F, w, h), positions = texture(GL_RGBA16F, w, h);
         geometry_target = framebuffer((GLuint[3]){albedo, normals, positions}, depth, 0);
+        position_target = framebuffer((GLuint[3]){positions}, 0, 0);
         open_sky = texture(GL_R8, half(w), half(h));
         open_target = framebuffer((GLuint[3]){open_sky}, 0, 0);
         light_target = framebuffer((GLuint[3]){light}, depth_blit ? renderbuffer(GL_DEPTH24_STENCIL8, 0) : depth, 0);
@@ -356,6 +362,15 @@ void demo_frame(int frame)
         DRAW(solid, t);
 
         glDisable(GL_DEPTH_TEST);
+        if (from_depth) {
+            demo_matrix unproject;
+            demo_inverse(unproject, camera.projection);
+            target(position_target, w, h);
+            use(DEPTHS);
+            glUniformMatrix4fv(at("unproject"), 1, 0, unproject);
+            input(DEEP, depths);
+            cover();
+        }
         target(open_target, half(w), half(h));
         use(OCCLUSION);
         input(NORMALS, normals);

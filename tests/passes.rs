@@ -92,3 +92,47 @@ fn a_lamp_s_map_is_drawn_once_also_in_a_square_window() {
         assert!(replayed > 20, "{size}: {replayed}");
     }
 }
+
+#[test]
+fn an_explanation_names_passes_and_keeps_shaders_and_rules_change_them() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let out = folder.path().to_str().expect("UTF-8");
+    let run = |more: &[(&str, &str)]| {
+        let options = [
+            ("VIEWS", "3"),
+            ("STRATEGY", "replay"),
+            ("EXPLAIN", out),
+            ("EXPLAIN_FRAME", "2"),
+        ];
+        let mut program = layered(demo("passes"), &[&options, more].concat());
+        succeed(screen().give(program.args(["--frames", "3", "--size", "300x220"])));
+        std::fs::read_to_string(folder.path().join("explain.txt")).expect("a list")
+    };
+    let list = run(&[]);
+    let count = |list: &str, word: &str| list.lines().filter(|l| l.contains(word)).count();
+    assert_eq!(count(&list, " framebuffer 1 "), 11, "{list}");
+    assert!(count(&list, " pass 2 ") > 10, "{list}");
+    // The things of the scene have one program, whose shaders are there.
+    let thing = list
+        .lines()
+        .find(|l| l.contains(" pass 2 ") && l.contains("shader ="));
+    let thing = thing.expect("a rule for a shader");
+    let sum = thing.split("shader = \"").nth(1).expect("a sum");
+    let sum = sum.get(..16).expect("16 digits");
+    let text = |stage: &str| {
+        let path = folder.path().join(format!("explain.shaders/{sum}.{stage}"));
+        std::fs::read_to_string(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display()))
+    };
+    assert!(text("vert").contains("camera.projection"));
+    assert!(text("view.vert").contains("mv_shift") && text("frag").contains("main"));
+    let profile = folder.path().join("p.toml");
+    let rule = format!("rule = [{{ pass = 2, shader = \"{sum}\", class = \"flat\" }}]");
+    std::fs::write(&profile, rule).expect("written");
+    let ruled = run(&[("PROFILE", profile.to_str().expect("UTF-8"))]);
+    let flat = |l: &&str| l.contains(" pass 2 ") && l.contains("rule 1 of the profile");
+    assert_eq!(
+        ruled.lines().filter(flat).count(),
+        count(&list, &format!("{sum}\"")),
+        "{ruled}"
+    );
+}

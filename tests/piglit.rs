@@ -73,8 +73,28 @@ const MODES: [Mode; 8] = [
     ),
 ];
 
-/// Which tests of piglit, as its regular expressions.
-const ALL: [&str; 3] = [r"spec@!opengl 1\.", r"spec@!opengl 2\.", "fixed"];
+/// Which tests of piglit.
+#[derive(Clone, Copy)]
+enum Tests<'a> {
+    /// By their names.
+    Named(&'a [String]),
+    /// What its regular expressions find in one of its collections.
+    Found(&'a [&'a str], &'a str),
+}
+
+/// Of fixed function, and those that are programs.
+const ALL: Tests<'static> = Tests::Found(
+    &[r"spec@!opengl 1\.", r"spec@!opengl 2\.", "fixed"],
+    "quick_gl",
+);
+/// Programs with shaders that are run.
+const SHADERS: Tests<'static> = Tests::Found(
+    &[
+        r"spec@glsl-1\.[123]0@execution",
+        r"spec@glsl-3\.30@execution",
+    ],
+    "quick",
+);
 /// Mesa 22.3 reads memory that is not its own in this test (valgrind says so without the layer as well): it fails or crashes.
 const LEFT_OUT: &str = "polygon-mode-facing";
 const SUBSET: &str = include_str!("piglit/subset.txt");
@@ -199,8 +219,8 @@ fn windows_folder(folder: &Path) -> PathBuf {
     ours
 }
 
-/// Runs piglit's tests in a mode; an empty list of tests stands for [`ALL`].
-fn run(mode: &Mode, tests: &[String], name: &str, screen: &Screen, folder: &Path) -> Outcomes {
+/// Runs piglit's tests in a mode.
+fn run(mode: &Mode, tests: Tests, name: &str, screen: &Screen, folder: &Path) -> Outcomes {
     let out = folder.join(name);
     let mut command = match mode.layer {
         None => bare("nice"),
@@ -217,19 +237,26 @@ fn run(mode: &Mode, tests: &[String], name: &str, screen: &Screen, folder: &Path
     if !std::io::stderr().is_terminal() {
         command.stdout(Stdio::null());
     }
-    if tests.is_empty() {
-        for pattern in ALL {
-            command.args(["-t", pattern]);
+    let collection = match tests {
+        Tests::Found(patterns, collection) => {
+            for pattern in patterns {
+                command.args(["-t", pattern]);
+            }
+            command.args(["-x", LEFT_OUT]);
+            // Thousands of small shaders: several in one process.
+            command.args(["--process-isolation", "false"]);
+            collection
         }
-        command.args(["-x", LEFT_OUT]);
-    } else {
-        let list = folder.join(format!("{name}.list"));
-        fs::write(&list, tests.join("\n") + "\n").expect("written");
-        command.arg("--test-list").arg(list);
-    }
+        Tests::Named(names) => {
+            let list = folder.join(format!("{name}.list"));
+            fs::write(&list, names.join("\n") + "\n").expect("written");
+            command.arg("--test-list").arg(list);
+            "quick"
+        }
+    };
     let start = std::time::Instant::now();
     let status = screen
-        .give(command.arg("quick_gl").arg(&out))
+        .give(command.arg(collection).arg(&out))
         .status()
         .expect("piglit");
     let outcomes = read(&out.join("results.json"));
@@ -330,8 +357,8 @@ fn tests_of(differences: &[Difference]) -> Vec<String> {
     names.into_iter().collect()
 }
 
-/// Compares all modes on some tests, none for all of them.
-fn check(tests: &[String], long: bool, name: &str) {
+/// Compares all modes on some tests.
+fn check(tests: Tests, long: bool, name: &str) {
     if !has("piglit") {
         return;
     }
@@ -368,8 +395,9 @@ fn check(tests: &[String], long: bool, name: &str) {
         }
         // Some tests have one result now and another one then, also without the layer: only what differs twice does.
         let again = tests_of(&new);
-        let before = run(base_mode, &again, "again-bare", &screen, &folder);
-        let after = run(mode, &again, "again-layer", &screen, &folder);
+        let again = Tests::Named(&again);
+        let before = run(base_mode, again, "again-bare", &screen, &folder);
+        let after = run(mode, again, "again-layer", &screen, &folder);
         let twice = differences(mode.name, &before, &after);
         for difference in new {
             if twice.contains(&difference) {
@@ -451,11 +479,17 @@ fn differences_are_found_by_subtest_and_by_test() {
 #[test]
 fn a_subset_gives_the_same_results() {
     let tests: Vec<_> = lines(SUBSET).map(str::to_owned).collect();
-    check(&tests, false, "subset");
+    check(Tests::Named(&tests), false, "subset");
 }
 
 #[test]
 #[ignore = "minutes: make test-full"]
 fn full_piglit_gives_the_same_results() {
-    check(&[], true, "full");
+    check(ALL, true, "full");
+}
+
+#[test]
+#[ignore = "half an hour: make test-full"]
+fn full_shaders_give_the_same_results() {
+    check(SHADERS, false, "shaders");
 }

@@ -64,8 +64,13 @@ GLuint demo_checker(int size, int squares, const GLubyte a[3], const GLubyte b[3
 /* ---- shaders.c ---- */
 /* A linked program; the attribute `position` is at 0, `normal` at 1. */
 GLuint demo_program(const char *vertex, const char *fragment);
+/* The same of any stages, null where there is none: vertex, tessellation control and evaluation, geometry, fragment. */
+GLuint demo_stages(const char *const texts[5]);
+/* Fails where the context is older; 42 is OpenGL 4.2. */
+void demo_needs(int version);
 typedef GLfloat demo_matrix[16]; /* column-major */
 void demo_times(demo_matrix out, const demo_matrix a, const demo_matrix b);
+void demo_inverse(demo_matrix out, const demo_matrix m); /* of one that has an inverse */
 /* A perspective projection, not yet that of a view. fovy in degrees. */
 void demo_frustum(demo_matrix out, double fovy, double aspect, double z_near, double z_far);
 /* A camera, y upwards, and the way back from what it sees. */

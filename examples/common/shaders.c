@@ -1,6 +1,7 @@
 /* Programs of shaders and their matrices, for demos that bring their own. */
 #include "demo.h"
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 static GLuint shader(GLenum kind, const char *text)
@@ -18,20 +19,26 @@ static GLuint shader(GLenum kind, const char *text)
     return s;
 }
 
-GLuint demo_program(const char *vertex, const char *fragment)
+GLuint demo_stages(const char *const texts[5])
 {
-    GLuint vs = shader(GL_VERTEX_SHADER, vertex), fs = shader(GL_FRAGMENT_SHADER, fragment), program = glCreateProgram();
+    static const GLenum kinds[5] = {GL_VERTEX_SHADER, GL_TESS_CONTROL_SHADER, GL_TESS_EVALUATION_SHADER, GL_GEOMETRY_SHADER,
+                                    GL_FRAGMENT_SHADER};
+    GLuint stages[5], program = glCreateProgram();
     GLint ok;
-    glAttachShader(program, vs);
-    glAttachShader(program, fs);
+    for (int k = 0; k < 5; k++)
+        if (texts[k]) {
+            stages[k] = shader(kinds[k], texts[k]);
+            glAttachShader(program, stages[k]);
+        }
     glBindAttribLocation(program, 0, "position");
     glBindAttribLocation(program, 1, "normal");
     glLinkProgram(program);
     /* As programs do that keep no more than they need. */
-    glDetachShader(program, vs);
-    glDetachShader(program, fs);
-    glDeleteShader(vs);
-    glDeleteShader(fs);
+    for (int k = 0; k < 5; k++)
+        if (texts[k]) {
+            glDetachShader(program, stages[k]);
+            glDeleteShader(stages[k]);
+        }
     glGetProgramiv(program, GL_LINK_STATUS, &ok);
     if (!ok) {
         char log[1000];
@@ -39,6 +46,19 @@ GLuint demo_program(const char *vertex, const char *fragment)
         demo_fail(1, "a program does not link: %s", log);
     }
     return program;
+}
+
+GLuint demo_program(const char *vertex, const char *fragment)
+{
+    return demo_stages((const char *const[5]){vertex, NULL, NULL, NULL, fragment});
+}
+
+void demo_needs(int version)
+{
+    const char *text = (const char *)glGetString(GL_VERSION);
+    int major = 0, minor = 0;
+    if (!text || sscanf(text, "%d.%d", &major, &minor) != 2 || 10 * major + minor < version)
+        demo_fail(1, "needs OpenGL %d.%d, here is %s", version / 10, version % 10, text ? text : "none");
 }
 
 void demo_times(demo_matrix out, const demo_matrix a, const demo_matrix b)
@@ -52,6 +72,31 @@ void demo_times(demo_matrix out, const demo_matrix a, const demo_matrix b)
             p[4 * c + r] = (GLfloat)sum;
         }
     memcpy(out, p, sizeof p);
+}
+
+void demo_inverse(demo_matrix out, const demo_matrix m)
+{
+    double rows[4][8];
+    for (int r = 0; r < 4; r++)
+        for (int c = 0; c < 8; c++)
+            rows[r][c] = c < 4 ? (double)m[4 * c + r] : c == r + 4;
+    for (int k = 0; k < 4; k++) {
+        int best = k;
+        for (int r = k + 1; r < 4; r++)
+            best = fabs(rows[r][k]) > fabs(rows[best][k]) ? r : best;
+        for (int c = 0; c < 8; c++) {
+            double value = rows[best][c];
+            rows[best][c] = rows[k][c], rows[k][c] = value;
+        }
+        for (int c = 7; c >= k; c--)
+            rows[k][c] /= rows[k][k];
+        for (int r = 0; r < 4; r++)
+            for (int c = 7; r != k && c >= k; c--)
+                rows[r][c] -= rows[r][k] * rows[k][c];
+    }
+    for (int r = 0; r < 4; r++)
+        for (int c = 0; c < 4; c++)
+            out[4 * c + r] = (GLfloat)rows[r][4 + c];
 }
 
 void demo_frustum(demo_matrix out, double fovy, double aspect, double n, double f)

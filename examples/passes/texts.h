@@ -62,6 +62,17 @@ static const char fragment_geometry[] = GLSL SURFACE
     "}\n";
 static const char vertex_screen[] = GLSL
     "void main() { gl_Position = vec4(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0, 0.0, 1.0); }\n";
+static const char fragment_depths[] = GLSL
+    "uniform sampler2D depths;\n"
+    "uniform mat4 unproject;\n"
+    "uniform vec2 size;\n"
+    "out vec4 position;\n"
+    "void main()\n"
+    "{\n"
+    "    float d = texelFetch(depths, ivec2(gl_FragCoord.xy), 0).r;\n"
+    "    vec4 e = unproject * vec4(vec3(gl_FragCoord.xy / size, d) * 2.0 - 1.0, 1.0);\n"
+    "    position = d < 1.0 ? vec4(e.xyz / e.w, 1.0) : vec4(0.0, 0.0, -1000.0, 0.0);\n"
+    "}\n";
 static const char fragment_occlusion[] = GLSL
     "uniform sampler2D normals, positions;\n"
     "out float open;\n"
@@ -160,12 +171,12 @@ static const char fragment_display[] = GLSL
     "out vec4 shown;\n"
     "void main() { shown = colour; }\n";
 
-enum { SHADOW, GEOMETRY, OCCLUSION, LIGHTING, FORWARD, BACKGROUND, GLOW, GLASS, BRIGHT, BLUR, TONE, DISPLAY, PROGRAMS };
+enum { SHADOW, GEOMETRY, OCCLUSION, LIGHTING, FORWARD, BACKGROUND, GLOW, GLASS, BRIGHT, BLUR, TONE, DISPLAY, DEPTHS, PROGRAMS };
 static const char *const texts[PROGRAMS][2] = {
     {vertex_shadow, fragment_shadow}, {vertex_scene, fragment_geometry}, {vertex_screen, fragment_occlusion},
     {vertex_screen, fragment_lighting}, {vertex_scene, fragment_forward}, {vertex_screen, fragment_sky}, {vertex_scene, fragment_glow},
     {vertex_scene, fragment_glass}, {vertex_screen, fragment_bright}, {vertex_screen, fragment_blur}, {vertex_screen, fragment_tone},
-    {vertex_display, fragment_display}};
+    {vertex_display, fragment_display}, {vertex_screen, fragment_depths}};
 /* Texture units by the names of samplers. */
-enum { ALBEDO, NORMALS, POSITIONS, OPEN, SHADOWS, PICTURE, BLOOM, UNITS };
-static const char *const samplers[UNITS] = {"albedo", "normals", "positions", "occlusion", "shadows", "picture", "bloom"};
+enum { ALBEDO, NORMALS, POSITIONS, OPEN, SHADOWS, PICTURE, BLOOM, DEEP, UNITS };
+static const char *const samplers[UNITS] = {"albedo", "normals", "positions", "occlusion", "shadows", "picture", "bloom", "depths"};

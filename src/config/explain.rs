@@ -13,6 +13,13 @@ pub struct Explain {
 }
 
 impl Explain {
+    /// The folder of the shaders that the frame was drawn with.
+    #[must_use]
+    pub fn shaders(&self) -> PathBuf {
+        let [_, list] = self.files();
+        list.with_extension("shaders")
+    }
+
     /// The picture and the list.
     #[must_use]
     pub fn files(&self) -> [PathBuf; 2] {

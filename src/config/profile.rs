@@ -48,6 +48,12 @@ pub struct Rule {
     pub depth_state: Option<DepthState>,
     /// The depth range.
     pub depth_range: Option<DepthRange>,
+    /// Sums of the texts of the program's own shaders, as `--explain` lists them.
+    pub shader: Vec<u64>,
+    /// Programs of shaders, counted as they are linked; 0 is none.
+    pub program: Vec<u32>,
+    /// Framebuffers, counted as they are first drawn to; 0 is the window.
+    pub pass: Vec<u32>,
     /// Number of the draw in its frame, counted from 1; both ends included.
     pub draw: Option<(u32, u32)>,
     /// What the draw is.
@@ -67,6 +73,9 @@ const RULE_KEYS: &[&str] = &[
     "viewport",
     "depth-state",
     "depth-range",
+    "shader",
+    "program",
+    "pass",
     "draw",
     "class",
     "depth",
@@ -222,6 +231,9 @@ impl Rule {
             viewport: word(table, "viewport")?,
             depth_state: word(table, "depth-state")?,
             depth_range: word(table, "depth-range")?,
+            shader: sums(table, "shader")?,
+            program: numbers(table, "program")?,
+            pass: numbers(table, "pass")?,
             draw: range(table, "draw")?,
             class,
             depth,
@@ -274,6 +286,18 @@ fn numbers(table: &Table, key: &str) -> Result<Vec<u32>, String> {
     let one = |value: &Value| {
         let number = value.as_integer().and_then(|n| u32::try_from(n).ok());
         number.ok_or_else(|| wrong(key, value, "give a whole number from 0, or a list of them"))
+    };
+    list(table, key).iter().map(one).collect()
+}
+
+fn sums(table: &Table, key: &str) -> Result<Vec<u64>, String> {
+    let one = |value: &Value| {
+        let digits = value.as_str().filter(|text| text.len() == 16);
+        let sum = digits.and_then(|text| u64::from_str_radix(text, 16).ok());
+        sum.ok_or_else(|| {
+            let remedy = "give the 16 hexadecimal digits that --explain lists, in quotes";
+            wrong(key, value, remedy)
+        })
     };
     list(table, key).iter().map(one).collect()
 }

@@ -20,6 +20,9 @@ projection = "orthographic"
 viewport = "inset"
 depth-state = "test-only"
 depth-range = "near"
+shader = "0123456789abcdef"
+program = 2
+pass = [0, 3]
 draw = "5..9"
 class = "flat"
 depth = -0.5
@@ -52,6 +55,9 @@ fn every_key_is_understood() {
             viewport: Some(Viewport::Inset),
             depth_state: Some(DepthState::TestOnly),
             depth_range: Some(DepthRange::Near),
+            shader: vec![0x0123_4567_89AB_CDEF],
+            program: vec![2],
+            pass: vec![0, 3],
             draw: Some((5, 9)),
             class: Class::Flat,
             depth: Some(-0.5),

@@ -230,6 +230,14 @@ impl Twin {
         }
     }
 
+    /// Another value for a matrix of the program's, by its location there; the twin is in use.
+    pub fn set_matrix(&self, gl: &Gl, location: i32, m: &[f32; 16]) {
+        let found = self.uniforms.iter().find(|(_, from, _)| *from == location);
+        if let Some((_, _, to)) = found {
+            gl.set_uniform_matrix(*to, m);
+        }
+    }
+
     /// The layers of the views that are drawn next; the twin is in use, and chooses layers.
     pub fn choose(&self, gl: &Gl, layers: &[u32]) {
         let tiles: Vec<_> = layers.iter().map(|&l| [0.0, 0.0, l as f32, 0.0]).collect();

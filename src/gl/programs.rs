@@ -318,6 +318,15 @@ impl Gl {
         v[0]
     }
 
+    /// glUniformMatrix4fv, column-major.
+    pub fn set_uniform_matrix(&self, location: i32, m: &[f32; 16]) {
+        // SAFETY: 16 values.
+        unsafe {
+            self.real
+                .glUniformMatrix4fv(location, 1, 0, m.as_ptr() as Ptr)
+        };
+    }
+
     /// The value of a uniform of type GL_FLOAT_MAT4, column-major.
     pub fn uniform_matrix(&self, program: u32, location: i32) -> [f32; 16] {
         let mut v = [0f32; 16];

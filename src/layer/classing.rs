@@ -46,8 +46,15 @@ impl Layer {
                 self.frame.deep = depth == DepthState::On;
             }
         }
+        let (program, shader) = match self.state.program {
+            0 => (0, 0),
+            program if self.classifier.needs_shader() => self.told_of(program),
+            _ => (0, 0),
+        };
         let facts = Facts {
             target,
+            program,
+            shader,
             draw: self.frame.draws,
             list: self.frame.list,
             raster: self.raster_placed,

@@ -8,7 +8,8 @@ use crate::draw::{Again, Amplified, FixedState, Programs, replay};
 use crate::gl::Gl;
 use crate::gl::api::Indices;
 use crate::offscreen::Target;
-use crate::plan::{Kind, Method, Plan, Ramp, Shear, plan};
+use crate::plan::class::Why;
+use crate::plan::{Classed, Kind, Method, Plan, Ramp, Shear, plan};
 use crate::state::{Command, Run, Touch};
 
 /// A draw from arrays that may be instanced. Counts, types and modes are GL's.
@@ -233,7 +234,16 @@ impl Layer {
         let plan = self.follow(gl, kind, self.uncounted(plan));
         let plan = self.by_instances(gl, kind, plan);
         self.keep_alike(gl, kind, &plan);
-        self.explain_this(&facts, &classed);
+        let told = match classed.why {
+            Why::Rule(_) => classed,
+            _ if plan.twin => Classed {
+                class: plan.class,
+                why: Why::Shaders,
+                ..classed
+            },
+            _ => classed,
+        };
+        self.explain_this(&facts, &told);
         self.prove_this(gl, &facts, &plan);
         if plan.method == Method::Once {
             self.queries.drawn();
@@ -280,9 +290,11 @@ impl Layer {
         {
             Some(Entered { twin, .. }) => {
                 let (rig, stride) = (self.rig, self.atlas.tiles.stride);
+                let unproject = self.unproject(plan);
                 self.replay_by(gl, None, None, again, &mut |view| {
                     let shifts = (plan.shear, plan.flat);
                     twin.place(gl, shifts, &[rig.place(view)], stride);
+                    unproject(gl, twin, rig.place(view));
                     call(view);
                 });
                 gl.use_program(program);

@@ -8,7 +8,10 @@ use crate::config::{Class, DepthRange, Explain, Word};
 use crate::gl::{Gl, consts as c};
 use crate::plan::class::Target;
 use crate::plan::{Classed, Facts, Kind};
+use crate::rewrite::{self, Amplifier, Options, Stage};
+use crate::state::Linked;
 use image::{Rgb, RgbImage};
+use std::collections::BTreeSet;
 use std::fmt::Write as _;
 use std::path::Path;
 use std::time::{Duration, Instant};
@@ -89,6 +92,28 @@ impl Layer {
         }
     }
 
+    /// The shaders of the programs that the frame was drawn with, in a folder beside the list.
+    fn write_shaders(&mut self, explain: &Explain, explained: &Explained) {
+        let sums = explained.draws.iter().map(|(facts, _)| facts.shader);
+        let sums: BTreeSet<u64> = sums.filter(|&sum| sum != 0).collect();
+        let folder = explain.shaders();
+        for sum in sums {
+            let Some(linked) = self.linked_as(sum) else {
+                continue;
+            };
+            let made = std::fs::create_dir_all(&folder);
+            let written = texts(&linked).into_iter().try_for_each(|(stage, text)| {
+                std::fs::write(folder.join(format!("{sum:016x}.{stage}")), text)
+            });
+            if let Err(e) = made.and(written) {
+                let folder = folder.display();
+                self.report
+                    .note(format!("shaders of the explained frame: {folder}: {e}"));
+                return;
+            }
+        }
+    }
+
     /// At the end of the frame: writes both files.
     pub(super) fn finish_explanation(&mut self, gl: &Gl) {
         let Some(explain) = self.explains() else {
@@ -98,6 +123,7 @@ impl Layer {
         let Some(explained) = self.explained.take() else {
             return;
         };
+        self.write_shaders(explain, &explained);
         let [picture, list] = explain.files();
         let written = replace(&picture, |path| {
             explained
@@ -115,6 +141,33 @@ impl Layer {
                 .note(format!("explanation of frame {}: {e}", explain.frame));
         }
     }
+}
+
+/// The shaders of a program as the layer makes them for a view, and as they were; named by stage.
+fn texts(linked: &Linked) -> Vec<(&'static str, Vec<u8>)> {
+    let options = Options {
+        amplifier: Amplifier::Replay,
+        target: rewrite::Target::Whole,
+        views: 1,
+        es: false,
+    };
+    let mut all = Vec::new();
+    for text in linked.texts.iter() {
+        let [own, of_view] = match text.stage {
+            Stage::Vertex => ["vert", "view.vert"],
+            Stage::TessControl => ["tesc", "view.tesc"],
+            Stage::TessEvaluation => ["tese", "view.tese"],
+            Stage::Geometry => ["geom", "view.geom"],
+            Stage::Fragment => ["frag", "view.frag"],
+            Stage::Compute => ["comp", "view.comp"],
+        };
+        let view = match rewrite::rewrite(&text.source, text.stage, &options) {
+            Ok(new) => new.text.into_owned(),
+            Err(why) => format!("// {why}\n").into_bytes(),
+        };
+        all.extend([(own, text.source.clone()), (of_view, view)]);
+    }
+    all
 }
 
 /// Writes beside the file and renames, so that nobody sees half of it.
@@ -180,20 +233,36 @@ impl Explained {
         }
         let _ = writeln!(
             text,
-            "{:>5}  {:<22} {:<10} {:<59} {:>7} {:>5} {:<14}  rule",
-            "draw", "kind", "class", "reason", "texture", "list", "depth"
+            "{:>5}  {:<22} {:<10} {:<59} {:<14} {:>7} {:<16} {:>7} {:>5} {:<14}  rule",
+            "draw",
+            "kind",
+            "class",
+            "reason",
+            "target",
+            "program",
+            "shader",
+            "texture",
+            "list",
+            "depth"
         );
         for (facts, classed) in &self.draws {
-            let window = facts.target == Target::Window;
-            let known = |text: String| if window { text } else { "-".to_owned() };
+            let seen = matches!(facts.target, Target::Window | Target::Pass(_));
+            let known = |text: String| if seen { text } else { "-".to_owned() };
+            let shader = match facts.shader {
+                0 => "-".to_owned(),
+                sum => format!("{sum:016x}"),
+            };
             let number = |n: Option<u32>| n.map_or("-".to_owned(), |n| n.to_string());
             let _ = writeln!(
                 text,
-                "{:>5}  {:<22} {:<10} {:<59} {:>7} {:>5} {:<14}  {}",
+                "{:>5}  {:<22} {:<10} {:<59} {:<14} {:>7} {:<16} {:>7} {:>5} {:<14}  {}",
                 facts.draw,
                 kind(facts.kind),
                 classed.class.word(),
                 classed.why.to_string(),
+                target(facts.target),
+                number(Some(facts.program).filter(|&p| p != 0)),
+                shader,
                 known(number(Some(facts.texture).filter(|&t| t != 0))),
                 number(facts.list),
                 known(depth(facts)),
@@ -201,6 +270,16 @@ impl Explained {
             );
         }
         text
+    }
+}
+
+/// Where a draw goes, in words.
+fn target(target: Target) -> String {
+    match target {
+        Target::Window => "window".to_owned(),
+        Target::Pass(name) => format!("pass {name}"),
+        Target::Framebuffer(name) => format!("framebuffer {name}"),
+        Target::Nothing => "-".to_owned(),
     }
 }
 

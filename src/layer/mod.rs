@@ -93,6 +93,8 @@ pub struct Layer {
     sampled: Vec<Bound>,
     /// The program, and the changes of uniforms and images, up to which that is known.
     sampled_by: Option<(u32, u64, u64)>,
+    /// The matrices by which it computes positions from depths, with their locations.
+    unprojections: Vec<(i32, [f32; 16])>,
     /// The program has attributes that advance by instances.
     divides: bool,
     /// How a vertex shader chooses the layer that it draws to, where the driver lets it.
@@ -237,6 +239,7 @@ impl Layer {
             offscreen: Offscreen::new(gl, config.views, support.compatibility),
             sampled: Vec::new(),
             sampled_by: None,
+            unprojections: Vec::new(),
             divides: false,
             vertex_layer: crate::draw::limits(gl, support.glsl).vertex_layer,
             lens: None,

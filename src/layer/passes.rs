@@ -9,7 +9,7 @@ use super::programs::{Entered, With};
 use super::{Layer, keep_bindings};
 use crate::atlas::Surface;
 use crate::config::Class;
-use crate::draw::Again;
+use crate::draw::{Again, Twin};
 use crate::gl::{Gl, consts as c};
 use crate::offscreen;
 use crate::plan::class::Target;
@@ -26,10 +26,11 @@ impl Layer {
         if name == 0 {
             return Target::Window;
         }
+        let number = self.offscreen.target(gl, name).number;
         if self.config.views > 1 && self.is_pass(gl, name) {
-            Target::Pass(name)
+            Target::Pass(number)
         } else {
-            Target::Framebuffer(name)
+            Target::Framebuffer(number)
         }
     }
 
@@ -107,6 +108,11 @@ impl Layer {
                 ));
             }
         }
+        // Depths of a view are of its own camera.
+        self.unprojections = match plan.twin && !self.sampled.is_empty() {
+            true => self.unprojections_of(gl, self.state.program),
+            false => Vec::new(),
+        };
         if framebuffer == 0 {
             return plan;
         }
@@ -156,9 +162,11 @@ impl Layer {
             }
             Some(Entered { twin, layers }) => {
                 let (rig, tiles) = (self.rig, target.tiles());
+                let unproject = self.unproject(plan);
                 self.replay_by(gl, Some(&mut target), None, again, &mut |view| {
                     let shifts = (plan.shear, plan.flat);
                     twin.place(gl, shifts, &[rig.place(view)], tiles.stride);
+                    unproject(gl, twin, rig.place(view));
                     if *layers {
                         twin.choose(gl, &[tiles.slot(view)]);
                     }
@@ -173,6 +181,17 @@ impl Layer {
         gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, self.state.framebuffers.draw);
         self.offscreen.drawn_to(&target);
         self.offscreen.put(target);
+    }
+
+    /// Gives a twin that is in use the unprojections of the view at a place.
+    pub(super) fn unproject(&mut self, plan: &Plan) -> impl Fn(&Gl, &Twin, f64) + use<> {
+        let (matrices, shear) = (std::mem::take(&mut self.unprojections), plan.shear);
+        move |gl, twin, place| {
+            for (location, m) in &matrices {
+                let m = shear.map_or(*m, |shear| camera::unprojection(m, &shear, place));
+                twin.set_matrix(gl, *location, &m);
+            }
+        }
     }
 
     /// Looks which textures with an image per view a draw reads.

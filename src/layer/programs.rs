@@ -4,8 +4,9 @@ use super::Layer;
 use crate::config::Class;
 use crate::draw::{Drawn, NoTwin, Twin, Way, drawn};
 use crate::gl::{Gl, Held, consts as c};
+use crate::plan::class::Why;
 use crate::plan::{Classed, Kind, Method, Plan, camera};
-use crate::state::{Matrices, Samplers, Shaders, texts, uniform_change};
+use crate::state::{Linked, Matrices, Samplers, Shaders, texts, uniform_change};
 use std::collections::HashMap;
 use std::sync::PoisonError;
 
@@ -191,14 +192,23 @@ impl Layer {
         };
         self.twins.camera = Some(camera);
         self.rig.latch(&camera);
-        let flat = match classed.class {
-            Class::Flat => plan.shear,
-            _ => None,
+        let ruled = matches!(classed.why, Why::Rule(_));
+        let (class, shear, flat) = match classed.class {
+            Class::Flat if ruled => (Class::Flat, plan.shear, plan.shear),
+            Class::Sky if ruled => (Class::Sky, self.rig.sky(&camera), None),
+            class => {
+                let shear = match classed.focal {
+                    None => self.rig.shear(&camera),
+                    Some(focal) => self.rig.shear_about(&camera, focal),
+                };
+                let flat = plan.shear.filter(|_| class == Class::Flat);
+                (Class::Scene, shear, flat)
+            }
         };
         Plan {
             method: Method::Replay,
-            class: Class::Scene,
-            shear: self.rig.shear(&camera),
+            class,
+            shear,
             twin: true,
             flat,
             ..plan
@@ -247,6 +257,16 @@ impl Layer {
         Some(camera)
     }
 
+    /// The matrices by which a program computes positions from depths, with their locations.
+    pub(super) fn unprojections_of(&self, gl: &Gl, program: u32) -> Vec<(i32, [f32; 16])> {
+        let Some(known) = self.twins.known.get(&program) else {
+            return Vec::new();
+        };
+        let mut all = known.matrices.uniforms(gl, program);
+        all.retain(|(_, m)| camera::unprojects(m, self.aspect()));
+        all
+    }
+
     /// The texture units that a program samples, counted from 0, with the targets.
     pub(super) fn units_of(&mut self, gl: &Gl, program: u32) -> Vec<(u32, u32)> {
         self.know(gl, program);
@@ -260,10 +280,26 @@ impl Layer {
         known.units.1.clone()
     }
 
+    /// The number of a program, counted as they are linked, and the sum of its shaders' texts; 0 where they are not known.
+    pub(super) fn told_of(&self, program: u32) -> (u32, u64) {
+        let linked = self.linked_from(program);
+        linked.map_or((0, 0), |linked| (linked.link as u32, linked.sum))
+    }
+
+    /// What a program was linked from.
+    pub(super) fn linked_from(&self, program: u32) -> Option<Linked> {
+        self.shaders(|shaders| shaders.of(program))
+    }
+
+    /// What some program was linked from whose texts have this sum.
+    pub(super) fn linked_as(&self, sum: u64) -> Option<Linked> {
+        self.shaders(|shaders| shaders.with(sum))
+    }
+
     /// Learns how a program is drawn, once for each of its links.
     pub(super) fn know(&mut self, gl: &Gl, program: u32) {
         let linked = self.shaders(|shaders| shaders.of(program));
-        let link = linked.as_ref().map_or(0, |(link, _)| *link);
+        let link = linked.as_ref().map_or(0, |linked| linked.link);
         if self
             .twins
             .known
@@ -274,7 +310,7 @@ impl Layer {
         }
         self.state.keep_errors(gl);
         let how = match &linked {
-            Some((_, texts)) => drawn(gl, program, texts, Way::Alone),
+            Some(linked) => drawn(gl, program, &linked.texts, Way::Alone),
             None => Err(NoTwin::NoText),
         };
         let matrices = Matrices::of(gl, program);
@@ -322,7 +358,7 @@ impl Layer {
         });
         self.state.keep_errors(gl);
         let made = match (linked, way) {
-            (Some((_, texts)), Some(way)) => drawn(gl, program, &texts, way).ok(),
+            (Some(linked), Some(way)) => drawn(gl, program, &linked.texts, way).ok(),
             _ => None,
         };
         self.drain_own_errors(gl);

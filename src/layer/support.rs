@@ -149,7 +149,7 @@ mod tests {
             flip: true,
             glsl,
             clip_distances,
-            layers: true,
+            layers: clip_distances >= 2,
             viewports: true,
             limits: Limits {
                 side: 4096,
@@ -171,6 +171,13 @@ mod tests {
             assert_eq!(less.strategies(), ["replay"]);
             assert!(less.notes()[0].contains(word), "{:?}", less.notes());
         }
+        // Programs have shaders of their own in a core profile, whose twins choose layers.
+        let core = Support {
+            layers: true,
+            ..support(450, false, 0)
+        };
+        assert_eq!(core.strategies(), ["replay", "instanced"]);
+        assert!(core.notes().is_empty());
     }
 
     #[test]

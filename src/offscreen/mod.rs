@@ -23,6 +23,8 @@ pub struct Offscreen {
     /// The textures among them that are not the program's own.
     ours: HashSet<u32>,
     targets: HashMap<u32, Target>,
+    /// Framebuffers so far.
+    count: u32,
     /// Changes of attachments, of buffers that are drawn to, and of images.
     changes: u64,
     means: image::Means,
@@ -51,6 +53,7 @@ impl Offscreen {
             images: HashMap::new(),
             ours: HashSet::new(),
             targets: HashMap::new(),
+            count: 0,
             changes: 1,
             means: image::Means {
                 version: gl.version(),
@@ -250,7 +253,10 @@ impl Offscreen {
     /// What is known of a framebuffer of the program's.
     pub fn target(&mut self, gl: &Gl, framebuffer: u32) -> &mut Target {
         let target = self.targets.entry(framebuffer);
-        let target = target.or_insert_with(|| Target::new(framebuffer, self.tiles));
+        let target = target.or_insert_with(|| {
+            self.count += 1;
+            Target::new(framebuffer, self.count, self.tiles)
+        });
         target.follow(gl, self.changes, &self.images);
         target
     }

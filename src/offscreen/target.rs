@@ -9,6 +9,8 @@ use std::collections::HashMap;
 #[derive(Debug)]
 pub struct Target {
     own: u32,
+    /// Framebuffers are counted from 1 as they are drawn to for the first time; names depend on ours.
+    pub number: u32,
     /// By view, the program's own among them; empty where it is the only one.
     views: Vec<u32>,
     /// Up to which change the rest is known.
@@ -28,9 +30,10 @@ pub struct Target {
 }
 
 impl Target {
-    pub(super) fn new(own: u32, tiles: Tiles) -> Target {
+    pub(super) fn new(own: u32, number: u32, tiles: Tiles) -> Target {
         Target {
             own,
+            number,
             views: Vec::new(),
             seen: 0,
             attachments: Vec::new(),

@@ -1,6 +1,7 @@
 //! The camera in a matrix that a program's own shaders multiply positions by.
 
-use glam::DVec4;
+use super::Shear;
+use glam::{DMat4, DVec4};
 
 /// A pure projection with the focal length and the distances of `m` (column-major), which may be the projection, that times the camera, or
 /// times the place of a model as well: what clip-space w is per unit of the matrix's own space does not matter, since w is the depth.
@@ -64,7 +65,7 @@ pub fn equivalent(m: &[f32; 16]) -> Option<[f32; 16]> {
 pub fn among(matrices: &[[f32; 16]], aspect: f64) -> Option<(usize, [f32; 16])> {
     let all = matrices.iter().enumerate();
     let cameras = all.filter_map(|(at, m)| {
-        let camera = equivalent(m)?;
+        let camera = equivalent(m).filter(|_| !unprojects(m, aspect))?;
         let rank = (!fits(&camera, aspect), !is_projection(m), at);
         Some((rank, (at, camera)))
     });
@@ -77,6 +78,25 @@ pub fn among(matrices: &[[f32; 16]], aspect: f64) -> Option<(usize, [f32; 16])> 
 pub fn fits(camera: &[f32; 16], aspect: f64) -> bool {
     let own = f64::from(camera[5]) / f64::from(camera[0]);
     (own - aspect).abs() <= 0.01 * aspect
+}
+
+/// Whether a matrix is the inverse of a camera with this aspect: what programs compute positions from depths by.
+pub fn unprojects(m: &[f32; 16], aspect: f64) -> bool {
+    let fits = |m: &[f32; 16]| equivalent(m).is_some_and(|camera| fits(&camera, aspect));
+    let inverse = matrix(m).inverse();
+    inverse.is_finite() && !fits(m) && fits(&inverse.as_mat4().to_cols_array())
+}
+
+/// Such an inverse for the camera of the view at a place (see [`super::Rig::place`]): row 0 of the camera gets what the one equation gives it.
+pub fn unprojection(m: &[f32; 16], shear: &Shear, place: f64) -> [f32; 16] {
+    let separation = shear.separation(place);
+    let mut rows = matrix(m).inverse().transpose();
+    rows.x_axis += separation * (rows.w_axis - shear.conv * DVec4::W);
+    rows.transpose().inverse().as_mat4().to_cols_array()
+}
+
+fn matrix(m: &[f32; 16]) -> DMat4 {
+    glam::Mat4::from_cols_array(m).as_dmat4()
 }
 
 /// Whether a matrix looks like a projection alone: nothing but that has −1 or 1 for the whole of row 3.
@@ -164,6 +184,36 @@ mod tests {
         let far = Mat4::from_translation(Vec3::new(4.0, 0.0, -9.0));
         let moved = (Mat4::from_cols_array(&wide) * far).to_cols_array();
         assert_eq!(a(&[mixed, alone, moved]), Some(2));
+    }
+
+    #[test]
+    fn what_a_view_draws_comes_back_by_its_unprojection() {
+        let mut p = finite(1.4, 0.25, 80.0);
+        p.x_axis.x = 1.4 / 1.5;
+        let camera = Mat4::from_rotation_translation(
+            Quat::from_axis_angle(Vec3::new(0.6, 0.8, 0.0), 0.7),
+            Vec3::new(3.0, -2.0, 9.0),
+        );
+        for m in [p, p * camera] {
+            let inverse = m.inverse().to_cols_array();
+            assert!(unprojects(&inverse, 1.5) && !unprojects(&inverse, 1.2));
+            assert!(!unprojects(&m.to_cols_array(), 1.5));
+            assert_eq!(among(&[inverse], 1.5), None);
+            let shear = Shear {
+                a: 1.0,
+                spacing: 0.3,
+                focal: 8.0,
+                conv: 8.0,
+            };
+            let back = Mat4::from_cols_array(&unprojection(&inverse, &shear, 2.0));
+            // Drawn by the view: x is shifted by sep · (w − conv).
+            let point = glam::Vec4::new(0.5, -1.5, -7.0, 1.0);
+            let mut clip = m * point;
+            clip.x += shear.separation(2.0) as f32 * (clip.w - 8.0);
+            let found = back * (clip / clip.w);
+            let found = found / found.w;
+            assert!((found - point).length() < 1e-3, "{found}");
+        }
     }
 
     #[test]

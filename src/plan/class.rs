@@ -32,6 +32,10 @@ pub struct Facts {
     pub range: DepthRange,
     /// The 2D texture of the active unit, 0 for none; where asked for.
     pub texture: u32,
+    /// The program of shaders that is in use, counted as they are linked, 0 for none; where asked for.
+    pub program: u32,
+    /// The sum of its texts; where asked for.
+    pub shader: u64,
     /// The modelview matrix turns about the eye, moves nothing, and is not the identity; where asked for.
     pub turns: bool,
     /// Nothing in perspective has written depth since the frame began or was last cleared.
@@ -43,7 +47,7 @@ pub struct Facts {
 pub enum Target {
     /// The window.
     Window,
-    /// A framebuffer of the program's that shows what the window shall, or a part of it.
+    /// A framebuffer of the program's that shows what the window shall, or a part of it; counted as they are drawn to.
     Pass(u32),
     /// Another framebuffer of the program's.
     Framebuffer(u32),
@@ -74,6 +78,8 @@ pub enum Why {
     Behind,
     /// In perspective, and nothing speaks against it.
     Perspective,
+    /// Its own shaders tell where w is no constant.
+    Shaders,
 }
 
 impl core::fmt::Display for Why {
@@ -91,6 +97,7 @@ impl core::fmt::Display for Why {
             }
             Why::Behind => f.write_str("at the far end of the depth range, behind everything"),
             Why::Perspective => f.write_str("perspective projection"),
+            Why::Shaders => f.write_str("shaders of its own: in perspective where w varies"),
         }
     }
 }
@@ -172,6 +179,12 @@ impl Classifier {
         needs
     }
 
+    /// Whether the program of shaders may decide.
+    pub fn needs_shader(&self) -> bool {
+        let asks = |(_, rule): &(usize, Rule)| !rule.shader.is_empty() || !rule.program.is_empty();
+        self.explains || self.rules.iter().any(asks)
+    }
+
     /// Whether the modelview matrix may decide, once the depth state is known.
     pub fn needs_modelview(&self, projection: Projection, first: bool, depth: DepthState) -> bool {
         projection == Projection::Perspective && first && depth != DepthState::On
@@ -185,8 +198,11 @@ impl Classifier {
             focal: None,
             why,
         };
+        let rule = || self.rules.iter().find(|(_, rule)| matches(rule, facts));
         match facts.target {
             Target::Window | Target::Pass(_) => {}
+            // Only by rules for what goes there.
+            Target::Framebuffer(_) if rule().is_some_and(|(_, rule)| !rule.pass.is_empty()) => {}
             Target::Framebuffer(name) => {
                 return classed(Class::OffScreen, Why::Framebuffer(name));
             }
@@ -195,7 +211,7 @@ impl Classifier {
         if matches!(facts.kind, Kind::Clear { .. } | Kind::Accum) {
             return classed(Class::Flat, Why::Whole);
         }
-        if let Some((number, rule)) = self.rules.iter().find(|(_, rule)| matches(rule, facts)) {
+        if let Some((number, rule)) = rule() {
             return Classed {
                 depth: rule.depth.unwrap_or(self.hud_depth),
                 focal: rule.focal_depth,
@@ -245,6 +261,9 @@ fn matches(rule: &Rule, facts: &Facts) -> bool {
         && rule.viewport.is_none_or(|v| v == facts.viewport)
         && rule.depth_state.is_none_or(|d| d == facts.depth_state)
         && rule.depth_range.is_none_or(|d| d == facts.range)
+        && any(&rule.program, Some(facts.program))
+        && any(&rule.pass, facts.pass())
+        && (rule.shader.is_empty() || rule.shader.contains(&facts.shader))
         && rule
             .draw
             .is_none_or(|(first, last)| (first..=last).contains(&facts.draw))
@@ -270,24 +289,40 @@ impl Facts {
             depth_state: state.look.depth,
             range: state.look.range,
             texture: state.look.texture,
+            program: 0,
+            shader: 0,
             turns: turns(&state.look.modelview),
             first: false,
         }
     }
 
+    /// The framebuffer that is drawn to, 0 for the window; none where no picture is.
+    pub fn pass(&self) -> Option<u32> {
+        match self.target {
+            Target::Window => Some(0),
+            Target::Pass(name) | Target::Framebuffer(name) => Some(name),
+            Target::Nothing => None,
+        }
+    }
+
     /// The line of a profile that would give this draw another class.
     pub fn rule(&self, classed: &Classed) -> Option<String> {
-        if self.target != Target::Window {
-            return None;
-        }
+        let pass = self.pass()?;
         let mut keys = Vec::new();
+        if pass != 0 {
+            keys.push(format!("pass = {pass}"));
+        }
+        if self.shader != 0 {
+            keys.push(format!("shader = \"{:016x}\"", self.shader));
+        }
         if let Some(list) = self.list {
             keys.push(format!("list = {list}"));
         }
-        if self.texture != 0 {
+        // Shaders are the same in every run, names of textures are not.
+        if self.texture != 0 && self.shader == 0 {
             keys.push(format!("texture = {}", self.texture));
         }
-        if keys.is_empty() {
+        if keys.is_empty() || (self.shader == 0 && pass != 0 && keys.len() == 1) {
             // Nothing else tells it from its neighbours.
             keys.push(format!("draw = {}", self.draw));
         }
@@ -301,6 +336,7 @@ impl Facts {
         }
         let other = match (classed.class, self.projection) {
             (Class::Scene, _) => Class::Flat,
+            (Class::OffScreen, _) => Class::Scene,
             (Class::Sky, _) => Class::Scene,
             (_, Projection::Perspective) if self.kind != Kind::Pixels => Class::Scene,
             // It has no depths of its own; it can only stand elsewhere.

@@ -18,8 +18,16 @@ pub struct Text {
     pub source: Vec<u8>,
 }
 
-/// The texts of a program, and which of its links they belong to.
-pub type Linked = (u64, Arc<[Text]>);
+/// What a program was linked from.
+#[derive(Clone, Debug)]
+pub struct Linked {
+    /// Which of its links this is.
+    pub link: u64,
+    /// The texts.
+    pub texts: Arc<[Text]>,
+    /// A sum of them, the same in each run of the program.
+    pub sum: u64,
+}
 
 /// The programs of a share group.
 #[derive(Debug, Default)]
@@ -62,12 +70,20 @@ impl Shaders {
     /// A program was linked.
     pub fn linked(&mut self, program: u32, texts: Arc<[Text]>) {
         self.links += 1;
-        self.programs.insert(program, (self.links, texts));
+        let sum = sum(&texts);
+        let link = self.links;
+        self.programs.insert(program, Linked { link, texts, sum });
     }
 
     /// A program got its executable in another way, or is no more.
     pub fn forget(&mut self, program: u32) {
         self.programs.remove(&program);
+    }
+
+    /// Some program whose texts have this sum.
+    pub fn with(&self, sum: u64) -> Option<Linked> {
+        let found = self.programs.values().find(|linked| linked.sum == sum);
+        found.cloned()
     }
 
     /// What a program was linked from; none where that was not seen.
@@ -99,6 +115,13 @@ impl Matrices {
             }
         }
         found
+    }
+
+    /// Those that are plain uniforms, with their locations.
+    pub fn uniforms(&self, gl: &Gl, program: u32) -> Vec<(i32, [f32; 16])> {
+        let all = self.uniforms.iter();
+        all.map(|&at| (at, gl.uniform_matrix(program, at)))
+            .collect()
     }
 
     /// Whether some are in buffers, of whose changes nothing is told.
@@ -177,6 +200,17 @@ fn sampled(kind: u32) -> Option<u32> {
         0x910B..=0x910D => c::TEXTURE_2D_MULTISAMPLE_ARRAY,
         0x900C..=0x900F => c::TEXTURE_CUBE_MAP_ARRAY,
         _ => return None,
+    })
+}
+
+/// FNV-1a of all texts with their types, 64 bits.
+fn sum(texts: &[Text]) -> u64 {
+    let bytes = texts.iter().flat_map(|text| {
+        let kind = text.kind.to_le_bytes();
+        kind.into_iter().chain(text.source.iter().copied())
+    });
+    bytes.fold(0xcbf2_9ce4_8422_2325, |sum, byte| {
+        (sum ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
     })
 }
 

@@ -22,6 +22,8 @@ fn facts() -> Facts {
         depth_state: DepthState::On,
         range: DepthRange::Whole,
         texture: 3,
+        program: 0,
+        shader: 0,
         turns: false,
         first: true,
     }
@@ -303,4 +305,61 @@ fn a_suggested_rule_is_one_that_matches_and_changes_the_class() {
             "{line}"
         );
     }
+}
+
+#[test]
+fn rules_know_shaders_and_passes() {
+    let c = classifier(
+        r#"rule = [
+            { pass = 4, shader = "00000000000000ff", class = "sky" },
+            { shader = "00000000000000ff", class = "flat" },
+            { program = 9, class = "off-screen" },
+            { pass = 5, class = "scene" },
+            { pass = 0, class = "flat" },
+        ]"#,
+    );
+    let why = |target, program, shader| {
+        let facts = Facts {
+            target,
+            program,
+            shader,
+            ..facts()
+        };
+        class(&c, facts)
+    };
+    let rule = Why::Rule;
+    assert_eq!(why(Target::Pass(4), 2, 255), (Class::Sky, rule(1)));
+    assert_eq!(why(Target::Window, 2, 255), (Class::Flat, rule(2)));
+    assert_eq!(why(Target::Pass(6), 9, 1), (Class::OffScreen, rule(3)));
+    assert_eq!(why(Target::Window, 2, 1), (Class::Flat, rule(5)));
+    assert_eq!(why(Target::Pass(6), 2, 1), (Class::Scene, Why::Perspective));
+    // What is no part of the picture is one by a rule for it only.
+    assert_eq!(why(Target::Framebuffer(5), 2, 1), (Class::Scene, rule(4)));
+    let other = why(Target::Framebuffer(6), 2, 255);
+    assert_eq!(other, (Class::OffScreen, Why::Framebuffer(6)));
+    let line = |target, shader| {
+        let facts = Facts {
+            target,
+            shader,
+            texture: 0,
+            ..facts()
+        };
+        facts.rule(&c.class(&facts)).expect("a rule")
+    };
+    let pass = line(Target::Pass(6), 0xABC);
+    assert!(
+        pass.starts_with(r#"{ pass = 6, shader = "0000000000000abc", projection"#),
+        "{pass}"
+    );
+    assert!(line(Target::Window, 0).starts_with("{ draw = 5, "));
+    assert!(line(Target::Pass(6), 0).starts_with("{ pass = 6, draw = 5, "));
+    let wrong = Profile::parse(
+        "rule = [{ shader = \"ff\", class = \"sky\" }]",
+        Path::new("p.toml"),
+    );
+    let wrong = wrong.expect_err("too short").to_string();
+    assert!(
+        wrong.contains("shader is 'ff'; give the 16 hexadecimal digits"),
+        "{wrong}"
+    );
 }

@@ -1,0 +1,100 @@
+//! The demos in the forms that are compared.
+
+/// One demo in one of its forms.
+pub(crate) struct Scene {
+    pub(crate) demo: &'static str,
+    /// Further arguments of the demo.
+    pub(crate) arguments: &'static [&'static str],
+    /// Frames that are compared. More than one where the frames draw by different means; few, because a long history of
+    /// immediate mode crosses the end of Mesa's 512 KiB vertex buffer, and a primitive that is split there may differ by 1 LSB.
+    pub(crate) frames: u32,
+    /// The oracle's picture is what the window shows, not what the demo reads back.
+    pub(crate) window: bool,
+}
+
+impl Scene {
+    /// Its programs place vertices themselves: a twin shifts them after the program's own product, the oracle before it.
+    pub(crate) fn has_shaders(&self) -> bool {
+        ["shade", "passes", "crowd", "relief"].contains(&self.demo)
+    }
+
+    /// A geometry shader makes grass.
+    pub(crate) fn has_blades(&self) -> bool {
+        self.demo == "relief" && !self.arguments.contains(&"core")
+    }
+}
+
+/// The forms that are tested. What each exercises: `examples/README.md`.
+pub(crate) fn scene(name: &str) -> Scene {
+    let scene = |demo, arguments, frames| Scene {
+        demo,
+        arguments,
+        frames,
+        window: false,
+    };
+    let multisampled = |demo| Scene {
+        demo,
+        arguments: &["--samples", "4"],
+        frames: 1,
+        window: true,
+    };
+    match name {
+        "gears" => scene("gears", &[], 1),
+        "lists" => scene("lists", &[], 2),
+        "echo" => scene("echo", &[], 3),
+        "blur" => scene("blur", &[], 3),
+        "teapot" => scene("teapot", &[], 1),
+        "room" => scene("room", &[], 1),
+        // One fog mode a frame.
+        "fogtexgen" => scene("fogtexgen", &[], 3),
+        "points" => scene("points", &[], 1),
+        "clip" => scene("clip", &[], 1),
+        "mirror" => scene("mirror", &[], 1),
+        "mesh" => scene("mesh", &["--triangles", "10000"], 1),
+        "mesh_vbo" => scene("mesh", &["--triangles", "10000", "--vbo"], 1),
+        // Enough calls for a list to be made of them.
+        "mesh_immediate" => scene("mesh", &["--triangles", "1000", "--immediate"], 1),
+        "mesh_list" => scene("mesh", &["--triangles", "10000", "--list"], 1),
+        "fill" => scene("fill", &["--overdraw", "6", "--textured"], 1),
+        "prims" => scene("prims", &[], 1),
+        "arrays" => scene("arrays", &[], 1),
+        "immediate" => scene("immediate", &[], 1),
+        "sky" => scene("sky", &[], 1),
+        "field" => scene("field", &[], 1),
+        "shade" => scene("shade", &[], 1),
+        "shade_toon" => scene("shade", &["--toon"], 1),
+        "shade_combined" => scene("shade", &["--combined"], 1),
+        "shade_block" => scene("shade", &["--glsl", "330"], 1),
+        "passes" => scene("passes", &["--depth-blit"], 2),
+        "passes_depth" => scene("passes", &["--from-depth"], 2),
+        "passes_samples" => scene("passes", &["--samples-inside", "4", "--mipmap"], 1),
+        "passes_copies" => {
+            let arguments = &["--copy", "--screen-blit", "--profile", "core"];
+            scene("passes", arguments, 2)
+        }
+        "crowd" => scene("crowd", &["--multi"], 2),
+        "crowd_indirect" => {
+            let arguments = &["--indirect", "--pulled", "--persistent"];
+            scene("crowd", arguments, 2)
+        }
+        "relief" => scene("relief", &["--profile", "core"], 1),
+        "relief_geometry" => scene("relief", &["--geometry"], 1),
+        "relief_both" => scene("relief", &["--both"], 1),
+        "relief_points" => scene("relief", &["--points", "--profile", "core"], 1),
+        // With the scene.
+        "menu" => scene("menu", &[], 14),
+        // Errors at the end of the first frame are found in the second.
+        "gears_unread" => scene("gears", &["--unread"], 2),
+        "gears_samples_unread" => Scene {
+            demo: "gears",
+            arguments: &["--samples", "4", "--unread"],
+            frames: 1,
+            window: true,
+        },
+        "teapot_srgb" => scene("teapot", &["--srgb"], 1),
+        "room_srgb" => scene("room", &["--srgb"], 1),
+        "teapot_samples" => multisampled("teapot"),
+        "room_samples" => multisampled("room"),
+        _ => panic!("no scene {name}"),
+    }
+}
