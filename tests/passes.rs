@@ -136,3 +136,42 @@ fn an_explanation_names_passes_and_keeps_shaders_and_rules_change_them() {
         "{ruled}"
     );
 }
+
+#[test]
+fn every_way_to_draw_reaches_the_framebuffers_of_all_views() {
+    let program = compiled("aside", Compiled::Program, &["-lEGL", "-lGL"]);
+    let folder = tempfile::tempdir().expect("a folder");
+    let picture = folder.path().join("frame.png");
+    let all = |way: &str| {
+        let options = [
+            ("VIEWS", "3"),
+            ("ATLAS", "side-by-side"),
+            ("STRATEGY", "replay"),
+            ("SEPARATION", "0.3"),
+            ("CONVERGENCE", "6"),
+            ("CAPTURE_OUT", picture.to_str().expect("UTF-8")),
+            ("CAPTURE_FRAMES", "2"),
+            ("CAPTURE_WHAT", "atlas"),
+        ];
+        let _ = std::fs::remove_file(&picture);
+        succeed(layered(&program, &options).arg(way).env_remove("DISPLAY"));
+        rgb(&picture)
+    };
+    let first = all("");
+    // The first red column: at depth 3, moved by 0.3 · (3 − 6) / 3 in 32 columns.
+    let width = first.width() / VIEWS;
+    let left = |view: u32| {
+        let red = |&x: &u32| {
+            let mut column = (0..first.height()).map(|y| first.get_pixel(view * width + x, y).0);
+            column.any(|[r, g, _]| r > 200 && g < 50)
+        };
+        f64::from((0..width).find(red).expect("it is drawn"))
+    };
+    for (view, shift) in [(0, 9.6), (2, -9.6)] {
+        let moved = left(view) - left(1);
+        assert!((moved - shift).abs() <= 1.5, "view {view}: {moved}");
+    }
+    for way in ["list", "executed", "mixed"] {
+        assert!(all(way) == first, "{way}");
+    }
+}

@@ -406,6 +406,7 @@ pub(crate) fn destroyed(provider: Provider, handle: Ptr) {
 
 /// End of a frame on a drawable: shows it. `swap` is the program's own call.
 pub(crate) fn frame<R>(drawable: Option<Drawable>, swap: impl FnOnce() -> R) -> R {
+    settle_shared();
     let ours = drawable.is_none_or(draws_to);
     if ours {
         with_context(|gl, c| {
@@ -466,8 +467,16 @@ pub(crate) fn draws_to_memory() -> bool {
     !context.is_null() && unsafe { matches!((*context).drawable, Drawable::Memory(..)) }
 }
 
+/// Other contexts may look at what is drawn to the program's textures: they hold it now.
+pub(crate) fn settle_shared() {
+    if peek(|l| l.has_copies() && l.is_shared()) == Some(true) {
+        enter(|gl, l| l.settle_textures(gl));
+    }
+}
+
 /// The program leaves an OSMesa context: what it has drawn since its last glFinish is a frame.
 pub(crate) fn finish_memory_frame() {
+    settle_shared();
     if draws_to_memory() && enter(|_, l| l.drawn()) == Some(true) {
         // SAFETY: the context is still current.
         frame(None, || unsafe { Provider::OsMesa.real().glFinish() });

@@ -11474,22 +11474,16 @@ export! { 804, glGenerateMipmapEXT, first_glGenerateMipmapEXT, hook_glGenerateMi
     hooks::mipmap(target, &mut |gl| unsafe { gl.glGenerateMipmapEXT(target) })
 } }
 export! { 805, glCopyImageSubData, first_glCopyImageSubData, hook_glCopyImageSubData, (srcName: u32, srcTarget: u32, srcLevel: i32, srcX: i32, srcY: i32, srcZ: i32, dstName: u32, dstTarget: u32, dstLevel: i32, dstX: i32, dstY: i32, dstZ: i32, srcWidth: i32, srcHeight: i32, srcDepth: i32) -> (), {
-    hooks::settle();
-    let gl = hooks::real();
-    // SAFETY: the program's own call.
-    unsafe { gl.glCopyImageSubData(srcName, srcTarget, srcLevel, srcX, srcY, srcZ, dstName, dstTarget, dstLevel, dstX, dstY, dstZ, srcWidth, srcHeight, srcDepth) };
+    // SAFETY: the program's own arguments.
+    unsafe { special::glCopyImageSubData(srcName, srcTarget, srcLevel, srcX, srcY, srcZ, dstName, dstTarget, dstLevel, dstX, dstY, dstZ, srcWidth, srcHeight, srcDepth) }
 } }
 export! { 806, glCopyImageSubDataEXT, first_glCopyImageSubDataEXT, hook_glCopyImageSubDataEXT, (srcName: u32, srcTarget: u32, srcLevel: i32, srcX: i32, srcY: i32, srcZ: i32, dstName: u32, dstTarget: u32, dstLevel: i32, dstX: i32, dstY: i32, dstZ: i32, srcWidth: i32, srcHeight: i32, srcDepth: i32) -> (), {
-    hooks::settle();
-    let gl = hooks::real();
-    // SAFETY: the program's own call.
-    unsafe { gl.glCopyImageSubDataEXT(srcName, srcTarget, srcLevel, srcX, srcY, srcZ, dstName, dstTarget, dstLevel, dstX, dstY, dstZ, srcWidth, srcHeight, srcDepth) };
+    // SAFETY: the program's own arguments.
+    unsafe { special::glCopyImageSubData(srcName, srcTarget, srcLevel, srcX, srcY, srcZ, dstName, dstTarget, dstLevel, dstX, dstY, dstZ, srcWidth, srcHeight, srcDepth) }
 } }
 export! { 807, glCopyImageSubDataOES, first_glCopyImageSubDataOES, hook_glCopyImageSubDataOES, (srcName: u32, srcTarget: u32, srcLevel: i32, srcX: i32, srcY: i32, srcZ: i32, dstName: u32, dstTarget: u32, dstLevel: i32, dstX: i32, dstY: i32, dstZ: i32, srcWidth: i32, srcHeight: i32, srcDepth: i32) -> (), {
-    hooks::settle();
-    let gl = hooks::real();
-    // SAFETY: the program's own call.
-    unsafe { gl.glCopyImageSubDataOES(srcName, srcTarget, srcLevel, srcX, srcY, srcZ, dstName, dstTarget, dstLevel, dstX, dstY, dstZ, srcWidth, srcHeight, srcDepth) };
+    // SAFETY: the program's own arguments.
+    unsafe { special::glCopyImageSubData(srcName, srcTarget, srcLevel, srcX, srcY, srcZ, dstName, dstTarget, dstLevel, dstX, dstY, dstZ, srcWidth, srcHeight, srcDepth) }
 } }
 export! { 808, glGetTextureImage, first_glGetTextureImage, hook_glGetTextureImage, (texture: u32, level: i32, format: u32, type_: u32, bufSize: i32, pixels: Ptr) -> (), {
     hooks::settle();

@@ -2,7 +2,7 @@
 
 use super::current::Current;
 use super::tuned::{Tuned, Units};
-use crate::atlas::{Atlas, Grid, Surface, Tiles};
+use crate::atlas::{Grid, Surface, Tiles};
 use crate::gl::{Gl, consts as c};
 use crate::plan::{Rig, Shear};
 use crate::state::{Effect, State};
@@ -192,9 +192,15 @@ pub fn replay(
 }
 
 /// The program's own view, for what the driver is about to draw there; [`others`] ends it.
-pub fn enter_own(gl: &Gl, atlas: &mut Atlas, state: &State, rig: &Rig, shear: Option<Shear>) {
-    let tiles = atlas.tiles;
-    let x = atlas.enter(gl, tiles.own());
+pub fn enter_own(
+    gl: &Gl,
+    surface: &mut dyn Surface,
+    state: &State,
+    rig: &Rig,
+    shear: Option<Shear>,
+) {
+    let tiles = surface.tiles();
+    let x = surface.enter(gl, tiles.own());
     if tiles.columns > 1 || !tiles.grid.is_full() {
         place(gl, state, &tiles, tiles.own(), x);
     }
@@ -212,14 +218,14 @@ pub fn enter_own(gl: &Gl, atlas: &mut Atlas, state: &State, rig: &Rig, shear: Op
 /// After [`enter_own`]: the other views, where they are wanted, then all state as the program has it.
 pub fn others(
     gl: &Gl,
-    atlas: &mut Atlas,
+    surface: &mut dyn Surface,
     state: &State,
     rig: &Rig,
     shear: Option<Shear>,
     wanted: bool,
     call: &mut dyn FnMut(u32),
 ) {
-    let tiles = atlas.tiles;
+    let tiles = surface.tiles();
     let (own, beside) = (tiles.own(), tiles.columns > 1 || !tiles.grid.is_full());
     let projection = Projection {
         gl,
@@ -228,14 +234,14 @@ pub fn others(
         grid: tiles.grid,
     };
     for view in tiles.order().filter(|&v| wanted && v != own) {
-        let x = atlas.enter(gl, view);
+        let x = surface.enter(gl, view);
         if beside {
             place(gl, state, &tiles, view, x);
         }
         projection.load(rig.place(view));
         call(view);
     }
-    atlas.enter(gl, own);
+    surface.enter(gl, own);
     if beside {
         unplace(gl, state);
     }

@@ -33,8 +33,12 @@ impl Layer {
             self.frame.draws += 1;
         }
         let first = !self.frame.deep;
+        let seen = match shown && !clear {
+            true => self.looks_through(gl),
+            false => None,
+        };
+        let projection = seen.unwrap_or_else(|| self.state.projection_kind());
         if shown {
-            let projection = self.state.projection_kind();
             let needs = self.classifier.needs(kind, projection, first);
             self.state.look(gl, needs);
             let depth = self.state.look.depth;
@@ -59,6 +63,7 @@ impl Layer {
             list: self.frame.list,
             raster: self.raster_placed,
             first,
+            projection,
             ..Facts::of(kind, &self.state)
         };
         let classed = self.classifier.class(&facts);

@@ -5,6 +5,7 @@
 
 use super::{Layer, keep_bindings};
 use crate::gl::{Gl, Object, consts as c};
+use std::sync::Arc;
 
 impl Layer {
     /// glCopyTexImage* and glCopyTexSubImage*: from each view into its own texture. Columns in pixels.
@@ -130,6 +131,20 @@ impl Layer {
     /// What is attached to some framebuffer is another, or what is drawn to of it.
     pub fn attachments_changed(&mut self) {
         self.offscreen.attachments_changed();
+    }
+
+    /// Whether other contexts see its objects: each has these lists in its layer, and in the record of what was created.
+    pub fn is_shared(&self) -> bool {
+        Arc::strong_count(&self.lists) > 2
+    }
+
+    /// glCopyImageSubData to an object: all views see the same again.
+    pub fn copied_to(&mut self, gl: &Gl, name: u32, renderbuffer: bool) {
+        let object = match renderbuffer {
+            true => Object::Renderbuffer(name),
+            false => Object::Texture(name),
+        };
+        self.offscreen.forget(gl, [object]);
     }
 
     /// Whether the views differ in anything but the window.

@@ -2,8 +2,10 @@
 //! others.
 
 use super::Layer;
+use crate::atlas::Surface;
 use crate::draw::{Current, enter_own, others};
-use crate::gl::Gl;
+use crate::gl::{Gl, consts as c};
+use crate::offscreen::Target;
 use crate::plan::{Kind, Method, Shear};
 use crate::state::Effect;
 
@@ -15,6 +17,8 @@ pub(super) struct Own {
     everywhere: bool,
     /// What the other views start from.
     before: Current,
+    /// The framebuffer of the program's, where each view has its own.
+    target: Option<Target>,
 }
 
 impl Layer {
@@ -23,23 +27,30 @@ impl Layer {
         self.hold_everything(gl, "draws while it compiles a display list");
         let plan = self.plan(gl, Kind::List);
         self.queries.drawn();
-        if !self.state.draws_to_window() {
+        let framebuffer = self.state.framebuffers.draw;
+        let mut target = self.offscreen.take(framebuffer, self.wanted_views());
+        if !self.state.makes_pictures() || (framebuffer != 0 && target.is_none()) {
             return;
         }
         self.proving.refuse_lists();
         let everywhere = plan.method != Method::Once;
         let shear = plan.shear.filter(|_| everywhere);
-        enter_own(gl, &mut self.atlas, &self.state, &self.rig, shear);
+        let surface: &mut dyn Surface = match &mut target {
+            Some(target) => target,
+            None => &mut self.atlas,
+        };
+        enter_own(gl, surface, &self.state, &self.rig, shear);
         self.executed = Some(Own {
             shear,
             everywhere,
             before: Current::take(gl, Effect::ALL, true),
+            target,
         });
     }
 
     /// After the driver has ended it; `name` is the list.
     pub(super) fn finish_own(&mut self, gl: &Gl, name: u32) {
-        let Some(own) = self.executed.take() else {
+        let Some(mut own) = self.executed.take() else {
             return;
         };
         let after = Current::take(gl, Effect::ALL, true);
@@ -47,9 +58,13 @@ impl Layer {
         if own.everywhere {
             self.queries.pause(gl);
         }
+        let surface: &mut dyn Surface = match &mut own.target {
+            Some(target) => target,
+            None => &mut self.atlas,
+        };
         others(
             gl,
-            &mut self.atlas,
+            surface,
             &self.state,
             &self.rig,
             own.shear,
@@ -62,6 +77,13 @@ impl Layer {
         );
         if own.everywhere {
             self.offscreen.unbind(gl, &bound);
+        }
+        if let Some(target) = own.target.take() {
+            gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, target.own());
+            self.offscreen.drawn_to(&target);
+            self.offscreen.put(target);
+        }
+        if own.everywhere {
             after.put(gl);
             self.queries.resume(gl);
         }

@@ -306,6 +306,8 @@ impl Layer {
         match (name, &self.state.list) {
             (c::LIST_INDEX, Some(list)) => return Some(list.list.into()),
             (c::LIST_MODE, Some(list)) => return Some(list.mode.into()),
+            // From a binary nothing can be made for a view: programs then come with their texts.
+            (c::NUM_PROGRAM_BINARY_FORMATS, _) if self.refuses_binaries() => return Some(0),
             _ => {}
         }
         match name {

@@ -31,13 +31,8 @@ impl Layer {
             return false;
         }
         self.state.refresh(gl);
-        if !self.state.draws_to_window() || mode > c::POLYGON {
-            if self.state.list.is_none() && self.state.framebuffers.draw != 0 {
-                // Only to be counted, as other draws to the program's own framebuffers are.
-                self.plan(gl, Kind::Begin(mode));
-            } else {
-                self.queries.drawn();
-            }
+        if !self.state.makes_pictures() || mode > c::POLYGON {
+            self.queries.drawn();
             self.state.begin = Begin::Direct;
             return false;
         }

@@ -216,7 +216,7 @@ impl Layer {
         };
         let segments = || bodies.iter().flat_map(|b| b.iter());
         let balanced = segments().all(Segment::is_balanced);
-        if balanced && !self.state.draws_to_window() && segments().all(|s| s.run.is_plain()) {
+        if balanced && !self.state.makes_pictures() && segments().all(|s| s.run.is_plain()) {
             let touch = segments().fold(Touch::NONE, |t, s| t | s.touch);
             call();
             self.state.touch(touch);
@@ -256,7 +256,7 @@ impl Layer {
             return self.inside(gl, segment);
         }
         if let Some(mode) = segment.opens
-            && self.state.draws_to_window()
+            && self.state.makes_pictures()
         {
             self.start_recording(mode);
             self.ends.opener = segment.name;

@@ -1,7 +1,7 @@
 //! Programs with shaders of their own: their draws go by a twin that shifts the vertices of each view.
 
 use super::Layer;
-use crate::config::Class;
+use crate::config::{Class, Projection};
 use crate::draw::{Drawn, NoTwin, Twin, Way, drawn};
 use crate::gl::{Gl, Held, consts as c};
 use crate::plan::class::Why;
@@ -53,6 +53,8 @@ struct Known {
     units: (u64, Vec<(u32, u32)>),
     /// The last one that was among them, and which of them it was in.
     camera: Option<(usize, [f32; 16])>,
+    /// None of them has a perspective now.
+    lost: bool,
     /// The changes of uniforms up to which its camera was looked for, and its values follow.
     seen: u64,
     followed: [u64; 3],
@@ -104,6 +106,11 @@ impl Layer {
         if let Some(texts) = texts(gl, program) {
             self.shaders(|shaders| shaders.linked(program, texts));
         }
+    }
+
+    /// Whether programs have to come with their texts: from a binary nothing can be made for a view.
+    pub fn refuses_binaries(&self) -> bool {
+        self.config.views > 1
     }
 
     /// A program got its executable in another way.
@@ -195,7 +202,7 @@ impl Layer {
         let ruled = matches!(classed.why, Why::Rule(_));
         let (class, shear, flat) = match classed.class {
             Class::Flat if ruled => (Class::Flat, plan.shear, plan.shear),
-            Class::Sky if ruled => (Class::Sky, self.rig.sky(&camera), None),
+            Class::Sky => (Class::Sky, self.rig.sky(&camera), None),
             class => {
                 let shear = match classed.focal {
                     None => self.rig.shear(&camera),
@@ -223,6 +230,7 @@ impl Layer {
             how: Ok(Drawn::ByTwin(_)),
             matrices,
             camera,
+            lost: none,
             seen,
             ..
         }) = self.twins.known.get_mut(&program)
@@ -236,7 +244,7 @@ impl Layer {
         if let (true, Some((at, found))) = (changed, *camera) {
             match matrices.value(gl, program, at) {
                 Some(now) => match camera::equivalent(&now) {
-                    Some(now) => *camera = Some((at, now)),
+                    Some(now) => (*camera, *none) = (Some((at, now)), false),
                     None => lost = true,
                 },
                 None => *camera = Some((at, found)),
@@ -248,13 +256,34 @@ impl Layer {
             if reads {
                 self.state.keep_errors(gl);
             }
-            *camera = camera::among(&matrices.values(gl, program, reads), aspect).or(*camera);
+            let found = camera::among(&matrices.values(gl, program, reads), aspect);
+            *none = found.is_none();
+            *camera = found.or(*camera);
         }
         let camera = camera.map(|(_, camera)| camera);
         if reads {
             self.drain_own_errors(gl);
         }
         Some(camera)
+    }
+
+    /// The kind of projection of the program's own shaders; none where that is fixed function's.
+    pub(super) fn looks_through(&mut self, gl: &Gl) -> Option<Projection> {
+        let program = self.state.program;
+        if program == 0 || self.config.views < 2 {
+            return None;
+        }
+        self.know(gl, program);
+        self.camera_of(gl, program)?;
+        let lost = self
+            .twins
+            .known
+            .get(&program)
+            .is_none_or(|known| known.lost);
+        Some(match lost {
+            true => Projection::None,
+            false => Projection::Perspective,
+        })
     }
 
     /// The matrices by which a program computes positions from depths, with their locations.
@@ -333,6 +362,7 @@ impl Layer {
             samplers,
             units: (0, Vec::new()),
             camera: None,
+            lost: true,
             seen: 0,
             followed: [0; 3],
             layered: [None, None],

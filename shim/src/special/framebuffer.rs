@@ -1,7 +1,7 @@
 //! Framebuffer objects and the program's framebuffer 0.
 
 use crate::context::{enter, peek, real};
-use crate::hooks::{ask, compile};
+use crate::hooks::{ask, compile, settle};
 use core::slice::from_raw_parts;
 use manyview_core::gl::{Gl, Ptr, consts as c};
 use manyview_core::layer::{Layer, is_scaled};
@@ -49,6 +49,36 @@ pub(crate) unsafe fn glDeleteRenderbuffers(n: i32, renderbuffers: Ptr) {
     }
     // SAFETY: the program's own call.
     unsafe { real().glDeleteRenderbuffers(n, renderbuffers) };
+}
+
+pub(crate) unsafe fn glCopyImageSubData(
+    srcName: u32,
+    srcTarget: u32,
+    srcLevel: i32,
+    srcX: i32,
+    srcY: i32,
+    srcZ: i32,
+    dstName: u32,
+    dstTarget: u32,
+    dstLevel: i32,
+    dstX: i32,
+    dstY: i32,
+    dstZ: i32,
+    srcWidth: i32,
+    srcHeight: i32,
+    srcDepth: i32,
+) {
+    settle();
+    // SAFETY: the program's own call.
+    unsafe {
+        real().glCopyImageSubData(
+            srcName, srcTarget, srcLevel, srcX, srcY, srcZ, dstName, dstTarget, dstLevel, dstX,
+            dstY, dstZ, srcWidth, srcHeight, srcDepth,
+        )
+    };
+    if peek(|l| l.has_copies()) == Some(true) {
+        enter(|gl, l| l.copied_to(gl, dstName, dstTarget == c::RENDERBUFFER));
+    }
 }
 
 /// A choice of buffers: ours for framebuffer 0, else the driver's. In a display list the translated name is compiled.

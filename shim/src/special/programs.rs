@@ -13,6 +13,9 @@ pub(crate) unsafe fn glLinkProgram(program: u32) {
 
 pub(crate) unsafe fn glProgramBinary(program: u32, format: u32, binary: Ptr, length: i32) {
     ask();
+    // Such as the driver has none of: it says what is wrong, and the program links its texts.
+    let refused = peek(|l| l.refuses_binaries()) == Some(true);
+    let format = if refused { 0 } else { format };
     // SAFETY: the program's own call.
     unsafe { real().glProgramBinary(program, format, binary, length) };
     enter(|_, l| l.forget_program(program));

@@ -1,9 +1,9 @@
 //! State that the layer follows call by call, and what the program asks about.
 
-use crate::context::{check_size, draws_to_memory, enter, frame, peek, real};
+use crate::context::{check_size, draws_to_memory, enter, frame, peek, real, settle_shared};
 use crate::hooks::{ask, compile, touch};
 use core::sync::atomic::{AtomicI64, Ordering::Relaxed};
-use manyview_core::gl::Ptr;
+use manyview_core::gl::{Ptr, consts::PROGRAM_BINARY_FORMATS};
 use manyview_core::state::{Command, Touch};
 
 pub(crate) unsafe fn glMatrixMode(mode: u32) {
@@ -126,6 +126,10 @@ fn answer(name: u32) -> Option<i64> {
 }
 
 pub(crate) unsafe fn glGetIntegerv(pname: u32, data: Ptr) {
+    // A list of none.
+    if pname == PROGRAM_BINARY_FORMATS && peek(|l| l.refuses_binaries()) == Some(true) {
+        return;
+    }
     match answer(pname) {
         // SAFETY: the program's pointer to one value.
         Some(v) if !data.is_null() => unsafe { *data.cast::<i32>() = v as i32 },
@@ -184,6 +188,7 @@ pub(crate) unsafe fn glGetError() -> u32 {
 
 pub(crate) unsafe fn glFlush() {
     ask();
+    settle_shared();
     // SAFETY: the program's own call.
     let flush = || unsafe { real().glFlush() };
     if !draws_to_memory() && enter(|_, l| l.shows_on_flush()) == Some(true) {
@@ -195,6 +200,7 @@ pub(crate) unsafe fn glFlush() {
 
 pub(crate) unsafe fn glFinish() {
     ask();
+    settle_shared();
     // SAFETY: the program's own call.
     let finish = || unsafe { real().glFinish() };
     let memory = draws_to_memory();

@@ -85,7 +85,8 @@ static void image(const char *what)
 
 int main(void)
 {
-    if (!open_surface() || !new_context(EGL_NO_CONTEXT))
+    EGLContext context;
+    if (!open_surface() || !(context = new_context(EGL_NO_CONTEXT)))
         return 2;
     scene = linked(vertex, fragment), shown = linked(whole, picture);
     glGenFramebuffers(2, target);
@@ -145,5 +146,12 @@ int main(void)
     quad(shown, 0, 0, 0, 0);
     tell("shown", 32, 24);
     eglSwapBuffers(display, surface);
+
+    glBindFramebuffer(GL_FRAMEBUFFER, target[1]);
+    quad(scene, 9, 1, 1, 0);
+    if (!new_context(context))
+        return 3;
+    glBindTexture(GL_TEXTURE_2D, colours[0]);
+    image("seen by another context");
     return 0;
 }
