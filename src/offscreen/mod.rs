@@ -293,7 +293,10 @@ impl Offscreen {
 
     /// All bound textures with an image per view; where the draw's own units are not known.
     pub fn bound(&self, gl: &Gl) -> Vec<Bound> {
-        let units = (0..self.units).flat_map(|unit| image::TARGETS.map(|t| (unit, t.0)));
+        let used = |target: u32| self.images.values().any(|image| image.target == target);
+        let targets = image::TARGETS.map(|(target, _)| target);
+        let targets: Vec<u32> = targets.into_iter().filter(|&t| used(t)).collect();
+        let units = (0..self.units).flat_map(|unit| targets.iter().map(move |&t| (unit, t)));
         self.bound_among(gl, units)
     }
 
