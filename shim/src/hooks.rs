@@ -3,6 +3,8 @@
 use crate::context::{self, enter};
 use manyview_core::gl::Real;
 
+pub(crate) use manyview_core::gl::Object;
+
 pub(crate) use context::real;
 use manyview_core::gl::consts::{DEPTH_TEST, FRAMEBUFFER_SRGB, SCISSOR_TEST, TEXTURE_2D};
 use manyview_core::state::Run;
@@ -56,6 +58,15 @@ pub(crate) fn texture(target: u32) {
     any();
     if context::peek(|l| l.has_copies()) == Some(true) {
         enter(|gl, l| l.texture_written(gl, target));
+    }
+}
+
+/// A texture or renderbuffer is about to be written to.
+#[inline]
+pub(crate) fn named(object: Object) {
+    ask();
+    if context::peek(|l| l.has_copies()) == Some(true) {
+        enter(|gl, l| l.written(gl, object));
     }
 }
 

@@ -183,14 +183,7 @@ impl Twin {
         let window = |uniform| place.map_or(-1, |names| ours(names, uniform));
         let mut uniforms = Vec::new();
         for active in gl.active_uniforms(program) {
-            let text = active.name.to_string_lossy();
-            let stem = text.strip_suffix("[0]").unwrap_or(&text);
-            for at in 0..active.size.max(1) {
-                let element = match active.size {
-                    ..=1 => text.clone().into_owned(),
-                    _ => format!("{stem}[{at}]"),
-                };
-                let element = CString::new(element).unwrap_or_default();
+            for element in active.elements() {
                 let [from, to] = [program, name].map(|of| gl.uniform_location(of, &element));
                 if from >= 0 && to >= 0 {
                     uniforms.push((active.kind, from, to));

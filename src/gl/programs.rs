@@ -16,6 +16,18 @@ pub struct Active {
     pub size: i32,
 }
 
+impl Active {
+    /// The name of each element.
+    pub fn elements(&self) -> impl Iterator<Item = CString> {
+        let text = self.name.to_string_lossy();
+        let stem = text.strip_suffix("[0]").unwrap_or(&text).to_owned();
+        (0..self.size.max(1)).map(move |at| match self.size {
+            ..=1 => self.name.clone(),
+            _ => CString::new(format!("{stem}[{at}]")).unwrap_or_default(),
+        })
+    }
+}
+
 /// What a uniform's values are made of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Base {

@@ -39,6 +39,23 @@ impl Level {
         }
     }
 
+    /// Where an image of this kind is attached to a framebuffer, with the masks of what it holds.
+    pub fn points(&self) -> &'static [(u32, u32)] {
+        const COLOR: (u32, u32) = (c::COLOR_ATTACHMENT0, c::COLOR_BUFFER_BIT);
+        const DEPTH: (u32, u32) = (c::DEPTH_ATTACHMENT, c::DEPTH_BUFFER_BIT);
+        const STENCIL: (u32, u32) = (c::STENCIL_ATTACHMENT, c::STENCIL_BUFFER_BIT);
+        match self.internal {
+            c::DEPTH_COMPONENT
+            | c::DEPTH_COMPONENT16
+            | c::DEPTH_COMPONENT24
+            | c::DEPTH_COMPONENT32
+            | c::DEPTH_COMPONENT32F => &[DEPTH],
+            c::DEPTH_STENCIL | c::DEPTH24_STENCIL8 | c::DEPTH32F_STENCIL8 => &[DEPTH, STENCIL],
+            c::STENCIL_INDEX | c::STENCIL_INDEX8 => &[STENCIL],
+            _ => &[COLOR],
+        }
+    }
+
     /// The internal format with its sizes, as drivers take one without; none where there is none to draw to.
     pub fn sized(&self) -> Option<u32> {
         Some(match self.internal {
@@ -284,16 +301,19 @@ impl Gl {
         };
     }
 
-    /// glGetTexParameterfv of GL_TEXTURE_BORDER_COLOR.
-    pub fn border_color(&self, target: u32) -> [f32; 4] {
+    /// glGetTexParameterfv; of what has one value the first.
+    pub fn tex_parameter_floats(&self, target: u32, name: u32) -> [f32; 4] {
         let mut v = [0f32; 4];
         let p = v.as_mut_ptr().cast();
         // SAFETY: room for 4 values.
-        unsafe {
-            self.real
-                .glGetTexParameterfv(target, c::TEXTURE_BORDER_COLOR, p)
-        };
+        unsafe { self.real.glGetTexParameterfv(target, name, p) };
         v
+    }
+
+    /// glTexParameterf
+    pub fn tex_parameterf(&self, target: u32, name: u32, value: f32) {
+        // SAFETY: no pointers.
+        unsafe { self.real.glTexParameterf(target, name, value) };
     }
 
     /// glTexParameterfv of GL_TEXTURE_BORDER_COLOR.

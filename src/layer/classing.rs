@@ -72,6 +72,9 @@ impl Layer {
 
     /// The call once, in the program's own view only.
     pub(super) fn once(&mut self, gl: &Gl, call: &mut dyn FnMut()) {
+        if self.has_copies() && (!self.sampled.is_empty() || self.state.transform_feedback) {
+            self.settle_textures(gl);
+        }
         // What is fed back or hit is not drawn, and is told in the program's own viewport.
         if self.state.draws_to_window() && self.state.render_mode == c::RENDER {
             // The tiles beside it are others' views.

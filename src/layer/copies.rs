@@ -78,14 +78,21 @@ impl Layer {
         let Some(texture) = self.offscreen.bound_at(gl, target) else {
             return;
         };
+        self.mipmaps_of(gl, texture, &mut |name| {
+            gl.bind_texture(target, name);
+            call();
+        });
+        gl.bind_texture(target, texture);
+    }
+
+    /// The same of a texture that is named.
+    pub fn mipmaps_of(&mut self, gl: &Gl, texture: u32, call: &mut dyn FnMut(u32)) {
         self.state.keep_errors(gl);
         for name in self.offscreen.views(texture) {
             if name != texture {
-                gl.bind_texture(target, name);
-                call();
+                call(name);
             }
         }
-        gl.bind_texture(target, texture);
         self.offscreen.written(texture);
         self.drain_own_errors(gl);
     }
@@ -93,8 +100,15 @@ impl Layer {
     /// The program changes the image of the texture that is bound: all views see the same again.
     pub fn texture_written(&mut self, gl: &Gl, target: u32) {
         if let Some(texture) = self.offscreen.bound_at(gl, target) {
+            self.written(gl, Object::Texture(texture));
+        }
+    }
+
+    /// The program changes the image of a texture or renderbuffer: all views see the same again.
+    pub fn written(&mut self, gl: &Gl, object: Object) {
+        if self.offscreen.has(object) {
             self.settle_textures(gl);
-            self.offscreen.forget(gl, [Object::Texture(texture)]);
+            self.offscreen.forget(gl, [object]);
         }
     }
 
@@ -108,7 +122,7 @@ impl Layer {
     /// The renderbuffer that is bound gets another store.
     pub fn storage_changed(&mut self, gl: &Gl) {
         let name = gl.get_integer(c::RENDERBUFFER_BINDING) as u32;
-        self.offscreen.forget(gl, [Object::Renderbuffer(name)]);
+        self.written(gl, Object::Renderbuffer(name));
     }
 
     /// glDeleteTextures.
@@ -136,15 +150,6 @@ impl Layer {
     /// Whether other contexts see its objects: each has these lists in its layer, and in the record of what was created.
     pub fn is_shared(&self) -> bool {
         Arc::strong_count(&self.lists) > 2
-    }
-
-    /// glCopyImageSubData to an object: all views see the same again.
-    pub fn copied_to(&mut self, gl: &Gl, name: u32, renderbuffer: bool) {
-        let object = match renderbuffer {
-            true => Object::Renderbuffer(name),
-            false => Object::Texture(name),
-        };
-        self.offscreen.forget(gl, [object]);
     }
 
     /// Whether the views differ in anything but the window.

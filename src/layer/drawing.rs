@@ -267,7 +267,7 @@ impl Layer {
     fn keep_together(&mut self, gl: &Gl) {
         let alike = match self.means.strategy {
             Strategy::Replay | Strategy::Auto => true,
-            Strategy::Instanced => self.config.clip.is_none() && self.support.layers,
+            Strategy::Instanced => self.config.clip.is_none() && self.support.layers(),
             Strategy::Geometry => false,
         };
         if alike || self.means.together || !self.state.draws_to_window() {

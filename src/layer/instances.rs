@@ -78,6 +78,8 @@ impl Layer {
                 None => self.atlas.bind_layered(gl),
             }
             draw(views.len() as i32);
+        } else {
+            call();
         }
         gl.use_program(program);
         self.twins = twins;

@@ -43,7 +43,6 @@ use crate::offscreen::{Bound, Offscreen};
 use crate::plan::{Classifier, Means, Reason, Rig, Shear};
 use crate::present::Saved;
 use crate::report::{Counts, Proof, Report};
-use crate::rewrite::VertexLayer;
 use crate::state::{BACK, Immediate, Lists, State, Window};
 use std::sync::{Arc, Mutex, PoisonError};
 use support::Support;
@@ -97,8 +96,6 @@ pub struct Layer {
     unprojections: Vec<(i32, [f32; 16])>,
     /// The program has attributes that advance by instances.
     divides: bool,
-    /// How a vertex shader chooses the layer that it draws to, where the driver lets it.
-    vertex_layer: Option<VertexLayer>,
     /// A of the camera that the window is drawn with, for telling it from a lamp's.
     lens: Option<f64>,
     executed: Option<executed::Own>,
@@ -176,7 +173,7 @@ impl Layer {
         let program = profile::this_program();
         let all: Vec<Strategy> = [
             (Strategy::Replay, true),
-            (Strategy::Instanced, support.instanced() || support.layers),
+            (Strategy::Instanced, support.instanced() || support.layers()),
             (Strategy::Geometry, support.geometry()),
         ]
         .into_iter()
@@ -241,7 +238,6 @@ impl Layer {
             sampled_by: None,
             unprojections: Vec::new(),
             divides: false,
-            vertex_layer: crate::draw::limits(gl, support.glsl).vertex_layer,
             lens: None,
             executed: None,
             on_screen: None,
@@ -482,7 +478,7 @@ fn layout(config: &Config, support: &Support, strategy: Strategy) -> AtlasLayout
         _ if config.clip.is_some() => AtlasLayout::SideBySide,
         // A geometry shader can always choose a layer.
         Strategy::Geometry => AtlasLayout::Layers,
-        Strategy::Instanced if support.layers => AtlasLayout::Layers,
+        Strategy::Instanced if support.layers() => AtlasLayout::Layers,
         _ => config.atlas,
     }
 }

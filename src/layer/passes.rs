@@ -26,7 +26,7 @@ impl Layer {
         if name == 0 {
             return Target::Window;
         }
-        let number = self.offscreen.target(gl, name).number;
+        let number = self.offscreen.number(gl, name);
         if self.config.views > 1 && self.is_pass(gl, name) {
             Target::Pass(number)
         } else {

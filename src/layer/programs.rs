@@ -230,7 +230,7 @@ impl Layer {
             how: Ok(Drawn::ByTwin(_)),
             matrices,
             camera,
-            lost: none,
+            lost,
             seen,
             ..
         }) = self.twins.known.get_mut(&program)
@@ -240,24 +240,23 @@ impl Layer {
         let change = uniform_change();
         let changed = std::mem::replace(seen, change) != change;
         // The one that it was in has mostly only moved.
-        let mut lost = camera.is_none();
-        if let (true, Some((at, found))) = (changed, *camera) {
-            match matrices.value(gl, program, at) {
-                Some(now) => match camera::equivalent(&now) {
-                    Some(now) => (*camera, *none) = (Some((at, now)), false),
-                    None => lost = true,
-                },
-                None => *camera = Some((at, found)),
+        let mut search = camera.is_none();
+        if let (true, Some((at, found))) = (changed, camera.as_mut())
+            && let Some(now) = matrices.value(gl, program, *at)
+        {
+            match camera::equivalent(&now) {
+                Some(now) => (*found, *lost) = (now, false),
+                None => search = true,
             }
         }
         // Buffers are read until a camera is found. One that is mapped is not to be read, and raises an error.
         let reads = camera.is_none() && matrices.has_blocks();
-        if lost && (changed || reads) {
+        if search && (changed || reads) {
             if reads {
                 self.state.keep_errors(gl);
             }
             let found = camera::among(&matrices.values(gl, program, reads), aspect);
-            *none = found.is_none();
+            *lost = found.is_none();
             *camera = found.or(*camera);
         }
         let camera = camera.map(|(_, camera)| camera);
@@ -327,7 +326,7 @@ impl Layer {
 
     /// Learns how a program is drawn, once for each of its links.
     pub(super) fn know(&mut self, gl: &Gl, program: u32) {
-        let linked = self.shaders(|shaders| shaders.of(program));
+        let linked = self.linked_from(program);
         let link = linked.as_ref().map_or(0, |linked| linked.link);
         if self
             .twins
@@ -381,8 +380,8 @@ impl Layer {
             Some(Some(made)) => return made.is_some(),
             None => return false,
         }
-        let linked = self.shaders(|shaders| shaders.of(program));
-        let way = self.vertex_layer.map(|by| match all {
+        let linked = self.linked_from(program);
+        let way = self.support.vertex_layer.map(|by| match all {
             true => Way::Instances(by, self.config.views),
             false => Way::Layer(by),
         });

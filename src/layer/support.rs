@@ -4,6 +4,7 @@
 use super::LayerError;
 use crate::atlas::Limits;
 use crate::gl::{Gl, consts as c};
+use crate::rewrite::VertexLayer;
 use serde::{Deserialize, Serialize};
 
 /// What a context offers.
@@ -19,8 +20,8 @@ pub struct Support {
     pub glsl: u32,
     /// GL_MAX_CLIP_DISTANCES; 0 where generated shaders cannot be used.
     pub clip_distances: u32,
-    /// Whether a generated vertex shader can choose the layer that it draws to.
-    pub layers: bool,
+    /// By what a vertex shader chooses the layer that it draws to.
+    pub vertex_layer: Option<VertexLayer>,
     /// Whether viewports can begin and end between pixels (GL_ARB_viewport_array).
     pub viewports: bool,
     /// How large an atlas may be.
@@ -62,7 +63,7 @@ impl Support {
             flip: gl.has_extension("GL_MESA_framebuffer_flip_y"),
             glsl,
             clip_distances,
-            layers: crate::draw::limits(gl, glsl).vertex_layer.is_some(),
+            vertex_layer: crate::draw::limits(gl, glsl).vertex_layer,
             viewports: version >= (4, 1) || gl.has_extension("GL_ARB_viewport_array"),
             limits: Limits {
                 side: side.max(1).unsigned_abs(),
@@ -80,6 +81,12 @@ impl Support {
         self.clip_distances >= 2
     }
 
+    /// Whether a vertex shader can choose the layer that it draws to.
+    #[must_use]
+    pub fn layers(&self) -> bool {
+        self.vertex_layer.is_some()
+    }
+
     /// Whether generated geometry shaders can: GLSL 1.50 has them.
     #[must_use]
     pub fn geometry(&self) -> bool {
@@ -91,7 +98,7 @@ impl Support {
     pub fn strategies(&self) -> Vec<&'static str> {
         [
             ("replay", true),
-            ("instanced", self.instanced() || self.layers),
+            ("instanced", self.instanced() || self.layers()),
             ("geometry", self.geometry()),
         ]
         .into_iter()
@@ -106,7 +113,7 @@ impl Support {
         if !self.flip {
             notes.push("the driver has no GL_MESA_framebuffer_flip_y: a view may differ from the window in single pixels".to_owned());
         }
-        if !self.instanced() && (self.compatibility || !self.layers) {
+        if !self.instanced() && (self.compatibility || !self.layers()) {
             let reason = match (self.compatibility, self.glsl) {
                 (false, _) => "a core profile has no fixed function to generate shaders for",
                 (_, 150..) => "the driver has fewer than two clip distances",
@@ -149,7 +156,7 @@ mod tests {
             flip: true,
             glsl,
             clip_distances,
-            layers: clip_distances >= 2,
+            vertex_layer: (clip_distances >= 2).then_some(VertexLayer::ArbShaderViewportLayerArray),
             viewports: true,
             limits: Limits {
                 side: 4096,
@@ -173,7 +180,7 @@ mod tests {
         }
         // Programs have shaders of their own in a core profile, whose twins choose layers.
         let core = Support {
-            layers: true,
+            vertex_layer: Some(VertexLayer::ArbShaderViewportLayerArray),
             ..support(450, false, 0)
         };
         assert_eq!(core.strategies(), ["replay", "instanced"]);

@@ -4,6 +4,7 @@
 //! and is sampled through a texture for each layer (glTextureView). The program's own object then gets what its view has where something
 //! else than drawing reads it. Where that is not to be had there is an object like the program's for each other view.
 
+use super::fill::fill;
 use crate::atlas::{Names, Tiles};
 use crate::gl::{Gl, Level, Object, consts as c, is_multisampled};
 
@@ -32,11 +33,10 @@ pub(super) struct Array {
 }
 
 /// What of the context decides how images are made.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Means {
-    pub(super) version: (u32, u32),
-    /// Textures can make their mipmaps by themselves, as those of fixed function do.
-    pub(super) mipmaps: bool,
+    /// What a texture looks like beside its image.
+    parameters: Vec<u32>,
     /// Changes of parameters so far.
     pub(super) looks: u64,
     /// Layers of an array can be textures of their own.
@@ -59,8 +59,8 @@ pub(super) const TARGETS: [(u32, u32); 9] = [
     (c::TEXTURE_CUBE_MAP_ARRAY, c::TEXTURE_BINDING_CUBE_MAP_ARRAY),
 ];
 
-/// What a texture looks like beside its image.
-const PARAMETERS: [u32; 12] = [
+/// What a texture looks like beside its image, in every context.
+const PARAMETERS: [u32; 11] = [
     c::TEXTURE_MIN_FILTER,
     c::TEXTURE_MAG_FILTER,
     c::TEXTURE_WRAP_S,
@@ -72,8 +72,16 @@ const PARAMETERS: [u32; 12] = [
     c::TEXTURE_MAX_LOD,
     c::TEXTURE_COMPARE_MODE,
     c::TEXTURE_COMPARE_FUNC,
-    c::GENERATE_MIPMAP,
 ];
+/// With OpenGL 3.3.
+const SWIZZLES: [u32; 4] = [
+    c::TEXTURE_SWIZZLE_R,
+    c::TEXTURE_SWIZZLE_G,
+    c::TEXTURE_SWIZZLE_B,
+    c::TEXTURE_SWIZZLE_A,
+];
+/// With fixed function.
+const OLD: [u32; 2] = [c::GENERATE_MIPMAP, c::DEPTH_TEXTURE_MODE];
 
 /// The name of the binding of a target.
 pub(super) fn binding(target: u32) -> Option<u32> {
@@ -101,7 +109,29 @@ pub(super) fn with_texture<R>(gl: &Gl, name: u32, work: impl FnOnce(u32) -> R) -
     None
 }
 
+/// Runs with the texture that is bound at a target complete at each level alone: an image is copied between such textures only.
+fn complete<R>(gl: &Gl, target: u32, work: impl FnOnce() -> R) -> R {
+    if is_multisampled(target) {
+        return work();
+    }
+    let filter = gl.get_tex_parameter(target, c::TEXTURE_MIN_FILTER);
+    gl.tex_parameteri(target, c::TEXTURE_MIN_FILTER, c::NEAREST as i32);
+    let done = work();
+    gl.tex_parameteri(target, c::TEXTURE_MIN_FILTER, filter);
+    done
+}
+
 impl Image {
+    fn new(target: u32, views: Vec<u32>, array: Option<Array>) -> Image {
+        Image {
+            target,
+            looks: vec![0; views.len()],
+            views,
+            array,
+            stale: false,
+        }
+    }
+
     /// The names of ours that are of the program's kind of object.
     pub(super) fn others(&self, own: u32) -> impl Iterator<Item = u32> + use<> {
         let views = self.views.clone();
@@ -120,10 +150,24 @@ impl Image {
         };
         let first = array.levels.first();
         let (_, layered) = first.map_or((c::NONE, c::TEXTURE_2D_ARRAY), Level::layered);
-        for (at, level) in (0..).zip(&array.levels) {
-            let [w, h, _] = level.size;
-            let from = (array.name, layered, own_layer);
-            gl.copy_layer(from, (to, kind, 0), at, [w, h]);
+        let copy = || {
+            for (at, level) in (0..).zip(&array.levels) {
+                let [w, h, _] = level.size;
+                if kind != c::RENDERBUFFER && gl.tex_level(kind, at) != Some(*level) {
+                    break; // never made by the program
+                }
+                let from = (array.name, layered, own_layer);
+                gl.copy_layer(from, (to, kind, 0), at, [w, h]);
+            }
+        };
+        match object {
+            Object::Texture(name) => {
+                let before = binding(kind).map_or(0, |b| gl.get_integer(b) as u32);
+                gl.bind_texture(kind, name);
+                complete(gl, kind, copy);
+                gl.bind_texture(kind, before);
+            }
+            Object::Renderbuffer(_) => copy(),
         }
         self.stale = false;
     }
@@ -146,21 +190,42 @@ impl Image {
 }
 
 impl Means {
-    fn parameters(&self) -> impl Iterator<Item = u32> {
-        let mipmaps = self.mipmaps;
-        PARAMETERS
-            .into_iter()
-            .filter(move |&p| p != c::GENERATE_MIPMAP || mipmaps)
+    /// Of the current context, with or without fixed function.
+    pub(super) fn of(gl: &Gl, compatibility: bool) -> Means {
+        let version = gl.version();
+        let mut parameters = PARAMETERS.to_vec();
+        if version >= (3, 3) {
+            parameters.extend(SWIZZLES);
+        }
+        if compatibility {
+            parameters.extend(OLD);
+        }
+        if version >= (1, 4) {
+            parameters.push(c::TEXTURE_LOD_BIAS);
+        }
+        if version >= (4, 3) {
+            parameters.push(c::DEPTH_STENCIL_TEXTURE_MODE);
+        }
+        if gl.has_extension("GL_EXT_texture_filter_anisotropic") || version >= (4, 6) {
+            parameters.push(c::TEXTURE_MAX_ANISOTROPY);
+        }
+        Means {
+            parameters,
+            looks: 1,
+            arrays: version >= (4, 3),
+        }
     }
 
-    fn look(&self, gl: &Gl, target: u32) -> (Vec<i32>, [f32; 4]) {
-        let values = self.parameters().map(|p| gl.get_tex_parameter(target, p));
-        (values.collect(), gl.border_color(target))
+    fn look(&self, gl: &Gl, target: u32) -> (Vec<f32>, [f32; 4]) {
+        let all = self.parameters.iter();
+        let values = all.map(|&p| gl.tex_parameter_floats(target, p)[0]);
+        let border = gl.tex_parameter_floats(target, c::TEXTURE_BORDER_COLOR);
+        (values.collect(), border)
     }
 
-    fn set_look(&self, gl: &Gl, target: u32, values: &[i32], border: &[f32; 4]) {
-        for (name, &value) in self.parameters().zip(values) {
-            gl.tex_parameteri(target, name, value);
+    fn set_look(&self, gl: &Gl, target: u32, values: &[f32], border: &[f32; 4]) {
+        for (&name, &value) in self.parameters.iter().zip(values) {
+            gl.tex_parameterf(target, name, value);
         }
         gl.set_border_color(target, border);
     }
@@ -179,46 +244,25 @@ impl Means {
             .map_while(|at| gl.tex_level(target, at))
             .take(if samples { 1 } else { 16 })
             .collect();
-        // An image is copied between complete textures only.
-        let filter = match samples {
-            true => None,
-            false => Some(gl.get_tex_parameter(target, c::TEXTURE_MIN_FILTER)),
-        };
-        let simple = |filter: i32| {
-            if !samples {
-                gl.tex_parameteri(target, c::TEXTURE_MIN_FILTER, filter);
-            }
-        };
-        simple(c::NEAREST as i32);
-        let views = (0..tiles.views).map(|view| {
-            if view == tiles.own() {
-                return texture;
-            }
+        let mut like = || {
             let name = names.texture(gl);
             gl.bind_texture(target, name);
-            simple(c::NEAREST as i32);
-            for (at, level) in (0..).zip(&levels) {
-                gl.tex_level_empty(target, at, level);
-                if self.version >= (4, 3) {
-                    let [w, h, d] = level.size;
-                    let layers = if target == c::TEXTURE_CUBE_MAP { 6 } else { d };
-                    gl.copy_image(target, at, texture, name, [w, h, layers.max(1)]);
+            complete(gl, target, || {
+                for (at, level) in (0..).zip(&levels) {
+                    gl.tex_level_empty(target, at, level);
+                    let objects = (Object::Texture(texture), Object::Texture(name));
+                    fill(gl, target, objects, at, level);
                 }
-            }
+            });
+            gl.bind_texture(target, texture);
             name
+        };
+        let views = (0..tiles.views).map(|view| match view == tiles.own() {
+            true => texture,
+            false => like(),
         });
-        let views: Vec<u32> = views.collect();
-        gl.bind_texture(target, texture);
-        if let Some(filter) = filter {
-            simple(filter);
-        }
-        Some(Image {
-            target,
-            looks: vec![0; views.len()],
-            views,
-            array: None,
-            stale: false,
-        })
+        let views = complete(gl, target, || views.collect());
+        Some(Image::new(target, views, None))
     }
 
     /// Layers like the program's texture, which is bound at GL_TEXTURE_2D or its multisampled kin, with what is in it.
@@ -294,25 +338,26 @@ impl Means {
         let own = match own {
             Object::Texture(name) | Object::Renderbuffer(name) => name,
         };
-        for (at, level) in (0..).zip(&levels) {
-            let [w, h, _] = level.size;
-            if at > 0 && kind != c::RENDERBUFFER && gl.tex_level(kind, at).is_none() {
-                break;
+        let copy = || {
+            for (at, level) in (0..).zip(&levels) {
+                let [w, h, _] = level.size;
+                if at > 0 && kind != c::RENDERBUFFER && gl.tex_level(kind, at).is_none() {
+                    break;
+                }
+                for layer in 0..tiles.views {
+                    gl.copy_layer((own, kind, 0), (array, layered, layer), at, [w, h]);
+                }
             }
-            for layer in 0..tiles.views {
-                gl.copy_layer((own, kind, 0), (array, layered, layer), at, [w, h]);
-            }
-        }
-        let image = Image {
-            target: plane,
-            looks: vec![0; views.len()],
-            views,
-            array: Some(Array {
-                name: array,
-                levels,
-            }),
-            stale: false,
         };
+        match kind {
+            c::RENDERBUFFER => copy(),
+            target => complete(gl, target, copy),
+        }
+        let of = Array {
+            name: array,
+            levels,
+        };
+        let image = Image::new(plane, views, Some(of));
         if gl.get_error() != c::NO_ERROR {
             image.others(own).for_each(|name| gl.delete_texture(name));
             gl.delete_texture(array);
@@ -326,24 +371,18 @@ impl Means {
         let before = gl.get_integer(c::RENDERBUFFER_BINDING) as u32;
         gl.bind_renderbuffer(name);
         let storage = gl.renderbuffer_storage();
+        let level = Level::of_renderbuffer(storage);
         let views = (0..tiles.views).map(|view| {
             if view == tiles.own() {
                 return name;
             }
             let new = gl.renderbuffer(storage);
-            if self.version >= (4, 3) {
-                gl.copy_image(c::RENDERBUFFER, 0, name, new, [storage[1], storage[2], 1]);
-            }
+            let objects = (Object::Renderbuffer(name), Object::Renderbuffer(new));
+            fill(gl, c::RENDERBUFFER, objects, 0, &level);
             new
         });
         let views: Vec<u32> = views.collect();
         gl.bind_renderbuffer(before);
-        Image {
-            target: c::RENDERBUFFER,
-            looks: vec![0; views.len()],
-            views,
-            array: None,
-            stale: false,
-        }
+        Image::new(c::RENDERBUFFER, views, None)
     }
 }

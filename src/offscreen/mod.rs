@@ -1,11 +1,13 @@
 //! What the program draws outside the window, or copies from the frame: one image per view where the views differ in it.
 //!
-//! The program's own texture or renderbuffer holds its own view, so that what it reads back is its own. For the others there are
-//! images beside it. A framebuffer with such an image has one framebuffer per view as well; a draw that samples such a texture has the
-//! texture of its view bound. Nothing is there until something drawn depends on the view: shadow maps, light maps and whatever else
-//! is the same in all views stays one image, drawn once.
+//! The images of the views stand beside the program's own texture or renderbuffer, or, where they cannot be layers of an array, it is
+//! that of its own view. What the program reads back is its own view either way: its object gets that before (see
+//! [`Offscreen::settle`]). A framebuffer with such an image has one framebuffer per view as well, and one with all of them as layers; a
+//! draw that samples such a texture has the texture of its view bound. Nothing is there until something drawn depends on the view:
+//! shadow maps, light maps and whatever else is the same in all views stays one image, drawn once.
 #![forbid(unsafe_code)]
 
+mod fill;
 mod image;
 mod target;
 
@@ -55,12 +57,7 @@ impl Offscreen {
             targets: HashMap::new(),
             count: 0,
             changes: 1,
-            means: image::Means {
-                version: gl.version(),
-                mipmaps: compatibility,
-                looks: 1,
-                arrays: gl.version() >= (4, 3),
-            },
+            means: image::Means::of(gl, compatibility),
             units: units.clamp(1, 32) as u32,
             tiles: Tiles {
                 views,
@@ -208,10 +205,8 @@ impl Offscreen {
                 continue;
             }
             // A name that glGenTextures has not made is none that a layer can have.
-            let means = image::Means {
-                arrays: self.means.arrays && !names.hidden(),
-                ..self.means
-            };
+            let mut means = self.means.clone();
+            means.arrays &= !names.hidden();
             let done = match attachment.object {
                 Object::Texture(name) => image::with_texture(gl, name, |target| {
                     let at = (target, name);
@@ -253,12 +248,18 @@ impl Offscreen {
     /// What is known of a framebuffer of the program's.
     pub fn target(&mut self, gl: &Gl, framebuffer: u32) -> &mut Target {
         let target = self.targets.entry(framebuffer);
-        let target = target.or_insert_with(|| {
-            self.count += 1;
-            Target::new(framebuffer, self.count, self.tiles)
-        });
+        let target = target.or_insert_with(|| Target::new(framebuffer, self.tiles));
         target.follow(gl, self.changes, &self.images);
         target
+    }
+
+    /// The number of a framebuffer that is drawn to: they are counted from 1, as that happens for the first time.
+    pub fn number(&mut self, gl: &Gl, framebuffer: u32) -> u32 {
+        let next = self.count + 1;
+        let target = self.target(gl, framebuffer);
+        let number = *target.number.get_or_insert(next);
+        self.count = self.count.max(number);
+        number
     }
 
     /// Whether the views differ in what a framebuffer holds.
@@ -367,8 +368,11 @@ impl Offscreen {
             self.changes += 1;
             let (Object::Texture(own) | Object::Renderbuffer(own)) = object;
             let array = image.array.as_ref().map(|array| array.name);
+            // Both kinds of objects may have the same name.
+            let textures = matches!(object, Object::Texture(_)) || array.is_some();
             for name in image.others(own).chain(array) {
-                if self.ours.remove(&name) {
+                if textures {
+                    self.ours.remove(&name);
                     gl.delete_texture(name);
                 } else {
                     gl.delete_renderbuffer(name);

@@ -9,8 +9,8 @@ use std::collections::HashMap;
 #[derive(Debug)]
 pub struct Target {
     own: u32,
-    /// Framebuffers are counted from 1 as they are drawn to for the first time; names depend on ours.
-    pub number: u32,
+    /// Which it is of those that were drawn to; names depend on ours.
+    pub(super) number: Option<u32>,
     /// By view, the program's own among them; empty where it is the only one.
     views: Vec<u32>,
     /// Up to which change the rest is known.
@@ -30,10 +30,10 @@ pub struct Target {
 }
 
 impl Target {
-    pub(super) fn new(own: u32, number: u32, tiles: Tiles) -> Target {
+    pub(super) fn new(own: u32, tiles: Tiles) -> Target {
         Target {
             own,
-            number,
+            number: None,
             views: Vec::new(),
             seen: 0,
             attachments: Vec::new(),

@@ -3,7 +3,6 @@
 use crate::gl::{Gl, consts as c};
 use crate::rewrite::Stage;
 use std::collections::HashMap;
-use std::ffi::CString;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -163,13 +162,7 @@ impl Samplers {
             let Some(target) = sampled(active.kind) else {
                 continue;
             };
-            let text = active.name.to_string_lossy();
-            let stem = text.strip_suffix("[0]").unwrap_or(&text);
-            for at in 0..active.size.max(1) {
-                let name = match active.size {
-                    ..=1 => active.name.clone(),
-                    _ => CString::new(format!("{stem}[{at}]")).unwrap_or_default(),
-                };
+            for name in active.elements() {
                 let location = gl.uniform_location(program, &name);
                 if location >= 0 {
                     uniforms.push((location, target));

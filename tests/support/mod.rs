@@ -249,6 +249,21 @@ pub(crate) fn rgb(path: &Path) -> RgbImage {
         .into_rgb8()
 }
 
+/// What a program without a screen prints.
+pub(crate) fn lines(command: &mut Command) -> String {
+    let output = succeed(command.env_remove("DISPLAY"));
+    String::from_utf8(output.stdout).expect("text")
+}
+
+/// The first and the last column of one colour in the middle row of a view, of several side by side.
+pub(crate) fn extent(all: &RgbImage, views: u32, view: u32, colour: [u8; 3]) -> [f64; 2] {
+    let width = all.width() / views;
+    let at = |x: u32| all.get_pixel(view * width + x, all.height() / 2).0;
+    let mut lit = (0..width).filter(|&x| at(x) == colour);
+    let left = lit.next().expect("it is drawn");
+    [left, lit.next_back().unwrap_or(left)].map(f64::from)
+}
+
 /// A folder in `target/` for what a person may want to look at after a test; made if need be.
 pub(crate) fn scratch(name: &str) -> PathBuf {
     let path = target_folder().with_file_name(name);

@@ -1,7 +1,7 @@
 //! Framebuffer objects and the program's framebuffer 0.
 
 use crate::context::{enter, peek, real};
-use crate::hooks::{ask, compile, settle};
+use crate::hooks::{Object, ask, compile, named, settle};
 use core::slice::from_raw_parts;
 use manyview_core::gl::{Gl, Ptr, consts as c};
 use manyview_core::layer::{Layer, is_scaled};
@@ -69,6 +69,10 @@ pub(crate) unsafe fn glCopyImageSubData(
     srcDepth: i32,
 ) {
     settle();
+    named(match dstTarget {
+        c::RENDERBUFFER => Object::Renderbuffer(dstName),
+        _ => Object::Texture(dstName),
+    });
     // SAFETY: the program's own call.
     unsafe {
         real().glCopyImageSubData(
@@ -76,8 +80,16 @@ pub(crate) unsafe fn glCopyImageSubData(
             dstY, dstZ, srcWidth, srcHeight, srcDepth,
         )
     };
+}
+
+pub(crate) unsafe fn glGenerateTextureMipmap(texture: u32) {
+    ask();
+    // SAFETY: the program's own call.
+    unsafe { real().glGenerateTextureMipmap(texture) };
     if peek(|l| l.has_copies()) == Some(true) {
-        enter(|gl, l| l.copied_to(gl, dstName, dstTarget == c::RENDERBUFFER));
+        // SAFETY: the program's own call, on a texture of ours.
+        let call = &mut |name| unsafe { real().glGenerateTextureMipmap(name) };
+        enter(|gl, l| l.mipmaps_of(gl, texture, call));
     }
 }
 

@@ -7,6 +7,8 @@ static const char *const vertex = "#version 120\nuniform mat4 camera; uniform fl
 static const char *const fragment = "uniform vec4 colour; void main() { gl_FragColor = colour; }";
 static const char *const whole = "attribute vec2 place; varying vec2 at; void main() { at = place * 0.5 + 0.5; gl_Position = vec4(place, 0.0, 1.0); }";
 static const char *const picture = "uniform sampler2D image; varying vec2 at; void main() { gl_FragColor = texture2D(image, at); }";
+static const char *const fetching = "#version 120\nuniform sampler2D image; varying vec4 told;\n"
+                                    "void main() { told = texture2DLod(image, vec2(0.5), 0.0); gl_Position = vec4(0.0); }\n";
 static GLuint scene, shown, target[2], depth, colours[2];
 
 static GLuint linked(const char *v, const char *f)
@@ -71,6 +73,25 @@ static void tell(const char *what, int x, int y)
     glReadPixels(x, y, 1, 1, GL_RGBA, GL_UNSIGNED_BYTE, pixel);
     printf("%s: bound %d %d, texture %d, renderbuffer %d, a 0x%x, width %d, status 0x%x, pixel %d %d %d, error 0x%x\n", what, which(bound[0], target, 2),
            which(bound[1], target, 2), which(bound[2], colours, 2), which(of[2], &depth, 1), of[0], of[1], glCheckFramebufferStatus(GL_FRAMEBUFFER), pixel[0], pixel[1], pixel[2], glGetError());
+}
+
+/* What a vertex shader reads of the texture that is bound. */
+static void fed(void)
+{
+    static const char *const names[] = {"told"};
+    GLfloat told[4] = {0};
+    GLuint program = linked(fetching, fragment), buffer;
+    glTransformFeedbackVaryings(program, 1, names, GL_INTERLEAVED_ATTRIBS);
+    glLinkProgram(program);
+    glGenBuffers(1, &buffer);
+    glBindBufferBase(GL_TRANSFORM_FEEDBACK_BUFFER, 0, buffer);
+    glBufferData(GL_TRANSFORM_FEEDBACK_BUFFER, sizeof told, NULL, GL_STREAM_READ);
+    glUseProgram(program);
+    glBeginTransformFeedback(GL_POINTS);
+    glDrawArrays(GL_POINTS, 0, 1);
+    glEndTransformFeedback();
+    glGetBufferSubData(GL_TRANSFORM_FEEDBACK_BUFFER, 0, sizeof told, told);
+    printf("fed back: %g %g %g, error 0x%x\n", told[0], told[1], told[2], glGetError());
 }
 
 static void image(const char *what)
@@ -143,6 +164,10 @@ int main(void)
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
     glViewport(0, 0, WIDTH, HEIGHT);
     glDisable(GL_DEPTH_TEST);
+    fed();
+    /* As it looks, not only what it holds. */
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_SWIZZLE_R, GL_BLUE);
+    glTexParameterf(GL_TEXTURE_2D, GL_TEXTURE_LOD_BIAS, 0.25f);
     quad(shown, 0, 0, 0, 0);
     tell("shown", 32, 24);
     eglSwapBuffers(display, surface);
