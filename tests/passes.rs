@@ -69,6 +69,40 @@ fn draws(frames: &str, arguments: &[&str]) -> [u64; 2] {
 }
 
 #[test]
+fn what_a_toolkit_draws_in_a_widget_has_its_views_in_the_window() {
+    let program = compiled("widget", Compiled::Program, &["-lEGL", "-lGL"]);
+    let folder = tempfile::tempdir().expect("a folder");
+    let picture = folder.path().join("frame.png");
+    let expected = lines(&mut bare(&program));
+    assert_eq!(expected.matches("pixel 0 255 0, error 0x0").count(), 5);
+    for (atlas, strategy) in [("side-by-side", "replay"), ("layers", "instanced")] {
+        for frame in ["1", "2", "3"] {
+            let options = [
+                ("VIEWS", "3"),
+                ("ATLAS", atlas),
+                ("STRATEGY", strategy),
+                ("SEPARATION", "0.2"),
+                ("CONVERGENCE", "2"),
+                ("CAPTURE_OUT", picture.to_str().expect("UTF-8")),
+                ("CAPTURE_FRAMES", frame),
+                ("CAPTURE_WHAT", "atlas"),
+            ];
+            assert_eq!(lines(&mut layered(&program, &options)), expected);
+            let all = rgb(&picture);
+            let [left, own, right] = [0, 1, 2].map(|view| extent(&all, VIEWS, view, [0, 255, 0]));
+            // At depth 1, moved by ±0.2 · (1 − 2) / 1 in 32 columns.
+            for (at, moved, shift) in [(left, "left", 6.4), (right, "right", -6.4)] {
+                let by = [at[0] - own[0], at[1] - own[1]];
+                assert!(
+                    by.iter().all(|by: &f64| (by - shift).abs() <= 1.5),
+                    "{atlas}, frame {frame}, {moved}: {by:?} for {shift}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
 fn a_lamp_s_map_is_drawn_once_also_in_a_square_window() {
     for size in ["300x220", "256x256"] {
         let arguments = ["--size", size];

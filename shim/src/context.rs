@@ -273,6 +273,12 @@ pub(crate) fn made_current(provider: Provider, handle: Ptr, drawable: Option<Dra
         }
         _ => Ok(()),
     });
+    // Nothing is shown of such a context, and so no frame brings it the values of the others.
+    with_context(|_, c| {
+        if let Some(l) = c.layer.as_mut().filter(|l| l.is_hidden()) {
+            live::adopt(l);
+        }
+    });
     if let Some(Err(e)) = outcome {
         say(&format!("{e}; this context is shown as it is"));
         with_context(|gl, c| {
@@ -294,7 +300,7 @@ fn attach(gl: &Gl, c: &mut Context, width: u32, height: u32) -> Result<(), Strin
                     config,
                     width,
                     height,
-                    shares::lists(c.provider, c.handle),
+                    shares::group(c.provider, c.handle),
                 )
                 .map_err(|e| e.to_string())?,
             )

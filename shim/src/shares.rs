@@ -1,14 +1,14 @@
-//! Which contexts share objects: the display lists of a share group are known to all of its layers.
+//! Which contexts share objects: what a share group has in common is known to all of its layers.
 
 use crate::provider::Provider;
 use manyview_core::gl::Ptr;
-use manyview_core::layer::SharedLists;
-use std::sync::{Mutex, PoisonError};
+use manyview_core::layer::Group;
+use std::sync::{Arc, Mutex, PoisonError};
 
 struct Created {
     provider: Provider,
     handle: Ptr,
-    lists: SharedLists,
+    group: Arc<Group>,
 }
 
 // SAFETY: the handle is only compared.
@@ -21,10 +21,10 @@ pub(crate) fn created(provider: Provider, handle: Ptr, share: Ptr) {
     if handle.is_null() {
         return;
     }
-    let lists = if share.is_null() {
-        SharedLists::default()
+    let group = if share.is_null() {
+        Arc::default()
     } else {
-        lists(provider, share)
+        group(provider, share)
     };
     let mut all = CREATED.lock().unwrap_or_else(PoisonError::into_inner);
     // A driver gives the handle of a destroyed context out again.
@@ -32,31 +32,31 @@ pub(crate) fn created(provider: Provider, handle: Ptr, share: Ptr) {
     all.push(Created {
         provider,
         handle,
-        lists,
+        group,
     });
 }
 
-/// The program has destroyed a context; the others of its share group keep the lists.
+/// The program has destroyed a context; the others keep what they share.
 pub(crate) fn destroyed(provider: Provider, handle: Ptr) {
     let mut all = CREATED.lock().unwrap_or_else(PoisonError::into_inner);
     all.retain(|c| (c.provider, c.handle) != (provider, handle));
 }
 
-/// The display lists of a context's share group.
-pub(crate) fn lists(provider: Provider, handle: Ptr) -> SharedLists {
+/// What a context's share group has in common.
+pub(crate) fn group(provider: Provider, handle: Ptr) -> Arc<Group> {
     let mut all = CREATED.lock().unwrap_or_else(PoisonError::into_inner);
     if let Some(c) = all
         .iter()
         .find(|c| (c.provider, c.handle) == (provider, handle))
     {
-        return c.lists.clone();
+        return c.group.clone();
     }
     // Created by a function that is not hooked.
-    let lists = SharedLists::default();
+    let group: Arc<Group> = Arc::default();
     all.push(Created {
         provider,
         handle,
-        lists: lists.clone(),
+        group: group.clone(),
     });
-    lists
+    group
 }

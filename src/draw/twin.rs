@@ -2,7 +2,7 @@
 //! it is, and everything that the program asks about it is answered by it.
 
 use crate::gl::{Active, Gl};
-use crate::plan::Shear;
+use crate::plan::{Flat, Shear};
 use crate::rewrite::{
     Amplifier, Names, Options, Refusal, Stage, Target, Uniform, VertexLayer, facts, rewrite,
 };
@@ -245,14 +245,18 @@ impl Twin {
     pub fn place(
         &self,
         gl: &Gl,
-        (shear, flat): (Option<Shear>, Option<Shear>),
+        (shear, flat): (Option<Shear>, Flat),
         places: &[f64],
         stride: u32,
     ) {
         let shift = |&place: &f64| {
             let sep = |shear: &Shear| shear.separation(place);
             let scene = shear.map_or((0.0, 0.0), |s| (sep(&s), sep(&s) * s.conv));
-            let flat = flat.map_or(0.0, |s| sep(&s));
+            let flat = match flat {
+                Flat::Still => 0.0,
+                Flat::By(shear) => sep(&shear),
+                Flat::Scene => scene.0 - scene.1,
+            };
             [scene.0 as f32, scene.1 as f32, flat as f32, 0.0]
         };
         let shifts: Vec<_> = places.iter().map(shift).collect();

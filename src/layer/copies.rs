@@ -147,9 +147,9 @@ impl Layer {
         self.offscreen.attachments_changed();
     }
 
-    /// Whether other contexts see its objects: each has these lists in its layer, and in the record of what was created.
+    /// Whether other contexts see its objects: each has its group in its layer, and in the record of what was created.
     pub fn is_shared(&self) -> bool {
-        Arc::strong_count(&self.lists) > 2
+        Arc::strong_count(&self.group) > 2
     }
 
     /// Whether the views differ in anything but the window.

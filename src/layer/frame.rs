@@ -26,7 +26,7 @@ impl Layer {
         if self.rests() {
             self.rest(gl);
         }
-        super::left::sweep(gl, &self.lists);
+        super::left::sweep(gl, &self.group);
         self.queries.pause(gl);
         self.queries.lift_condition(gl);
         let saved = Saved::take(gl, self.state.compatibility);

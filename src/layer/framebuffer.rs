@@ -107,6 +107,8 @@ impl Layer {
         if draw {
             self.atlas.forget_row();
             self.state.framebuffers.draw = name;
+            // It may have a depth buffer where the other has none.
+            self.state.touch(Touch::DEPTH);
         }
         if read {
             self.state.framebuffers.read = name;

@@ -1,25 +1,23 @@
 //! What a destroyed context leaves in its share group, and who deletes it.
 
-use super::{Layer, SharedLists};
+use super::{Group, Layer};
 use crate::gl::{Gl, Held, Object, consts as c};
+use crate::offscreen::Images;
 use crate::state::Left;
-use std::sync::PoisonError;
 
 impl Layer {
     /// The context is destroyed: what its share group keeps is left to the others.
     pub fn leave(mut self) {
-        let mut lists = self.lists.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut lists = self.group.lists();
         let mask = Some(self.interleaver.texture()).filter(|&t| t != 0);
         for atlas in self.atlases() {
             lists.left.framebuffers.extend(atlas.framebuffers());
         }
         let framebuffers = self.offscreen.framebuffers();
         lists.left.framebuffers.extend(framebuffers);
-        let renderbuffers = self.offscreen.renderbuffers();
-        lists.left.renderbuffers.extend(renderbuffers);
         let textures = self.atlases().flat_map(|atlas| atlas.textures());
         let textures = textures.copied();
-        let textures = textures.chain(mask).chain(self.offscreen.textures());
+        let textures = textures.chain(mask);
         lists.left.textures.extend(textures);
         let (buffer, fence) = self.atlas.give_buffer();
         lists.left.buffers.extend(buffer);
@@ -36,16 +34,13 @@ impl Layer {
 }
 
 /// Deletes what destroyed contexts of the share group have left.
-pub(super) fn sweep(gl: &Gl, lists: &SharedLists) {
-    let left = {
-        let mut lists = lists.lock().unwrap_or_else(PoisonError::into_inner);
-        std::mem::take(&mut lists.left)
-    };
+pub(super) fn sweep(gl: &Gl, group: &Group) {
+    let left = std::mem::take(&mut group.lists().left);
     if !left.framebuffers.is_empty() {
         let bound = gl.get_integer(c::DRAW_FRAMEBUFFER_BINDING) as u32;
         for &framebuffer in &left.framebuffers {
             // Where the driver does not share them the name may be the program's by now.
-            if is_attached(gl, framebuffer, &left) {
+            if is_attached(gl, framebuffer, &left, &group.images()) {
                 Held::Framebuffer.count(1);
                 gl.delete_framebuffer(framebuffer);
             }
@@ -62,25 +57,21 @@ pub(super) fn sweep(gl: &Gl, lists: &SharedLists) {
         gl.delete_buffer(buffer);
     }
     left.fences.into_iter().for_each(|f| gl.delete_fence(f));
-    for renderbuffer in left.renderbuffers {
-        Held::Framebuffer.count(1);
-        gl.delete_renderbuffer(renderbuffer);
-    }
     for program in left.programs {
         Held::Shader.count(1);
         gl.delete_program(program);
     }
 }
 
-/// Whether a framebuffer object has something of what is left attached. Changes the draw framebuffer.
-fn is_attached(gl: &Gl, framebuffer: u32, left: &Left) -> bool {
+/// Whether a framebuffer object has something of ours attached. Changes the draw framebuffer.
+fn is_attached(gl: &Gl, framebuffer: u32, left: &Left, images: &Images) -> bool {
     if gl.is_framebuffer(framebuffer) == 0 {
         return false;
     }
     gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, framebuffer);
     let attachments = gl.attachments(c::DRAW_FRAMEBUFFER);
-    attachments.iter().any(|a| match a.object {
-        Object::Texture(name) => left.textures.contains(&name),
-        Object::Renderbuffer(name) => left.renderbuffers.contains(&name),
+    attachments.iter().any(|a| {
+        images.owns(a.object)
+            || matches!(a.object, Object::Texture(name) if left.textures.contains(&name))
     })
 }

@@ -5,7 +5,6 @@ use crate::draw::Again;
 use crate::gl::{Gl, consts as c, slot};
 use crate::plan::{Kind, Method};
 use crate::state::{Begin, Body, Command, Compiling, Effect, Run, Segment, Start, Touch};
-use std::sync::PoisonError;
 
 /// GL_MAX_LIST_NESTING is at least 64; deeper calls are ignored by the driver too.
 const NESTING: u32 = 64;
@@ -24,16 +23,13 @@ impl Layer {
     }
 
     pub(super) fn list_name(&self, gl: &Gl) -> u32 {
-        self.lists
-            .lock()
-            .unwrap_or_else(PoisonError::into_inner)
-            .name(|name| gl.is_list(name))
+        self.group.lists().name(|name| gl.is_list(name))
     }
 
     /// A list of ours is of no use any more.
     pub(super) fn drop_list(&self, gl: &Gl, name: u32) {
         gl.delete_list(name);
-        let mut lists = self.lists.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut lists = self.group.lists();
         lists.spare(name);
     }
 
@@ -152,24 +148,20 @@ impl Layer {
             gl.call_list(segment.name);
         }
         gl.end_list();
-        let unused = self
-            .lists
-            .lock()
-            .unwrap_or_else(PoisonError::into_inner)
-            .define(list.list, body);
+        let unused = self.group.lists().define(list.list, body);
         unused.into_iter().for_each(|name| gl.delete_list(name));
     }
 
     /// Whether a display list is one of ours.
     pub fn owns_list(&self, name: u32) -> bool {
-        let lists = self.lists.lock().unwrap_or_else(PoisonError::into_inner);
+        let lists = self.group.lists();
         lists.owns(name)
     }
 
     /// glGenLists, after the driver's own answer `first`: the names that it would have found without ours.
     pub fn generated_lists(&mut self, gl: &Gl, first: u32, count: u32) -> u32 {
-        let lists = self.lists.clone();
-        let mut lists = lists.lock().unwrap_or_else(PoisonError::into_inner);
+        let group = self.group.clone();
+        let mut lists = group.lists();
         let mut names = first;
         match lists.free(count) {
             Some(free) if free != first => self.outside_list(gl, |_| {
@@ -188,11 +180,7 @@ impl Layer {
 
     /// glDeleteLists, after the driver's own.
     pub fn deleted_lists(&mut self, gl: &Gl, first: u32, count: u32) {
-        let unused = self
-            .lists
-            .lock()
-            .unwrap_or_else(PoisonError::into_inner)
-            .delete(first, count);
+        let unused = self.group.lists().delete(first, count);
         unused.into_iter().for_each(|name| gl.delete_list(name));
     }
 
@@ -246,7 +234,7 @@ impl Layer {
 
     /// The runs of a list; of one that does not exist none. `None`: only the driver knows what is in it.
     fn body(&self, gl: &Gl, list: u32) -> Option<Body> {
-        let lists = self.lists.lock().unwrap_or_else(PoisonError::into_inner);
+        let lists = self.group.lists();
         let known = lists.body(list);
         known.or_else(|| (!gl.is_list(list)).then(Body::default))
     }
@@ -357,7 +345,7 @@ impl Layer {
 
     /// Whether a list that is called within a primitive ends it.
     pub fn closes(&self, list: u32) -> bool {
-        let lists = self.lists.lock().unwrap_or_else(PoisonError::into_inner);
+        let lists = self.group.lists();
         let mut next = list;
         for _ in 0..NESTING {
             let body = lists.body(next);

@@ -39,12 +39,12 @@ use crate::display::{Display, Placement};
 use crate::draw::{Driver, FixedState, Programs};
 use crate::gl::{Count, Ends, Gl, Recording, consts as c};
 use crate::interleave::Interleaver;
-use crate::offscreen::{Bound, Offscreen};
+use crate::offscreen::{Bound, Images, Offscreen, SharedImages};
 use crate::plan::{Classifier, Means, Reason, Rig, Shear};
 use crate::present::Saved;
 use crate::report::{Counts, Proof, Report};
 use crate::state::{BACK, Immediate, Lists, State, Window};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use support::Support;
 
 /// Why a context cannot be shown in several views; it then runs as if the layer were not there.
@@ -63,8 +63,24 @@ pub enum LayerError {
     Atlas(#[from] AtlasError),
 }
 
-/// The display lists of a share group.
-pub type SharedLists = Arc<Mutex<Lists>>;
+/// What the contexts of a share group have in common.
+#[derive(Debug, Default)]
+pub struct Group {
+    lists: Mutex<Lists>,
+    images: SharedImages,
+}
+
+impl Group {
+    /// Display lists, and the programs that were linked.
+    fn lists(&self) -> MutexGuard<'_, Lists> {
+        self.lists.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Textures and renderbuffers that the views differ in.
+    fn images(&self) -> MutexGuard<'_, Images> {
+        self.images.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
 
 /// One context and its drawable.
 #[derive(Debug)]
@@ -81,7 +97,7 @@ pub struct Layer {
     twins: programs::Twins,
     fixed: Option<FixedState>,
     driver: Driver,
-    lists: SharedLists,
+    group: Arc<Group>,
     raster: Option<Shear>,
     /// The projection under which the raster position was placed; none where glWindowPos did it.
     raster_placed: Projection,
@@ -139,14 +155,13 @@ pub struct OnScreen {
 }
 
 impl Layer {
-    /// Takes over a context that was just made current for the first time, with framebuffer 0 bound. `lists` are those of its share
-    /// group.
+    /// Takes over a context that was just made current for the first time, with framebuffer 0 bound.
     pub fn new(
         gl: &Gl,
         config: &'static Config,
         width: u32,
         height: u32,
-        lists: SharedLists,
+        group: Arc<Group>,
     ) -> Result<Layer, LayerError> {
         let support = Support::ask(gl)?;
         let mut state = State::new(
@@ -190,7 +205,7 @@ impl Layer {
         if let Some(note) = interleaver.note() {
             report.note(note);
         }
-        left::sweep(gl, &lists);
+        left::sweep(gl, &group);
         let live = Live::new(config);
         let detail = if support.viewports {
             sampling::Detail::Lenses
@@ -228,12 +243,17 @@ impl Layer {
             twins: programs::Twins::default(),
             fixed: None,
             driver,
-            lists,
+            offscreen: Offscreen::new(
+                gl,
+                config.views,
+                support.compatibility,
+                group.images.clone(),
+            ),
+            group,
             raster: None,
             raster_placed: Projection::None,
             pushed: Vec::new(),
             queries: queries::Queries::default(),
-            offscreen: Offscreen::new(gl, config.views, support.compatibility),
             sampled: Vec::new(),
             sampled_by: None,
             unprojections: Vec::new(),
@@ -435,8 +455,7 @@ impl Layer {
     /// before another one is made current.
     pub fn count_names(&mut self) {
         self.made.catch_up();
-        let lists = self.lists.lock().unwrap_or_else(PoisonError::into_inner);
-        self.report.names(self.made, lists.held());
+        self.report.names(self.made, self.group.lists().held());
     }
 
     /// Size of the window in pixels.

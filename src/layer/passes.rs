@@ -13,8 +13,11 @@ use crate::draw::{Again, Twin};
 use crate::gl::{Gl, consts as c};
 use crate::offscreen;
 use crate::plan::class::Target;
-use crate::plan::{Kind, Method, Plan, Reason, camera};
+use crate::plan::{Flat, Kind, Method, Plan, Reason, camera};
 use crate::state::{Touch, uniform_change};
+
+/// Pixels along the longer side of a window up to which nobody looks at it.
+const HIDDEN: u32 = 16;
 
 impl Layer {
     /// Where a draw goes. The state is refreshed.
@@ -52,10 +55,7 @@ impl Layer {
         }
         let alone = target.is_depth_only();
         let [_, _, width, height] = self.state.viewport.map(i64::from);
-        let (w, h) = (
-            i64::from(self.state.window.width),
-            i64::from(self.state.window.height),
-        );
+        let [w, h] = self.picture_size();
         // Within a pixel, since half of an odd size is rounded.
         let fits = (width * h - height * w).abs() <= w.max(h);
         let Some(camera) = camera else {
@@ -75,9 +75,26 @@ impl Layer {
         pass
     }
 
-    /// Width over height of the window.
+    /// Width and height in pixels of the picture that is drawn: of the window, or, where there is none to be seen, of the viewport.
+    fn picture_size(&self) -> [i64; 2] {
+        let window = [self.state.window.width, self.state.window.height].map(i64::from);
+        let [_, _, width, height] = self.state.viewport.map(i64::from);
+        match self.is_hidden() && width > 0 && height > 0 {
+            true => [width, height],
+            false => window,
+        }
+    }
+
+    /// Whether the context draws for another one: its own window is but a place to be current at, as those of toolkits' widgets.
+    pub fn is_hidden(&self) -> bool {
+        let window = &self.state.window;
+        window.width.max(window.height) <= HIDDEN
+    }
+
+    /// Width over height of the picture.
     pub(super) fn aspect(&self) -> f64 {
-        f64::from(self.state.window.width) / f64::from(self.state.window.height)
+        let [w, h] = self.picture_size().map(|side| side as f64);
+        w / h
     }
 
     /// Where each view has its own images of what a draw samples or draws to, it is replayed; a target gets them when something that depends
@@ -97,7 +114,9 @@ impl Layer {
         let mut plan = plan;
         if !self.sampled.is_empty() {
             // A picture of a view stands where that view has it.
-            plan.flat = None;
+            if plan.flat != Flat::Scene {
+                plan.flat = Flat::Still;
+            }
             if plan.class == Class::Flat {
                 plan.shear = None;
             }

@@ -1,14 +1,13 @@
 //! Programs with shaders of their own: their draws go by a twin that shifts the vertices of each view.
 
 use super::Layer;
-use crate::config::{Class, Projection};
+use crate::config::{Class, DepthState, Projection};
 use crate::draw::{Drawn, NoTwin, Twin, Way, drawn};
 use crate::gl::{Gl, Held, consts as c};
 use crate::plan::class::Why;
-use crate::plan::{Classed, Kind, Method, Plan, camera};
-use crate::state::{Linked, Matrices, Samplers, Shaders, texts, uniform_change};
+use crate::plan::{Classed, Flat, Kind, Method, Plan, camera};
+use crate::state::{Linked, Matrices, Samplers, Shaders, Touch, texts, uniform_change};
 use std::collections::HashMap;
-use std::sync::PoisonError;
 
 /// The programs that were drawn with, by name.
 #[derive(Debug, Default)]
@@ -165,7 +164,7 @@ impl Layer {
     }
 
     fn shaders<R>(&self, ask: impl FnOnce(&mut Shaders) -> R) -> R {
-        let mut lists = self.lists.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut lists = self.group.lists();
         ask(&mut lists.shaders)
     }
 
@@ -200,15 +199,20 @@ impl Layer {
         self.twins.camera = Some(camera);
         self.rig.latch(&camera);
         let ruled = matches!(classed.why, Why::Rule(_));
+        let hud = plan.shear.map_or(Flat::Still, Flat::By);
         let (class, shear, flat) = match classed.class {
-            Class::Flat if ruled => (Class::Flat, plan.shear, plan.shear),
-            Class::Sky => (Class::Sky, self.rig.sky(&camera), None),
+            Class::Flat if ruled => (Class::Flat, plan.shear, hud),
+            Class::Sky => (Class::Sky, self.rig.sky(&camera), Flat::Still),
             class => {
                 let shear = match classed.focal {
                     None => self.rig.shear(&camera),
                     Some(focal) => self.rig.shear_about(&camera, focal),
                 };
-                let flat = plan.shear.filter(|_| class == Class::Flat);
+                let flat = match class {
+                    Class::Flat => hud,
+                    _ if self.fills_depths(gl) => Flat::Scene,
+                    _ => Flat::Still,
+                };
                 (Class::Scene, shear, flat)
             }
         };
@@ -220,6 +224,14 @@ impl Layer {
             flat,
             ..plan
         }
+    }
+
+    /// Whether the program in use has a perspective now, and what it draws gets depths: a scene's vertices, wherever they are. What fills
+    /// the screen by such a program has none.
+    fn fills_depths(&mut self, gl: &Gl) -> bool {
+        self.state.look(gl, Touch::DEPTH);
+        let known = self.twins.known.get(&self.state.program);
+        self.state.look.depth == DepthState::On && known.is_some_and(|known| !known.lost)
     }
 
     /// The camera that a program with a twin has, where it has one; none for other programs.

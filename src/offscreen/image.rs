@@ -37,8 +37,6 @@ pub(super) struct Array {
 pub(super) struct Means {
     /// What a texture looks like beside its image.
     parameters: Vec<u32>,
-    /// Changes of parameters so far.
-    pub(super) looks: u64,
     /// Layers of an array can be textures of their own.
     pub(super) arrays: bool,
 }
@@ -125,7 +123,7 @@ impl Image {
     fn new(target: u32, views: Vec<u32>, array: Option<Array>) -> Image {
         Image {
             target,
-            looks: vec![0; views.len()],
+            looks: vec![u64::MAX; views.len()],
             views,
             array,
             stale: false,
@@ -173,17 +171,18 @@ impl Image {
     }
 
     /// Binds a view's texture at the active unit, where the program's own is bound or another view's.
-    pub(super) fn bind(&mut self, gl: &Gl, means: &Means, own: u32, view: u32) {
+    /// `looks`: changes of parameters so far.
+    pub(super) fn bind(&mut self, gl: &Gl, means: &Means, looks: u64, (own, view): (u32, u32)) {
         let at = view as usize;
         let (Some(&name), Some(look)) = (self.views.get(at), self.looks.get_mut(at)) else {
             return;
         };
-        if name != own && *look != means.looks && !is_multisampled(self.target) {
+        if name != own && *look != looks && !is_multisampled(self.target) {
             gl.bind_texture(self.target, own);
             let (values, border) = means.look(gl, self.target);
             gl.bind_texture(self.target, name);
             means.set_look(gl, self.target, &values, &border);
-            *look = means.looks;
+            *look = looks;
         }
         gl.bind_texture(self.target, name);
     }
@@ -211,7 +210,6 @@ impl Means {
         }
         Means {
             parameters,
-            looks: 1,
             arrays: version >= (4, 3),
         }
     }

@@ -9,26 +9,27 @@
 
 mod fill;
 mod image;
+mod images;
 mod target;
 
+pub use images::Images;
 pub use target::Target;
 
 use crate::atlas::{Grid, Names, Shown, Tiles};
 use crate::gl::{Gl, Object, consts as c};
-use image::Image;
-use std::collections::{HashMap, HashSet};
+use std::collections::HashMap;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+/// Images that several contexts see.
+pub type SharedImages = Arc<Mutex<Images>>;
 
 /// The images and framebuffers of one context.
 #[derive(Debug)]
 pub struct Offscreen {
-    images: HashMap<Object, Image>,
-    /// The textures among them that are not the program's own.
-    ours: HashSet<u32>,
+    images: SharedImages,
     targets: HashMap<u32, Target>,
     /// Framebuffers so far.
     count: u32,
-    /// Changes of attachments, of buffers that are drawn to, and of images.
-    changes: u64,
     means: image::Means,
     /// Those of a framebuffer, one in a layer.
     tiles: Tiles,
@@ -48,15 +49,13 @@ pub struct Bound {
 }
 
 impl Offscreen {
-    /// For a number of views, in a context with or without fixed function.
-    pub fn new(gl: &Gl, views: u32, compatibility: bool) -> Offscreen {
+    /// For a number of views, in a context with or without fixed function; `images` are those of its share group.
+    pub fn new(gl: &Gl, views: u32, compatibility: bool, images: SharedImages) -> Offscreen {
         let units = gl.get_integer(c::MAX_COMBINED_TEXTURE_IMAGE_UNITS);
         Offscreen {
-            images: HashMap::new(),
-            ours: HashSet::new(),
+            images,
             targets: HashMap::new(),
             count: 0,
-            changes: 1,
             means: image::Means::of(gl, compatibility),
             units: units.clamp(1, 32) as u32,
             tiles: Tiles {
@@ -73,33 +72,23 @@ impl Offscreen {
         }
     }
 
+    fn images(&self) -> MutexGuard<'_, Images> {
+        locked(&self.images)
+    }
+
     /// Whether all views have the same images.
     pub fn is_empty(&self) -> bool {
-        self.images.is_empty()
+        self.images().is_empty()
     }
 
     /// Whether a texture is one of ours.
     pub fn owns_texture(&self, name: u32) -> bool {
-        self.ours.contains(&name)
+        self.images().owns(Object::Texture(name))
     }
 
     /// Whether a framebuffer is one of ours.
     pub fn owns_framebuffer(&self, name: u32) -> bool {
         self.framebuffers().any(|f| f == name)
-    }
-
-    /// The textures that are ours.
-    pub fn textures(&self) -> impl Iterator<Item = u32> {
-        self.ours.iter().copied()
-    }
-
-    /// The renderbuffers that are ours.
-    pub fn renderbuffers(&self) -> impl Iterator<Item = u32> {
-        let all = self.images.iter();
-        all.flat_map(|(object, image)| match (object, &image.array) {
-            (Object::Renderbuffer(own), None) => image.others(*own).collect(),
-            _ => Vec::new(),
-        })
     }
 
     /// The framebuffers that are ours.
@@ -109,27 +98,28 @@ impl Offscreen {
 
     /// How often images or attachments have changed.
     pub fn changes(&self) -> u64 {
-        self.changes
+        self.images().changes
     }
 
     /// A parameter of some texture is another.
     pub fn look_changed(&mut self) {
-        self.means.looks += 1;
+        self.images().looks += 1;
     }
 
     /// What is attached to some framebuffer is another, or what is drawn to of it.
     pub fn attachments_changed(&mut self) {
-        self.changes += 1;
+        self.images().changes += 1;
     }
 
     /// Whether an object has an image per view.
     pub fn has(&self, object: Object) -> bool {
-        self.images.contains_key(&object)
+        self.images().has(object)
     }
 
     /// The textures of the views, by view; none where it is the same in all of them.
     pub fn views(&self, texture: u32) -> Vec<u32> {
-        let image = self.images.get(&Object::Texture(texture));
+        let images = self.images();
+        let image = images.get(Object::Texture(texture));
         image.map_or_else(Vec::new, |image| image.views.clone())
     }
 
@@ -147,92 +137,70 @@ impl Offscreen {
         names: &mut Names,
         (target, texture): (u32, u32),
     ) -> bool {
-        if self.has(Object::Texture(texture)) {
-            return true;
-        }
-        let Some(image) = self
-            .means
-            .texture(gl, names, (target, texture), &self.tiles)
-        else {
-            return false;
-        };
-        self.insert(Object::Texture(texture), image);
-        true
-    }
-
-    fn insert(&mut self, object: Object, image: Image) {
-        match object {
-            Object::Texture(own) => self.ours.extend(image.others(own)),
-            // Those in an array are textures as well.
-            Object::Renderbuffer(_) if image.array.is_some() => self.ours.extend(&image.views),
-            Object::Renderbuffer(_) => {}
-        }
-        self.ours
-            .extend(image.array.as_ref().map(|array| array.name));
-        self.images.insert(object, image);
-        self.changes += 1;
+        let at = (target, texture);
+        self.images()
+            .split_texture(gl, &self.means, names, at, &self.tiles)
     }
 
     /// What the program's own objects lack of their view.
     pub fn settle(&mut self, gl: &Gl) {
         let layer = self.tiles.slot(self.tiles.own());
-        for (object, image) in &mut self.images {
-            image.settle(gl, *object, layer);
-        }
+        self.images().settle(gl, layer);
     }
 
     /// Something is drawn or copied to a framebuffer that each view has its own of.
     pub fn drawn_to(&mut self, target: &Target) {
+        let mut images = self.images();
         for attachment in &target.attachments {
-            if let Some(image) = self.images.get_mut(&attachment.object) {
-                image.stale = true;
-            }
+            images.written(attachment.object);
         }
     }
 
     /// The same for a texture.
     pub fn written(&mut self, texture: u32) {
-        if let Some(image) = self.images.get_mut(&Object::Texture(texture)) {
-            image.stale = true;
-        }
+        self.images().written(Object::Texture(texture));
     }
 
     /// All objects of a framebuffer get an image per view. As [`Offscreen::split_texture`].
     pub fn split(&mut self, gl: &Gl, names: &mut Names, framebuffer: u32) -> bool {
         let attachments = self.target(gl, framebuffer).attachments.clone();
+        // A name that glGenTextures has not made is none that a layer can have.
+        let mut means = self.means.clone();
+        means.arrays &= !names.hidden();
+        let (shared, tiles) = (self.images.clone(), self.tiles);
+        let mut images = locked(&shared);
         for attachment in attachments {
-            if self.has(attachment.object) {
+            if images.has(attachment.object) {
                 continue;
             }
-            // A name that glGenTextures has not made is none that a layer can have.
-            let mut means = self.means.clone();
-            means.arrays &= !names.hidden();
             let done = match attachment.object {
                 Object::Texture(name) => image::with_texture(gl, name, |target| {
                     let at = (target, name);
-                    match means.texture_layers(gl, at, &self.tiles) {
+                    match means.texture_layers(gl, at, &tiles) {
                         Some(image) => {
-                            self.insert(attachment.object, image);
+                            images.insert(attachment.object, image);
                             true
                         }
-                        None => self.split_texture(gl, names, at),
+                        None => images.split_texture(gl, &means, names, at, &tiles),
                     }
                 }),
                 Object::Renderbuffer(name) => {
-                    let image = means.renderbuffer_layers(gl, name, &self.tiles);
-                    let image = image.unwrap_or_else(|| means.renderbuffer(gl, name, &self.tiles));
-                    self.insert(attachment.object, image);
+                    let image = means.renderbuffer_layers(gl, name, &tiles);
+                    let image = image.unwrap_or_else(|| means.renderbuffer(gl, name, &tiles));
+                    images.insert(attachment.object, image);
                     Some(true)
                 }
             };
             if done != Some(true) {
+                drop(images);
                 self.target(gl, framebuffer).refused = true;
                 return false;
             }
         }
+        drop(images);
         self.target(gl, framebuffer);
         let target = self.targets.get_mut(&framebuffer);
-        target.is_some_and(|target| target.make(gl, &self.images))
+        target.is_some_and(|target| target.make(gl, &locked(&shared)))
     }
 
     /// Whether the views have framebuffers of their own.
@@ -249,7 +217,7 @@ impl Offscreen {
     pub fn target(&mut self, gl: &Gl, framebuffer: u32) -> &mut Target {
         let target = self.targets.entry(framebuffer);
         let target = target.or_insert_with(|| Target::new(framebuffer, self.tiles));
-        target.follow(gl, self.changes, &self.images);
+        target.follow(gl, &locked(&self.images));
         target
     }
 
@@ -294,9 +262,12 @@ impl Offscreen {
 
     /// All bound textures with an image per view; where the draw's own units are not known.
     pub fn bound(&self, gl: &Gl) -> Vec<Bound> {
-        let used = |target: u32| self.images.values().any(|image| image.target == target);
-        let targets = image::TARGETS.map(|(target, _)| target);
-        let targets: Vec<u32> = targets.into_iter().filter(|&t| used(t)).collect();
+        let targets = image::TARGETS.map(|(target, _)| target).into_iter();
+        let targets: Vec<u32> = {
+            let images = self.images();
+            let used = |target: u32| images.iter().any(|(_, image)| image.target == target);
+            targets.filter(|&t| used(t)).collect()
+        };
         let units = (0..self.units).flat_map(|unit| targets.iter().map(move |&t| (unit, t)));
         self.bound_among(gl, units)
     }
@@ -304,7 +275,8 @@ impl Offscreen {
     /// Those at units (counted from 0) and targets.
     pub fn bound_among(&self, gl: &Gl, units: impl Iterator<Item = (u32, u32)>) -> Vec<Bound> {
         let mut bound = Vec::new();
-        if self.ours.is_empty() {
+        let images = self.images();
+        if images.is_empty() {
             return bound;
         }
         let active = gl.get_integer(c::ACTIVE_TEXTURE) as u32;
@@ -315,7 +287,7 @@ impl Offscreen {
                 gl.active_texture(unit);
             }
             let texture = image::binding(target).map_or(0, |b| gl.get_integer(b) as u32);
-            let image = self.images.get(&Object::Texture(texture));
+            let image = images.get(Object::Texture(texture));
             let new = Bound {
                 unit,
                 target,
@@ -332,16 +304,15 @@ impl Offscreen {
     }
 
     /// Binds a view's textures.
-    pub fn bind(&mut self, gl: &Gl, bound: &[Bound], view: u32) {
+    pub fn bind(&self, gl: &Gl, bound: &[Bound], view: u32) {
         if bound.is_empty() {
             return;
         }
         let active = gl.get_integer(c::ACTIVE_TEXTURE) as u32;
+        let mut images = self.images();
         for b in bound {
             gl.active_texture(b.unit);
-            if let Some(image) = self.images.get_mut(&Object::Texture(b.texture)) {
-                image.bind(gl, &self.means, b.texture, view);
-            }
+            images.bind(gl, &self.means, b.texture, view);
         }
         gl.active_texture(active);
     }
@@ -361,24 +332,7 @@ impl Offscreen {
 
     /// The images of objects are no longer what the program believes, or the objects are gone.
     pub fn forget(&mut self, gl: &Gl, objects: impl IntoIterator<Item = Object>) {
-        for object in objects {
-            let Some(image) = self.images.remove(&object) else {
-                continue;
-            };
-            self.changes += 1;
-            let (Object::Texture(own) | Object::Renderbuffer(own)) = object;
-            let array = image.array.as_ref().map(|array| array.name);
-            // Both kinds of objects may have the same name.
-            let textures = matches!(object, Object::Texture(_)) || array.is_some();
-            for name in image.others(own).chain(array) {
-                if textures {
-                    self.ours.remove(&name);
-                    gl.delete_texture(name);
-                } else {
-                    gl.delete_renderbuffer(name);
-                }
-            }
-        }
+        self.images().forget(gl, objects);
     }
 
     /// glDeleteFramebuffers.
@@ -391,10 +345,14 @@ impl Offscreen {
     /// All images.
     pub fn clear(&mut self, gl: &Gl) {
         self.settle(gl);
-        let all: Vec<Object> = self.images.keys().copied().collect();
-        self.forget(gl, all);
+        self.images().clear(gl);
         for (_, target) in self.targets.drain() {
             target.delete(gl);
         }
     }
+}
+
+/// A panic has been the end of the layer, not of what it knows.
+fn locked(images: &SharedImages) -> MutexGuard<'_, Images> {
+    images.lock().unwrap_or_else(PoisonError::into_inner)
 }

@@ -1,9 +1,9 @@
 //! A framebuffer of the program's, and those of the other views.
 
 use super::image::Image;
+use super::images::Images;
 use crate::atlas::{Shown, Surface, Tiles};
 use crate::gl::{Attachment, Gl, Object, consts as c};
-use std::collections::HashMap;
 
 /// One framebuffer of the program's.
 #[derive(Debug)]
@@ -90,8 +90,8 @@ impl Target {
     }
 
     /// Reads it again where something has changed since; changes nothing of the program's state. What no longer fits is dropped.
-    pub(super) fn follow(&mut self, gl: &Gl, changes: u64, images: &HashMap<Object, Image>) {
-        if std::mem::replace(&mut self.seen, changes) == changes {
+    pub(super) fn follow(&mut self, gl: &Gl, images: &Images) {
+        if std::mem::replace(&mut self.seen, images.changes) == images.changes {
             return;
         }
         let bindings = [
@@ -113,7 +113,7 @@ impl Target {
         }
         let objects: Vec<_> = attachments
             .iter()
-            .map(|a| images.get(&a.object).map(|image| image.views.clone()))
+            .map(|a| images.get(a.object).map(|image| image.views.clone()))
             .collect();
         let same = (&attachments, &draw_buffers, read_buffer, &objects)
             == (
@@ -140,13 +140,13 @@ impl Target {
 
     /// Makes the framebuffers of the views, where they are not there; all objects have images. Changes the framebuffer
     /// bindings.
-    pub(super) fn make(&mut self, gl: &Gl, images: &HashMap<Object, Image>) -> bool {
+    pub(super) fn make(&mut self, gl: &Gl, images: &Images) -> bool {
         if !self.views.is_empty() {
             return true;
         }
         let mut complete = true;
         let own = self.tiles.own();
-        let of = |attachment: &Attachment| images.get(&attachment.object);
+        let of = |attachment: &Attachment| images.get(attachment.object);
         let arrays = |attachment| of(attachment).is_some_and(|image| image.array.is_some());
         let mut framebuffer = |attach: &dyn Fn(&Attachment, &Image)| {
             let name = gl.gen_framebuffer();

@@ -95,10 +95,21 @@ pub struct Plan {
     pub shear: Option<Shear>,
     /// It goes by a twin of the program's own shaders.
     pub twin: bool,
-    /// Under a twin, the shift of what has no depth.
-    pub flat: Option<Shear>,
+    /// Under a twin, what has a w of 1 in clip space.
+    pub flat: Flat,
     /// Why not by the strategy asked for.
     pub reason: Option<Reason>,
+}
+
+/// What vertices are whose w is 1 in clip space: the vertex stage of a program can draw the scene with them, or what has no depth.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Flat {
+    /// The same in all views.
+    Still,
+    /// Shifted as a whole, such as the HUD.
+    By(Shear),
+    /// A part of the scene like any other.
+    Scene,
 }
 
 /// What a plan needs to know beside the state.
@@ -123,7 +134,7 @@ pub fn plan(kind: Kind, state: &State, rig: &Rig, means: &Means, classed: &Class
             class,
             shear: None,
             twin: false,
-            flat: None,
+            flat: Flat::Still,
             reason: None,
         };
     }
@@ -150,7 +161,7 @@ pub fn plan(kind: Kind, state: &State, rig: &Rig, means: &Means, classed: &Class
         class,
         shear,
         twin: false,
-        flat: None,
+        flat: Flat::Still,
         reason,
     }
 }

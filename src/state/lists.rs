@@ -117,8 +117,6 @@ pub type Body = Arc<[Segment]>;
 pub struct Left {
     /// Framebuffer objects, which drivers share although they need not.
     pub framebuffers: Vec<u32>,
-    /// Renderbuffers.
-    pub renderbuffers: Vec<u32>,
     /// Textures.
     pub textures: Vec<u32>,
     /// Programs.

@@ -42,7 +42,7 @@ impl State {
     pub fn look(&mut self, gl: &Gl, groups: Touch) {
         let stale = |group: Touch| groups.has(group) && self.touched.has(group);
         if stale(Touch::DEPTH) {
-            let buffer = self.window.bits[4] > 0;
+            let buffer = self.framebuffers.draw != 0 || self.window.bits[4] > 0;
             self.look.depth = if !buffer || !gl.is_enabled(c::DEPTH_TEST) {
                 DepthState::Off
             } else if gl.get_integer(c::DEPTH_WRITEMASK) == 0 {

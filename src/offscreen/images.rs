@@ -1,0 +1,132 @@
+//! The images of a share group's contexts: textures and renderbuffers are the same in all of them, framebuffers are not.
+
+use super::image::{Image, Means};
+use crate::atlas::{Names, Tiles};
+use crate::gl::{Gl, Object};
+use std::collections::{HashMap, HashSet};
+
+/// What of a share group's objects has an image per view.
+#[derive(Debug, Default)]
+pub struct Images {
+    all: HashMap<Object, Image>,
+    /// The textures among them that are not the program's own.
+    ours: HashSet<u32>,
+    /// Changes of attachments, of buffers that are drawn to, and of images.
+    pub(super) changes: u64,
+    /// Changes of textures' parameters.
+    pub(super) looks: u64,
+}
+
+impl Images {
+    pub(super) fn is_empty(&self) -> bool {
+        self.all.is_empty()
+    }
+
+    pub(super) fn has(&self, object: Object) -> bool {
+        self.all.contains_key(&object)
+    }
+
+    pub(super) fn get(&self, object: Object) -> Option<&Image> {
+        self.all.get(&object)
+    }
+
+    pub(super) fn iter(&self) -> impl Iterator<Item = (&Object, &Image)> {
+        self.all.iter()
+    }
+
+    /// Whether a texture or renderbuffer is one of ours.
+    pub fn owns(&self, object: Object) -> bool {
+        match object {
+            Object::Texture(name) => self.ours.contains(&name),
+            Object::Renderbuffer(name) => self.all.iter().any(|(object, image)| match object {
+                Object::Renderbuffer(own) => {
+                    image.array.is_none() && *own != name && image.views.contains(&name)
+                }
+                Object::Texture(_) => false,
+            }),
+        }
+    }
+
+    /// Gives the texture that is bound at a target an image per view, with what is in it. The caller keeps errors, and bindings as
+    /// for [`crate::atlas::Atlas::new`]. False where that is not done: all views see the same.
+    pub(super) fn split_texture(
+        &mut self,
+        gl: &Gl,
+        means: &Means,
+        names: &mut Names,
+        (target, texture): (u32, u32),
+        tiles: &Tiles,
+    ) -> bool {
+        if self.has(Object::Texture(texture)) {
+            return true;
+        }
+        let Some(image) = means.texture(gl, names, (target, texture), tiles) else {
+            return false;
+        };
+        self.insert(Object::Texture(texture), image);
+        true
+    }
+
+    pub(super) fn insert(&mut self, object: Object, image: Image) {
+        match object {
+            Object::Texture(own) => self.ours.extend(image.others(own)),
+            // Those in an array are textures as well.
+            Object::Renderbuffer(_) if image.array.is_some() => self.ours.extend(&image.views),
+            Object::Renderbuffer(_) => {}
+        }
+        self.ours
+            .extend(image.array.as_ref().map(|array| array.name));
+        self.all.insert(object, image);
+        self.changes += 1;
+    }
+
+    /// What the program's own objects lack of their view.
+    pub(super) fn settle(&mut self, gl: &Gl, own_layer: u32) {
+        for (object, image) in &mut self.all {
+            image.settle(gl, *object, own_layer);
+        }
+    }
+
+    /// Something else than the program's own object is drawn or copied to.
+    pub(super) fn written(&mut self, object: Object) {
+        if let Some(image) = self.all.get_mut(&object) {
+            image.stale = true;
+        }
+    }
+
+    /// Binds a view's texture at the active unit, where the program's own is bound or another view's.
+    pub(super) fn bind(&mut self, gl: &Gl, means: &Means, texture: u32, view: u32) {
+        let looks = self.looks;
+        if let Some(image) = self.all.get_mut(&Object::Texture(texture)) {
+            image.bind(gl, means, looks, (texture, view));
+        }
+    }
+
+    /// The images of objects are no longer what the program believes, or the objects are gone.
+    pub(super) fn forget(&mut self, gl: &Gl, objects: impl IntoIterator<Item = Object>) {
+        for object in objects {
+            let Some(image) = self.all.remove(&object) else {
+                continue;
+            };
+            self.changes += 1;
+            let (Object::Texture(own) | Object::Renderbuffer(own)) = object;
+            let array = image.array.as_ref().map(|array| array.name);
+            // Both kinds of objects may have the same name.
+            let textures = matches!(object, Object::Texture(_)) || array.is_some();
+            for name in image.others(own).chain(array) {
+                if textures {
+                    self.ours.remove(&name);
+                    gl.delete_texture(name);
+                } else {
+                    gl.delete_renderbuffer(name);
+                }
+            }
+        }
+    }
+
+    /// All of them.
+    pub(super) fn clear(&mut self, gl: &Gl) {
+        let all: Vec<Object> = self.all.keys().copied().collect();
+        self.forget(gl, all);
+    }
+}
