@@ -1,8 +1,8 @@
 //! Real programs: each is recorded once with apitrace and repeated with and without the layer; docs/compatibility.md is the result.
 //!
 //! `make programs` runs all of tests/programs/programs.toml and takes about two hours. `MANYVIEW_PROGRAMS=glxgears,cage` runs only
-//! these, `-` none; the rows of the others are those of their last run, kept in target/programs. Traces are kept there as well: a program
-//! whose folder is deleted is recorded again. `MANYVIEW_PROGRAMS_JOBS` is how many run at a time, 1 unless given;
+//! these, `-` none; the others keep the rows that the document has. Traces are kept in target/programs: a program whose folder is deleted is
+//! recorded again. `MANYVIEW_PROGRAMS_JOBS` is how many run at a time, 1 unless given;
 //! `MANYVIEW_PROGRAMS_FRAMES` how many frames at most, for a quick look.
 #![forbid(unsafe_code)]
 
@@ -12,15 +12,21 @@ mod support;
 mod depth;
 #[path = "programs/judge.rs"]
 mod judge;
+#[path = "programs/parallax.rs"]
+mod parallax;
+#[path = "programs/pictures.rs"]
+mod pictures;
 #[path = "programs/repeat.rs"]
 mod repeat;
 #[path = "programs/row.rs"]
 mod row;
 #[path = "programs/table.rs"]
 mod table;
+#[path = "programs/tally.rs"]
+mod tally;
 
 use row::Row;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::process::Command;
 use std::sync::Mutex;
@@ -33,10 +39,38 @@ fn wish(name: &str) -> Option<String> {
     std::env::var(name).ok().filter(|value| !value.is_empty())
 }
 
-/// Runs programs and keeps their rows in target/programs.
-fn run(programs: Vec<&Program>) {
+/// Where rows are kept.
+const DOCUMENT: &str = "docs/compatibility.md";
+
+/// The rows that the document has.
+fn kept(table: &[Program]) -> BTreeMap<String, Row> {
+    let mut rows = row::rows(&fs::read_to_string(DOCUMENT).unwrap_or_default());
+    for program in table {
+        if let Some(row) = rows.get_mut(&program.name) {
+            row.adapt(program);
+        }
+    }
+    rows
+}
+
+/// Rows in the order of the table.
+fn in_order<'a>(
+    table: &'a [Program],
+    rows: &'a BTreeMap<String, Row>,
+) -> Vec<(&'a Program, &'a Row)> {
+    let row = |program: &'a Program| Some((program, rows.get(&program.name)?));
+    table.iter().filter_map(row).collect()
+}
+
+fn write(table: &[Program], rows: &BTreeMap<String, Row>) {
+    fs::write(DOCUMENT, row::document(&in_order(table, rows))).expect("written");
+}
+
+/// Runs programs; the document has the row of each as soon as it is there.
+fn run(programs: Vec<&Program>, table: &[Program]) {
     let jobs = wish("MANYVIEW_PROGRAMS_JOBS").map_or(1, |n| n.parse().expect("a number of jobs"));
     let count = programs.len();
+    let writing = Mutex::new(());
     let queue = Mutex::new(programs.into_iter().enumerate());
     std::thread::scope(|scope| {
         for _ in 0..jobs {
@@ -50,7 +84,6 @@ fn run(programs: Vec<&Program>) {
                     let folder = scratch("programs").join(&program.name);
                     fs::create_dir_all(&folder).expect("a folder");
                     let row = judge::judge(program, &screen, &folder);
-                    row.save(&folder);
                     eprintln!(
                         "{}/{count} {}: {} ({} s)",
                         at + 1,
@@ -58,6 +91,11 @@ fn run(programs: Vec<&Program>) {
                         row.summary(),
                         start.elapsed().as_secs()
                     );
+                    // Read again: another run may have written rows meanwhile.
+                    let _alone = writing.lock().expect("the document");
+                    let mut rows = kept(table);
+                    rows.insert(program.name.clone(), row);
+                    write(table, &rows);
                 }
             });
         }
@@ -93,17 +131,11 @@ fn programs_are_compatible() {
         .status();
     // A package that is not to be had is a row of the table.
     status.expect("sh");
-    run(programs);
+    run(programs, &table);
 
-    let rows: Vec<_> = table
-        .iter()
-        .filter_map(|program| {
-            let row = Row::load(&scratch("programs").join(&program.name))?;
-            Some((program, row))
-        })
-        .collect();
-    fs::write("docs/compatibility.md", row::document(&rows)).expect("written");
-    let unexplained: Vec<_> = rows
+    let rows = kept(&table);
+    write(&table, &rows);
+    let unexplained: Vec<_> = in_order(&table, &rows)
         .iter()
         .filter(|(program, row)| row.fails() != program.known.is_some())
         .map(|(program, row)| format!("{}: {}", program.name, row.summary()))

@@ -1,13 +1,11 @@
 //! One row of docs/compatibility.md, and the document.
 
 use crate::table::Program;
-use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 use std::fmt::Write;
-use std::fs;
-use std::path::Path;
 
 /// What one check came to.
-#[derive(Clone, Debug, Default, Deserialize, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Cell {
     pub(crate) failed: bool,
     pub(crate) text: String,
@@ -27,30 +25,64 @@ impl Cell {
             text: text.into(),
         }
     }
+
+    /// A check that this program is not asked for.
+    pub(crate) fn unasked() -> Self {
+        Self::good("–")
+    }
+
+    /// As in the document, where bars part the columns.
+    fn written(&self) -> String {
+        let text = self.text.replace('|', "/");
+        match self.failed {
+            true => format!("**{text}**"),
+            false => text,
+        }
+    }
+
+    fn read(text: &str) -> Self {
+        let failed = text
+            .strip_prefix("**")
+            .and_then(|text| text.strip_suffix("**"));
+        failed.map_or_else(|| Self::good(text), Self::bad)
+    }
 }
 
 /// A program's results.
-#[derive(Debug, Default, Deserialize, Serialize)]
+#[derive(Debug, Default, PartialEq, Eq)]
 pub(crate) struct Row {
     pub(crate) frames: u64,
-    /// Draws by strategy with `geometry` asked for, and why others were replayed.
+    /// Draws by strategy with [`Program::fast`] asked for, and why others were replayed.
     pub(crate) draws: String,
     /// One for each of [`CHECKS`]; fewer if it did not come so far.
     pub(crate) cells: Vec<Cell>,
 }
 
 /// The checks, in order, as the table's head has them.
-pub(crate) const CHECKS: [&str; 7] = [
+pub(crate) const CHECKS: [&str; 9] = [
     "8 views",
     "replay",
     "auto",
     "geometry",
+    "instanced",
     "outer views",
+    "parallax",
     "GL errors",
     "live",
 ];
 
 impl Row {
+    /// What was asked when it was run may not be what is asked now.
+    pub(crate) fn adapt(&mut self, program: &Program) {
+        for (cell, check) in self.cells.iter_mut().zip(CHECKS) {
+            match program.asks(check) {
+                false => *cell = Cell::unasked(),
+                true if *cell == Cell::unasked() => *cell = Cell::good("not run"),
+                true => {}
+            }
+        }
+    }
+
     pub(crate) fn fails(&self) -> bool {
         self.cells.len() < CHECKS.len() || self.cells.iter().any(|cell| cell.failed)
     }
@@ -68,16 +100,28 @@ impl Row {
         }
         text
     }
+}
 
-    pub(crate) fn save(&self, folder: &Path) {
-        let json = serde_json::to_string_pretty(self).expect("JSON");
-        fs::write(folder.join("row.json"), json).expect("written");
-    }
-
-    pub(crate) fn load(folder: &Path) -> Option<Self> {
-        let text = fs::read_to_string(folder.join("row.json")).ok()?;
-        serde_json::from_str(&text).ok()
-    }
+/// The rows of a document by program, so that those that are not run again stay.
+pub(crate) fn rows(document: &str) -> BTreeMap<String, Row> {
+    let mut lines = document.lines().filter_map(|line| {
+        let line = line.strip_prefix("| ")?.strip_suffix('|')?;
+        Some(line.split('|').map(str::trim).collect::<Vec<_>>())
+    });
+    let head = lines.next().unwrap_or_default();
+    let rows = lines.map(|line| {
+        let cells: BTreeMap<_, _> = head.iter().copied().zip(line).collect();
+        let text = |name: &str| cells.get(name).copied();
+        let row = Row {
+            frames: text("frames").and_then(|n| n.parse().ok()).unwrap_or(0),
+            draws: text("draws").unwrap_or_default().to_owned(),
+            cells: CHECKS
+                .map(|check| text(check).map_or_else(Cell::unasked, Cell::read))
+                .into(),
+        };
+        (text("program").unwrap_or_default().to_owned(), row)
+    });
+    rows.collect()
 }
 
 const HEAD: &str = "# Compatibility
@@ -88,18 +132,26 @@ Real programs of Debian 12 under the layer, on Mesa's software renderer. `make p
 Each program is recorded once by apitrace and repeated by glretrace or eglretrace. The columns:
 
 - frames: at most 500 (`frames` of the file of commands may say otherwise); fewer where the program gave no more while it was
-  recorded, with apitrace and software rendering.
-- 8 views: all frames in 8 views under `replay`, `auto` and `geometry`; no crash, and the three make the same number of draws.
-- replay, auto, geometry: 10 frames of the first 120, the middle view of 7 against the frame without the layer. Under `replay` every
-  byte is equal, under the others the gate holds (ARCHITECTURE, What is right).
-- outer views: views 0 and 6 of 7 under `geometry` against those under `replay` with `--atlas layers`, 5 frames, by the gate.
+  recorded, with apitrace and software rendering, or where a quick look was asked for (`MANYVIEW_PROGRAMS_FRAMES`).
+- 8 views: all frames in 8 views under `replay`, `auto`, `geometry`, and `instanced` where the program brings shaders of its own; no
+  crash, and all make the same number of draws.
+- replay, auto, geometry, instanced: 10 frames of the first 120, the middle view of 7 against the frame without the layer. Under
+  `replay` every byte is equal, under the others the gate holds (ARCHITECTURE, What is right). `none by instances`: nothing was drawn so,
+  and `instanced` says no more than `replay` does.
+- outer views: views 0 and 6 of 7 under `geometry`, and `instanced`, against those under `replay` with `--atlas layers`, 5 frames, by
+  the gate.
+- parallax: where these frames show a scene with depth, how many pixels of views 0 and 6 differ from the middle one's by more than 8
+  steps of 255; in each view of each frame at least 0.05 %.
 - GL errors: those that glretrace finds after each call under the layer and not without it.
-- live: the program itself, 8 views under `geometry`, some seconds; frames shown.
-- draws: with `geometry` asked for, 8 views, all frames, by what made them; the most frequent reasons of those that were replayed.
+- live: the program itself, 8 views under `geometry` or, with shaders of its own, `instanced`, some seconds; frames shown.
+- draws: with the strategy of the column before, 8 views, all frames, by what made them; the most frequent reasons of those that were
+  replayed.
+
+`–` is a check that a program is not asked for, `not run` one that it was not asked for when it was last run.
 ";
 
 /// The text of docs/compatibility.md.
-pub(crate) fn document(rows: &[(&Program, Row)]) -> String {
+pub(crate) fn document(rows: &[(&Program, &Row)]) -> String {
     let mut text = HEAD.to_owned();
     let passing = rows.iter().filter(|(_, row)| !row.fails()).count();
     let _ = writeln!(
@@ -117,9 +169,8 @@ pub(crate) fn document(rows: &[(&Program, Row)]) -> String {
     for (program, row) in rows {
         let cells: Vec<_> = (0..CHECKS.len())
             .map(|at| match row.cells.get(at) {
-                None => "**not reached**".to_owned(),
-                Some(cell) if cell.failed => format!("**{}**", cell.text),
-                Some(cell) => cell.text.clone(),
+                None => Cell::bad("not reached").written(),
+                Some(cell) => cell.written(),
             })
             .collect();
         let verdict = if row.fails() { "**fails**" } else { "passes" };
@@ -143,4 +194,31 @@ pub(crate) fn document(rows: &[(&Program, Row)]) -> String {
         }
     }
     text
+}
+
+#[test]
+fn rows_are_kept_by_the_document() {
+    let table = crate::table::read();
+    let program = table.iter().find(|program| program.parallax).expect("one");
+    let mut cells: Vec<_> = CHECKS.map(|check| Cell::good(format!("{check} 1"))).into();
+    cells[1] = Cell::bad("2 of 9");
+    let draws = "replay 3 (lists 2)".to_owned();
+    let row = Row {
+        frames: 7,
+        draws,
+        cells,
+    };
+    let kept = |text: &str| rows(text).remove(&program.name).expect("a row");
+    let text = document(&[(program, &row)]);
+    assert_eq!(kept(&text), row);
+    // A column that the document did not have.
+    let mut before = kept(&text.replace("| parallax ", "| another "));
+    assert_eq!(before.cells[6], Cell::unasked());
+    before.adapt(program);
+    assert_eq!(before.cells[6], Cell::good("not run"));
+    let flat = table.iter().find(|program| !program.parallax).expect("one");
+    before.cells[6] = Cell::bad("the same");
+    before.adapt(flat);
+    assert_eq!(before.cells[6], Cell::unasked());
+    assert!(rows("# Compatibility").is_empty());
 }

@@ -29,8 +29,35 @@ pub(crate) struct Program {
     /// Variables.
     #[serde(default)]
     pub(crate) env: BTreeMap<String, String>,
+    /// Whether it shows a scene with depth in the frames that are compared, so that its views have to differ.
+    #[serde(default)]
+    pub(crate) parallax: bool,
     /// Why it fails, if it does.
     pub(crate) known: Option<String>,
+}
+
+impl Program {
+    /// Whether it brings shaders, which `geometry` leaves to replay and `instanced` draws.
+    pub(crate) fn own_shaders(&self) -> bool {
+        self.draws.contains("GLSL")
+    }
+
+    /// Whether a check of `row::CHECKS` is made.
+    pub(crate) fn asks(&self, check: &str) -> bool {
+        match check {
+            "instanced" => self.own_shaders(),
+            "parallax" => self.parallax,
+            _ => true,
+        }
+    }
+
+    /// The strategy that may draw most of it without replay.
+    pub(crate) fn fast(&self) -> &'static str {
+        match self.own_shaders() {
+            true => "instanced",
+            false => "geometry",
+        }
+    }
 }
 
 /// What a player does while the program runs.
