@@ -23,6 +23,8 @@ pub mod gl;
 
 pub mod metric;
 
+pub mod synthesis;
+
 pub mod report;
 
 #[cfg(feature = "cli")]

@@ -1,0 +1,114 @@
+//! Where a depth image would tear: pixels in front of a step in depth.
+//!
+//! Popescu et al., section IV.C.2, step 2: "the second order depth variation exceeds a threshold"; the normal by a least-squares line through
+//! the discontinuity pixels around.
+
+use super::DepthImage;
+use super::warp::excess;
+
+/// Pixels to either side within which discontinuity pixels are of one line.
+const AROUND: i64 = 3;
+
+/// A pixel in front of something farther.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Edge {
+    /// Column and row.
+    pub at: [i64; 2],
+    /// Away from what is in front, of length 1.
+    pub normal: [f64; 2],
+    /// 1/w in front.
+    pub near: f64,
+    /// 1/w behind.
+    pub far: f64,
+}
+
+/// All of a depth image.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Edges {
+    /// Rows from the top, from left to right.
+    pub all: Vec<Edge>,
+}
+
+impl Edges {
+    /// Finds them; `threshold`: 1/w by which a step is more than a slope.
+    pub fn of(image: &DepthImage, threshold: f64) -> Edges {
+        let [w, h] = image.size().map(|side| side as usize);
+        // Of each pixel in front: the sum of the directions to what is behind, and the farthest of that.
+        let mut found: Vec<Option<([f64; 2], f64)>> = vec![None; w * h];
+        let mut note = |at: [usize; 2], towards: [f64; 2], far: f64| {
+            if let Some(slot) = found.get_mut(at[1] * w + at[0]) {
+                let (sum, farthest) = slot.get_or_insert(([0.0; 2], far));
+                *sum = [sum[0] + towards[0], sum[1] + towards[1]];
+                *farthest = farthest.min(far);
+            }
+        };
+        let mut line = |values: &[f32], place: &dyn Fn(usize) -> [usize; 2], d: [f64; 2]| {
+            for x in 0..values.len().saturating_sub(1) {
+                if excess(values, x) <= threshold {
+                    continue;
+                }
+                let (a, b) = (f64::from(values[x]), f64::from(values[x + 1]));
+                match a > b {
+                    true => note(place(x), d, b),
+                    false => note(place(x + 1), d.map(|v| -v), a),
+                }
+            }
+        };
+        for y in 0..h {
+            line(image.inverses(y as u32), &|x| [x, y], [1.0, 0.0]);
+        }
+        for x in 0..w {
+            let column = (0..h as i64).map(|y| image.inverse(x as i64, y).unwrap_or(0.0));
+            let column: Vec<f32> = column.collect();
+            line(&column, &|y| [x, y], [0.0, 1.0]);
+        }
+        let edge = |at: usize| {
+            let (towards, far) = found[at]?;
+            let at = [(at % w) as i64, (at / w) as i64];
+            let here = |x: i64, y: i64| {
+                let inside = (0..w as i64).contains(&x) && (0..h as i64).contains(&y);
+                inside && found[y as usize * w + x as usize].is_some()
+            };
+            Some(Edge {
+                at,
+                normal: normal(at, towards, here),
+                near: image.inverse(at[0], at[1]).map_or(0.0, f64::from),
+                far,
+            })
+        };
+        Edges {
+            all: (0..w * h).filter_map(edge).collect(),
+        }
+    }
+}
+
+/// Across the line that fits the discontinuity pixels around best, to the side of `towards`.
+fn normal(at: [i64; 2], towards: [f64; 2], here: impl Fn(i64, i64) -> bool) -> [f64; 2] {
+    let around = (-AROUND..=AROUND).flat_map(|dy| (-AROUND..=AROUND).map(move |dx| (dx, dy)));
+    let points = around.filter(|&(dx, dy)| here(at[0] + dx, at[1] + dy));
+    let points: Vec<[f64; 2]> = points.map(|(dx, dy)| [dx as f64, dy as f64]).collect();
+    let count = points.len().max(1) as f64;
+    let mean = |i: usize| points.iter().map(|p| p[i]).sum::<f64>() / count;
+    let [mx, my] = [mean(0), mean(1)];
+    let sum = |f: &dyn Fn(f64, f64) -> f64| points.iter().map(|p| f(p[0] - mx, p[1] - my)).sum();
+    let (xx, yy, xy): (f64, f64, f64) =
+        (sum(&|x, _| x * x), sum(&|_, y| y * y), sum(&|x, y| x * y));
+    // The direction of the greatest extent lies along the line.
+    let angle = 0.5 * (2.0 * xy).atan2(xx - yy);
+    let across = [-angle.sin(), angle.cos()];
+    let dot = across[0] * towards[0] + across[1] * towards[1];
+    let round = (xx - yy).hypot(2.0 * xy) < 1e-9 || dot.abs() < 1e-9;
+    match round {
+        true => unit(towards),
+        false => across.map(|v| v * dot.signum()),
+    }
+}
+
+/// Of length 1, if it has a length.
+fn unit(v: [f64; 2]) -> [f64; 2] {
+    let length = v[0].hypot(v[1]);
+    match length > 0.0 {
+        true => v.map(|side| side / length),
+        false => [1.0, 0.0],
+    }
+}

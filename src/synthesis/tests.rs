@@ -1,0 +1,284 @@
+//! Small scenes whose views are known.
+
+use super::*;
+use proptest::prelude::*;
+
+const SIZE: [u32; 2] = [96, 64];
+/// 1/w of the background, and of what stands before it.
+const FAR: f64 = 0.1;
+const NEAR: f64 = 0.25;
+const THRESHOLD: f64 = 0.02;
+
+fn at_zero_parallax(separation: f64) -> Shift {
+    Shift {
+        separation,
+        convergence: 1.0 / NEAR,
+    }
+}
+
+/// Two triangles in front of the camera; each corner with the same 1/w.
+fn rectangle(
+    [left, top, right, bottom]: [f64; 4],
+    inverse: f64,
+    colour: [f64; 3],
+) -> [Triangle; 2] {
+    let vertex = |x, y| Vertex {
+        at: [x, y],
+        inverse,
+        colour,
+    };
+    let [a, b, c, d] = [
+        vertex(left, top),
+        vertex(right, top),
+        vertex(right, bottom),
+        vertex(left, bottom),
+    ];
+    [[a, b, c], [a, c, d]]
+}
+
+/// A background that gets lighter to the right with columns before it.
+fn columns(places: &[[f64; 2]]) -> Vec<Triangle> {
+    let mut behind = rectangle([-40.0, 0.0, 136.0, 64.0], FAR, [0.0; 3]);
+    for vertex in behind.as_flattened_mut() {
+        vertex.colour[1] = if vertex.at[0] < 0.0 { 40.0 } else { 250.0 };
+    }
+    let before = places
+        .iter()
+        .flat_map(|&[left, right]| rectangle([left, 16.0, right, 48.0], NEAR, [200.0, 0.0, 0.0]));
+    behind.into_iter().chain(before).collect()
+}
+
+fn none() -> Distortions {
+    let nothing = Splats {
+        radius: 0.0,
+        asymmetry: 1.0,
+    };
+    Distortions::of(SIZE, &Edges::default(), &nothing)
+}
+
+fn drawn(scene: &[Triangle], distortions: &Distortions, longest: f64) -> Reference {
+    let mut reference = Reference::new(SIZE);
+    reference.draw(scene.iter().copied(), distortions, longest);
+    reference
+}
+
+fn depth_image(scene: &[Triangle]) -> DepthImage {
+    let drawn = drawn(scene, &none(), f64::INFINITY);
+    let picture = drawn.picture().picture;
+    let colours = picture.pixels().map(|pixel| pixel.0).collect();
+    DepthImage::new(SIZE, colours, drawn.inverses()).expect("sizes that fit")
+}
+
+/// The scene as the other camera sees it.
+fn truth(scene: &[Triangle], shift: &Shift) -> View {
+    let moved = scene.iter().map(|triangle| {
+        triangle.map(|vertex| Vertex {
+            at: [
+                vertex.at[0] + shift.pixels(vertex.inverse, SIZE[0]),
+                vertex.at[1],
+            ],
+            ..vertex
+        })
+    });
+    drawn(&moved.collect::<Vec<_>>(), &none(), f64::INFINITY).picture()
+}
+
+/// Pixels that differ by more than 8 where there is no hole.
+fn wrong(view: &View, truth: &View) -> usize {
+    let pairs = view.picture.pixels().zip(truth.picture.pixels());
+    let differs = pairs.map(|(a, b)| a.0.iter().zip(b.0).any(|(a, b)| a.abs_diff(b) > 8));
+    differs
+        .zip(&view.holes)
+        .filter(|(d, hole)| *d && !**hole)
+        .count()
+}
+
+#[test]
+fn the_own_view_is_the_picture() {
+    let image = depth_image(&columns(&[[40.0, 56.0]]));
+    let view = warp(&image, &at_zero_parallax(0.0));
+    assert_eq!(view.hole_share(), 0.0);
+    for y in 0..SIZE[1] {
+        let row: Vec<[u8; 3]> = (0..SIZE[0])
+            .map(|x| view.picture.get_pixel(x, y).0)
+            .collect();
+        assert_eq!(row, image.colours(y));
+    }
+}
+
+#[test]
+fn a_hole_is_as_wide_as_disparities_differ_and_is_the_background_s() {
+    let image = depth_image(&columns(&[[40.0, 56.0]]));
+    // The background moves by 0.2 · (1 − 4 · 0.1) · 48 = 5.76 pixels to the right, the column stands.
+    for (separation, side) in [(0.2, 56), (-0.2, 34)] {
+        let view = warp(&image, &at_zero_parallax(separation));
+        let row = 32;
+        let holes: Vec<u32> = (0..SIZE[0])
+            .filter(|x| view.holes[(row * SIZE[0] + x) as usize])
+            .collect();
+        let inner: Vec<u32> = holes
+            .iter()
+            .copied()
+            .filter(|x| (10..86).contains(x))
+            .collect();
+        assert!((5..=6).contains(&inner.len()), "{inner:?}");
+        assert!(inner[0].abs_diff(side) <= 1, "{inner:?} at {side}");
+        for x in inner {
+            assert_eq!(view.picture.get_pixel(x, row).0[0], 0, "column {x}");
+        }
+        // The column itself keeps its width.
+        let red = (0..SIZE[0]).filter(|&x| view.picture.get_pixel(x, row).0[0] > 100);
+        assert_eq!(red.count(), 16);
+    }
+}
+
+#[test]
+fn a_slanted_plane_moves_by_its_depths() {
+    // 1/w and red are straight lines over the picture.
+    let [w, h] = SIZE;
+    let inverse = |x: f64| 0.1 + 0.15 * x / f64::from(w);
+    let red = |x: f64| 20.0 + 2.0 * x;
+    let place = |x: u32| f64::from(x) + 0.5;
+    let all = || (0..h).flat_map(|_| 0..w).map(place);
+    let colours = all().map(|x| [red(x).round() as u8, 0, 0]).collect();
+    let inverses = all().map(|x| inverse(x) as f32).collect();
+    let image = DepthImage::new(SIZE, colours, inverses).expect("sizes that fit");
+    let shift = at_zero_parallax(0.1);
+    let view = warp(&image, &shift);
+    for x in 8..w - 8 {
+        // x' = x + s·(1 − c·(a + b·x))·w/2, solved for x.
+        let half = f64::from(w) / 2.0;
+        let (s, c) = (shift.separation * half, shift.convergence);
+        let from = (place(x) - s * (1.0 - c * 0.1)) / (1.0 - s * c * 0.15 / f64::from(w));
+        let is = f64::from(view.picture.get_pixel(x, 30).0[0]);
+        assert!((is - red(from)).abs() <= 1.0, "{x}: {is}, {}", red(from));
+    }
+    assert!(view.holes.iter().filter(|hole| **hole).count() < 8 * h as usize);
+}
+
+#[test]
+fn magnitudes_are_those_of_equation_1() {
+    for (r, asymmetry) in [(30.0, 1.0), (30.0, 2.0), (12.0, 3.0)] {
+        assert!((distortion::magnitude(-r, r, asymmetry) - r).abs() < 1e-12);
+        assert!(distortion::magnitude(r / asymmetry, r, asymmetry).abs() < 1e-12);
+    }
+    // Symmetrical: (r − x)/2.
+    assert!((distortion::magnitude(4.0, 30.0, 1.0) - 13.0).abs() < 1e-12);
+}
+
+#[test]
+fn rays_bend_between_near_and_far_only() {
+    let bent = Distortion {
+        direction: [1.0, 0.0],
+        near: NEAR,
+        far: FAR,
+        magnitude: 9.0,
+    };
+    assert_eq!(bent.at(0.3), 0.0);
+    assert_eq!(bent.at(NEAR), 0.0);
+    assert!((bent.at((NEAR + FAR) / 2.0) - 4.5).abs() < 1e-12);
+    assert!((bent.at(0.0) - 9.0).abs() < 1e-12);
+}
+
+#[test]
+fn edges_lie_in_front_and_look_away_from_it() {
+    let edges = Edges::of(&depth_image(&columns(&[[40.0, 56.0]])), THRESHOLD);
+    let row: Vec<&Edge> = edges.all.iter().filter(|edge| edge.at[1] == 32).collect();
+    let told: Vec<_> = row
+        .iter()
+        .map(|edge| (edge.at[0], edge.normal[0].round()))
+        .collect();
+    assert_eq!(told, [(40, -1.0), (55, 1.0)]);
+    for edge in row {
+        assert!((edge.near - NEAR).abs() < 1e-6 && (edge.far - FAR).abs() < 1e-6);
+    }
+    // A plane has none, however steep.
+    let steep: Vec<f32> = (0..96 * 64).map(|i| 0.01 * (i % 96) as f32).collect();
+    let plane = DepthImage::new(SIZE, vec![[0; 3]; 96 * 64], steep).expect("sizes that fit");
+    assert!(Edges::of(&plane, THRESHOLD).all.is_empty());
+}
+
+/// Holes of a depth image and of a reference image, seen from both sides, and pixels of the latter that are wrong.
+fn compare(places: &[[f64; 2]], splats: &Splats) -> (usize, usize, usize) {
+    let scene = columns(places);
+    let image = depth_image(&scene);
+    let edges = Edges::of(&image, THRESHOLD);
+    let reference = drawn(&scene, &Distortions::of(SIZE, &edges, splats), 1.0);
+    let mut sums = (0, 0, 0);
+    for separation in [-0.2, 0.2] {
+        let shift = at_zero_parallax(separation);
+        let truth = truth(&scene, &shift);
+        // What lies beyond the edge of the picture no camera of the middle has.
+        let inner = |view: &View| {
+            let holes = view.holes.iter().enumerate();
+            let inside = holes.filter(|(at, hole)| **hole && (8..88).contains(&(at % 96)));
+            inside.count()
+        };
+        let view = reference.view(&shift, THRESHOLD);
+        sums.0 += inner(&warp(&image, &shift));
+        sums.1 += inner(&view);
+        sums.2 += wrong(&view, &truth);
+    }
+    sums
+}
+
+#[test]
+fn an_occlusion_camera_has_what_is_about_to_be_seen() {
+    let splats = Splats {
+        radius: 14.0,
+        asymmetry: 1.0,
+    };
+    let (depth, occlusion, wrong) = compare(&[[32.0, 64.0]], &splats);
+    assert!(depth > 200, "{depth}");
+    // What is left lies at the corners, where splats of two directions meet.
+    assert!(occlusion * 10 <= depth, "{occlusion} of {depth}");
+    // Of what is seen, all but single pixels at silhouettes is what the other camera sees.
+    assert!(wrong * 200 <= 2 * 96 * 64, "{wrong}");
+}
+
+#[test]
+fn a_thin_gap_loses_nothing_that_was_seen() {
+    let splats = Splats {
+        radius: 16.0,
+        asymmetry: 2.0,
+    };
+    let scene = columns(&[[30.0, 45.0], [49.0, 64.0]]);
+    let image = depth_image(&scene);
+    let edges = Edges::of(&image, THRESHOLD);
+    let reference = drawn(&scene, &Distortions::of(SIZE, &edges, &splats), 1.0);
+    let own = reference.view(&at_zero_parallax(0.0), THRESHOLD);
+    let before = warp(&image, &at_zero_parallax(0.0));
+    let green = |view: &View| {
+        (45..49)
+            .filter(|&x| view.picture.get_pixel(x, 32).0[1] > 0)
+            .count()
+    };
+    assert_eq!(green(&before), 4);
+    assert!(green(&own) >= 3);
+}
+
+proptest! {
+    #[test]
+    fn any_depths_make_a_picture(
+        inverses in proptest::collection::vec(
+            prop_oneof![Just(f32::NAN), Just(f32::INFINITY), Just(-1.0), 0.0f32..2.0], 24 * 6),
+        separation in -2.0f64..2.0,
+    ) {
+        let colours: Vec<[u8; 3]> = (0..24 * 6).map(|i| [i as u8 + 1, 0, 0]).collect();
+        let image = DepthImage::new([24, 6], colours, inverses).expect("sizes that fit");
+        let view = warp(&image, &at_zero_parallax(separation));
+        prop_assert_eq!(view.holes.len(), 24 * 6);
+        // A row with anything in it has no black left.
+        for y in 0..6usize {
+            let row = &view.holes[y * 24..][..24];
+            if row.iter().any(|hole| !hole) {
+                for x in 0..24 {
+                    prop_assert!(view.picture.get_pixel(x, y as u32).0[0] > 0);
+                }
+            }
+        }
+        let edges = Edges::of(&image, 0.05);
+        prop_assert!(edges.all.iter().all(|e| (e.normal[0].hypot(e.normal[1]) - 1.0).abs() < 1e-9));
+        Distortions::of([24, 6], &edges, &Splats { radius: 5.0, asymmetry: 2.0 });
+    }
+}

@@ -1,0 +1,142 @@
+//! A view of a depth image (McMillan's 3D warping along rows: cameras stand beside each other, so nothing moves up or down).
+//!
+//! Neighbours of one surface stay joined; where the surface ends it ends half a pixel beyond its last sample. What is nearest is
+//! seen. Where nothing is, there is a hole: it gets the colour of the farther one of its two ends, since what is uncovered belongs to what is
+//! behind.
+
+use super::{DepthImage, Shift};
+use image::{Rgb, RgbImage};
+
+/// Pixels by which neighbours may part, beyond what the surfaces around them do, and still be of one surface.
+const TEAR: f64 = 0.5;
+
+/// A picture that was made, not drawn.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct View {
+    /// The picture, holes filled.
+    pub picture: RgbImage,
+    /// By pixel, rows from the top: nothing was known of it.
+    pub holes: Vec<bool>,
+}
+
+impl View {
+    /// Share of the pixels that are holes, 0 to 1.
+    pub fn hole_share(&self) -> f64 {
+        let holes = self.holes.iter().filter(|hole| **hole).count();
+        holes as f64 / self.holes.len().max(1) as f64
+    }
+}
+
+/// What is seen at a pixel: its 1/w and colour.
+pub(super) type Seen = Option<(f64, [u8; 3])>;
+
+/// The view of a camera beside that of the picture.
+pub fn warp(image: &DepthImage, shift: &Shift) -> View {
+    let rows = 0..image.size()[1];
+    let seen = rows.flat_map(|y| warp_row(image, y, shift)).collect();
+    finish(image.size(), seen, true)
+}
+
+/// A picture of what is seen at each pixel, rows from the top; `filled`: holes get what is at their farther end.
+pub(super) fn finish(size: [u32; 2], mut seen: Vec<Seen>, filled: bool) -> View {
+    let [w, h] = size;
+    let holes = seen.iter().map(Option::is_none).collect();
+    if filled {
+        seen.chunks_mut(w.max(1) as usize).for_each(fill);
+    }
+    let mut picture = RgbImage::new(w, h);
+    for (pixel, seen) in picture.pixels_mut().zip(seen) {
+        *pixel = Rgb(seen.map_or([0; 3], |(_, colour)| colour));
+    }
+    View { picture, holes }
+}
+
+fn warp_row(image: &DepthImage, y: u32, shift: &Shift) -> Vec<Seen> {
+    let (colours, inverses) = (image.colours(y), image.inverses(y));
+    let width = inverses.len();
+    let at: Vec<f64> = (0..)
+        .zip(inverses)
+        .map(|(x, &v): (u32, &f32)| f64::from(x) + 0.5 + shift.pixels(f64::from(v), width as u32))
+        .collect();
+    let limit = TEAR / shift.pixels_per_inverse(width as u32);
+    let joined: Vec<bool> = (0..width.saturating_sub(1))
+        .map(|x| excess(inverses, x) <= limit)
+        .collect();
+    let mut row: Vec<Seen> = vec![None; width];
+    for x in 0..width {
+        let sample = (f64::from(inverses[x]), colours[x]);
+        let after = joined.get(x).copied().unwrap_or(false);
+        let before = x > 0 && joined[x - 1];
+        if !before {
+            cover(&mut row, [at[x] - 0.5, at[x]], [sample; 2]);
+        }
+        match after {
+            true => {
+                let next = (f64::from(inverses[x + 1]), colours[x + 1]);
+                cover(&mut row, [at[x], at[x + 1]], [sample, next]);
+            }
+            false => cover(&mut row, [at[x], at[x] + 0.5], [sample; 2]),
+        }
+    }
+    row
+}
+
+/// By how much the step of 1/w from a pixel to the next is another than those before and after it: nothing on planes and at creases, the
+/// height of a step between two surfaces.
+pub(super) fn excess(inverses: &[f32], x: usize) -> f64 {
+    let step = |from: usize| {
+        let pair = (inverses.get(from)?, inverses.get(from + 1)?);
+        Some(f64::from(*pair.1) - f64::from(*pair.0))
+    };
+    let Some(own) = step(x) else {
+        return f64::INFINITY;
+    };
+    let before = x.checked_sub(1).and_then(step);
+    let around = before.into_iter().chain(step(x + 1));
+    let least = around.map(|other| (own - other).abs()).reduce(f64::min);
+    least.unwrap_or(own.abs())
+}
+
+/// Draws what lies between two places of a row, where it is nearest. What is turned away is not seen.
+fn cover(row: &mut [Seen], [from, to]: [f64; 2], [first, last]: [(f64, [u8; 3]); 2]) {
+    let start = (from - 0.5).ceil().max(0.0);
+    let mut x = start as usize;
+    while let Some(seen) = row.get_mut(x) {
+        let centre = x as f64 + 0.5;
+        if centre >= to {
+            break;
+        }
+        let u = (centre - from) / (to - from);
+        let inverse = first.0 + (last.0 - first.0) * u;
+        if seen.is_none_or(|(nearest, _)| inverse > nearest) {
+            *seen = Some((inverse, mixed(first.1, last.1, u)));
+        }
+        x += 1;
+    }
+}
+
+fn mixed(a: [u8; 3], b: [u8; 3], u: f64) -> [u8; 3] {
+    let mix = |(a, b): (u8, u8)| (f64::from(a) + (f64::from(b) - f64::from(a)) * u).round() as u8;
+    [(a[0], b[0]), (a[1], b[1]), (a[2], b[2])].map(mix)
+}
+
+/// Gives holes what is at their farther end.
+fn fill(row: &mut [Seen]) {
+    let mut x = 0;
+    while x < row.len() {
+        if row[x].is_some() {
+            x += 1;
+            continue;
+        }
+        let end = (x..row.len()).find(|&at| row[at].is_some());
+        let left = x.checked_sub(1).and_then(|at| row[at]);
+        let right = end.and_then(|at| row[at]);
+        let farther = match (left, right) {
+            (Some(l), Some(r)) => Some(if l.0 <= r.0 { l } else { r }),
+            (one, None) | (None, one) => one,
+        };
+        let end = end.unwrap_or(row.len());
+        row[x..end].fill(farther);
+        x = end;
+    }
+}
