@@ -43,9 +43,10 @@ unsafe extern "C" fn choose(handle: *mut c_void, name: *const c_char) -> *const 
 
 /// Whether nobody has a name but this library.
 fn only_ours(name: &CStr) -> bool {
-    !provider::has(name.to_bytes())
+    // What opens libraries comes last: other wrappers ask for names when they are opened.
+    provider::own(provider::symbol(libc::RTLD_DEFAULT, name))
         && provider::symbol(libc::RTLD_NEXT, name).is_null()
-        && provider::own(provider::symbol(libc::RTLD_DEFAULT, name))
+        && !provider::has(name.to_bytes())
 }
 
 /// dlsym for a name that nobody else has.

@@ -254,7 +254,13 @@ impl Gl {
             return;
         }
         let internal = first.internal;
-        let (count, [w, h, d], fixed) = (levels.len() as i32, first.size, u8::from(first.fixed));
+        let ([w, h, d], fixed) = (first.size, u8::from(first.fixed));
+        // With levels that are still to be made: no more can be added.
+        let longest = match target {
+            c::TEXTURE_3D => w.max(h).max(d),
+            _ => w.max(h),
+        };
+        let count = longest.max(1).ilog2() as i32 + 1;
         let real = self.real;
         // SAFETY: no pointers.
         unsafe {
