@@ -1,6 +1,6 @@
 /* A program that draws as modern renderers do, into framebuffers of its own first: a shadow map, a G-buffer, occlusion at half size,
  * light in half floats, glows added forward, bloom, and tone mapping to the window; then a flat display. GLSL 3.30 core, the camera
- * in a uniform block, no fixed function. No fragment shader uses a projection. */
+ * in a uniform block, no fixed function. No fragment shader uses a projection. OpenGL ES 3.2 can do all of it. */
 #include "demo.h"
 #include "passes/texts.h"
 #include <math.h>
@@ -101,10 +101,11 @@ static void make_shapes(void)
 static GLuint texture(GLint format, int width, int height)
 {
     GLenum kind = format == GL_DEPTH_COMPONENT24 ? GL_DEPTH_COMPONENT : format == GL_R8 ? GL_RED : GL_RGBA;
+    GLenum type = kind == GL_DEPTH_COMPONENT ? GL_UNSIGNED_INT : format == GL_RGBA16F ? GL_FLOAT : GL_UNSIGNED_BYTE;
     GLuint name;
     glGenTextures(1, &name);
     glBindTexture(GL_TEXTURE_2D, name);
-    glTexImage2D(GL_TEXTURE_2D, 0, format, width, height, 0, kind, GL_FLOAT, NULL);
+    glTexImage2D(GL_TEXTURE_2D, 0, format, width, height, 0, kind, type, NULL);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
@@ -146,7 +147,7 @@ static GLuint framebuffer(const GLuint colours[3], GLuint depth, int of)
         glDrawBuffers(n, buffers);
     } else {
         glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, shadows, 0);
-        glDrawBuffer(GL_NONE);
+        glDrawBuffers(1, (const GLenum[]){GL_NONE});
         glReadBuffer(GL_NONE);
     }
     if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
@@ -188,6 +189,10 @@ void demo_setup(void)
         light_target = framebuffer((GLuint[3]){light}, 0, 0);
     } else {
         GLuint depth = from_depth ? (depths = texture(GL_DEPTH_COMPONENT24, w, h)) : renderbuffer(GL_DEPTH24_STENCIL8, 0);
+        if (from_depth) { /* OpenGL ES filters depths only to compare them */
+            glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+            glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+        }
         albedo = texture(GL_RGBA8, w, h), normals = texture(GL_RGBA16F, w, h), positions = texture(GL_RGBA16F, w, h);
         geometry_target = framebuffer((GLuint[3]){albedo, normals, positions}, depth, 0);
         position_target = framebuffer((GLuint[3]){positions}, 0, 0);

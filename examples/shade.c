@@ -1,5 +1,6 @@
 /* Programs with shaders of their own, in buffers: light in each pixel, or steps of it (--toon), and a flat display by the same
- * program. --glsl 120: attributes and varyings, matrices as uniforms; 330: the camera in a uniform block, the model in a uniform. */
+ * program. --glsl 120: attributes and varyings, matrices as uniforms; 330: the camera in a uniform block, the model in a uniform. In
+ * OpenGL ES these are GLSL 1.00 and 3.00 es. */
 #include "demo.h"
 #include <math.h>
 #include <stdlib.h>
@@ -47,7 +48,8 @@ static const char *const fragment_120 =
     "    vec3 d = normalize(n), l = normalize(vec3(3.0, 6.0, 2.0) - eye);\n"
     "    float light = max(dot(d, l), 0.0), edge = abs(dot(d, normalize(eye)));\n"
     "    light = steps > 0.0 ? floor(light * steps + 0.5) / steps * step(0.25, edge) : light + pow(light, 30.0) * 0.4;\n"
-    "    float net = mod(floor(gl_FragCoord.x) + floor(gl_FragCoord.y), 2.0);\n"
+    "    vec2 at = gl_FragCoord.xy;\n" /* which has but eleven bits in GLSL 1.00 as long as it is itself calculated with */
+    "    float net = mod(floor(at.x) + floor(at.y), 2.0);\n"
     "    gl_FragColor = vec4(colour.rgb * mix(0.17 + 0.8 * light, 0.8 + 0.2 * net, unlit), colour.a);\n"
     "}\n";
 static const char *const vertex_330 =

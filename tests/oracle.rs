@@ -515,6 +515,30 @@ surfaces! {
     egl: teapot_srgb room_srgb teapot_samples room_samples;
 }
 
+/// OpenGL ES: draws are replayed, whatever is asked for.
+macro_rules! es {
+    ($($scene:ident: $views:expr;)*) => {
+        mod es { $(
+            #[test]
+            fn $scene() {
+                super::check(stringify!($scene), "egl", &$views, &["replay"]);
+            }
+        )* }
+    };
+}
+
+es! {
+    shade_es2: [1, 2, 5, 8];
+    shade_es2_combined: [2, 5];
+    shade_es2_samples: [5];
+    shade_es2_srgb: [5];
+    shade_es3: [2, 5, 8];
+    passes_es3: [2, 5];
+    passes_es3_depth: [5];
+    passes_es3_samples: [5];
+    passes_es3_copies: [5];
+}
+
 /// Views beside each other, by the strategies that draw all of them at once.
 macro_rules! beside {
     ($($scene:ident)*) => {

@@ -10,7 +10,7 @@
 #include <time.h>
 #include <unistd.h>
 
-int demo_width = 512, demo_height = 384, demo_x, demo_y;
+int demo_width = 512, demo_height = 384, demo_x, demo_y, demo_es;
 
 __attribute__((weak)) int demo_accumulation;
 
@@ -167,7 +167,8 @@ static void usage(void)
            "  --samples S            multisampled (glx, egl)\n"
            "  --srgb                 sRGB-capable surface, with GL_FRAMEBUFFER_SRGB on (glx, egl)\n"
            "  --check                fail with status 3 after a frame that raised a GL error\n"
-           "  --profile core|compatibility  of the context: OpenGL 3.3 core, or the default one (default compatibility)\n"
+           "  --profile core|compatibility|es2|es3  of the context: OpenGL 3.3 core, the default one, OpenGL ES (egl) (default\n"
+           "                         compatibility)\n"
            "  --unread               frames end with glReadBuffer(GL_NONE) (glx, egl)\n"
            "  --time                 print the median milliseconds per frame on stderr\n"
            "  --bench                read numbers of frames from stdin, draw so many, print the times of each\n",
@@ -270,9 +271,11 @@ static void parse(int argc, char **argv)
         } else if (!strcmp(o, "--dump")) {
             dump = v;
         } else if (!strcmp(o, "--profile")) {
-            if (strcmp(v, "core") && strcmp(v, "compatibility"))
-                demo_fail(2, "--profile: core or compatibility, not %s", v);
+            int es = !strcmp(v, "es2") ? 2 : !strcmp(v, "es3") ? 3 : 0;
+            if (!es && strcmp(v, "core") && strcmp(v, "compatibility"))
+                demo_fail(2, "--profile: core, compatibility, es2 or es3, not %s", v);
             window.core = !strcmp(v, "core");
+            window.es = demo_es = es;
         } else {
             window.samples = integer(o, v, 0);
         }
@@ -316,6 +319,8 @@ static void parse(int argc, char **argv)
 #endif
     if (window.pbuffer >= 0 && strcmp(api->name, "egl"))
         demo_fail(2, "--surface: for --api egl only");
+    if (demo_es && strcmp(api->name, "egl"))
+        demo_fail(2, "--profile: OpenGL ES is for --api egl only");
     if (help)
         usage();
 }
@@ -330,13 +335,16 @@ static void write_dump(int frame)
         snprintf(path, sizeof path, "%.*s%d%s", (int)(d - dump), dump, frame, d + 2);
     else
         snprintf(path, sizeof path, "%s", dump);
-    unsigned char *rgb = malloc((size_t)demo_width * (size_t)demo_height * 3);
+    size_t pixels = (size_t)demo_width * (size_t)demo_height;
+    unsigned char *rgb = malloc(pixels * 4);
     if (!rgb)
         demo_fail(1, "out of memory");
     GLint alignment; /* not by glPushClientAttrib: there is none in a core context */
     glGetIntegerv(GL_PACK_ALIGNMENT, &alignment);
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
-    glReadPixels(demo_x, demo_y, demo_width, demo_height, GL_RGB, GL_UNSIGNED_BYTE, rgb);
+    glReadPixels(demo_x, demo_y, demo_width, demo_height, demo_es ? GL_RGBA : GL_RGB, GL_UNSIGNED_BYTE, rgb);
+    for (size_t k = 0; demo_es && k < pixels; k++) /* OpenGL ES reads four */
+        memmove(rgb + 3 * k, rgb + 4 * k, 3);
     glPixelStorei(GL_PACK_ALIGNMENT, alignment);
     if (demo_write_png(path, demo_width, demo_height, rgb))
         demo_fail(1, "cannot write %s", path);

@@ -29,6 +29,7 @@ void demo_frame(int frame);     /* draws frame number 0, 1, 2, ...; the same pic
 /* ---- what a demo may use ---- */
 extern int demo_width, demo_height; /* size of the picture (--size) */
 extern int demo_x, demo_y;          /* where it begins in the window (--offset) */
+extern int demo_es;                 /* 2 or 3 in a context of OpenGL ES (--profile es2, es3), else 0 */
 
 double demo_time(int frame);        /* 0.02 s a frame */
 
@@ -62,7 +63,8 @@ void demo_box(double x, double y, double z); /* half sizes, around the origin */
 GLuint demo_checker(int size, int squares, const GLubyte a[3], const GLubyte b[3]);
 
 /* ---- shaders.c ---- */
-/* A linked program; the attribute `position` is at 0, `normal` at 1. */
+/* A linked program; the attribute `position` is at 0, `normal` at 1. In OpenGL ES texts of GLSL 1.20 and 3.30 are taken for ones of
+ * 1.00 and 3.00 es. */
 GLuint demo_program(const char *vertex, const char *fragment);
 /* The same of any stages, null where there is none: vertex, tessellation control and evaluation, geometry, fragment. */
 GLuint demo_stages(const char *const texts[5]);
@@ -87,6 +89,7 @@ struct demo_window {
     int width, height; /* the canvas */
     int samples, srgb, accumulation;
     int core;          /* 1: --profile core, an OpenGL 3.3 core context */
+    int es;            /* 2 or 3: OpenGL ES of that version */
     int pbuffer;       /* 1: --surface pbuffer, 0: --surface window, -1: not said */
     const char *title;
 };

@@ -1,4 +1,4 @@
-/* Desktop OpenGL through EGL: an X window, or a pbuffer (the only choice without a DISPLAY). */
+/* OpenGL and OpenGL ES through EGL: an X window, or a pbuffer (the only choice without a DISPLAY). */
 #include "x11.h"
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
@@ -37,11 +37,11 @@ static void open_surface(struct demo_window *w)
     }
     if (!display || !eglInitialize(display, NULL, NULL))
         demo_fail(1, "no EGL display");
-    if (!eglBindAPI(EGL_OPENGL_API))
-        demo_fail(1, "this EGL has no desktop OpenGL");
+    if (!eglBindAPI(w->es ? EGL_OPENGL_ES_API : EGL_OPENGL_API))
+        demo_fail(1, "this EGL has no %s", w->es ? "OpenGL ES" : "desktop OpenGL");
 
     const EGLint wanted[] = {EGL_SURFACE_TYPE, w->pbuffer ? EGL_PBUFFER_BIT : EGL_WINDOW_BIT,
-                             EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT,
+                             EGL_RENDERABLE_TYPE, w->es == 3 ? EGL_OPENGL_ES3_BIT : w->es ? EGL_OPENGL_ES2_BIT : EGL_OPENGL_BIT,
                              EGL_RED_SIZE, 8, EGL_GREEN_SIZE, 8, EGL_BLUE_SIZE, 8,
                              EGL_DEPTH_SIZE, 24, EGL_STENCIL_SIZE, 8,
                              EGL_SAMPLE_BUFFERS, w->samples > 0, EGL_SAMPLES, w->samples, EGL_NONE};
@@ -55,7 +55,8 @@ static void open_surface(struct demo_window *w)
         demo_fail(1, "no EGL config of this kind");
     const EGLint core[] = {EGL_CONTEXT_MAJOR_VERSION, 3, EGL_CONTEXT_MINOR_VERSION, 3,
                            EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
-    context = eglCreateContext(display, config, EGL_NO_CONTEXT, w->core ? core : NULL);
+    const EGLint es[] = {EGL_CONTEXT_MAJOR_VERSION, w->es, EGL_NONE};
+    context = eglCreateContext(display, config, EGL_NO_CONTEXT, w->core ? core : w->es ? es : NULL);
     if (!context)
         demo_fail(1, "eglCreateContext failed (0x%x)", eglGetError());
 

@@ -4,11 +4,28 @@
 #include <stdio.h>
 #include <string.h>
 
+/* What OpenGL ES has instead of the first line of a text, which is left out. */
+static const char *first_line(const char **text)
+{
+    static const struct { const char *desktop, *es; } lines[] = {
+        {"#version 120\n", "#version 100\nprecision highp float;\n"},
+        {"#version 330 core\n", "#version 300 es\nprecision highp float;\nprecision highp int;\nprecision highp sampler2DShadow;\n"}};
+    for (size_t k = 0; demo_es && k < sizeof lines / sizeof *lines; k++) {
+        size_t n = strlen(lines[k].desktop);
+        if (!strncmp(*text, lines[k].desktop, n)) {
+            *text += n;
+            return lines[k].es;
+        }
+    }
+    return "";
+}
+
 static GLuint shader(GLenum kind, const char *text)
 {
     GLuint s = glCreateShader(kind);
     GLint ok;
-    glShaderSource(s, 1, &text, NULL);
+    const char *first = first_line(&text), *texts[2] = {first, text};
+    glShaderSource(s, 2, texts, NULL);
     glCompileShader(s);
     glGetShaderiv(s, GL_COMPILE_STATUS, &ok);
     if (!ok) {

@@ -19,21 +19,39 @@ pub(crate) fn export(name: &[u8]) -> Option<(usize, Ptr)> {
 /// time in any thread, for every name.
 unsafe extern "C" fn choose(handle: *mut c_void, name: *const c_char) -> *const c_void {
     let next = provider::next_dlsym().map_or(core::ptr::null(), |f| f as *const c_void);
-    if name.is_null() || handle == libc::RTLD_NEXT || next.is_null() {
+    if name.is_null() || next.is_null() {
         return next;
     }
-    deep::look();
+    let behind = handle == libc::RTLD_NEXT;
+    if !behind {
+        deep::look();
+    }
     // SAFETY: dlsym's contract: a string that ends in NUL.
-    let name = unsafe { CStr::from_ptr(name) }.to_bytes();
+    let text = unsafe { CStr::from_ptr(name) };
+    let name = text.to_bytes();
     let ours = matches!(
         name,
         [b'g', b'l', ..] | [b'e', b'g', b'l', ..] | [b'O', b'S', b'M', ..]
-    );
-    if ours && export(name).is_some() {
-        answer as *const c_void
-    } else {
-        next
+    ) && export(name).is_some();
+    match (ours, behind) {
+        (true, false) => answer as *const c_void,
+        // Before everything else stands the program itself, to which we are the next: eglretrace asks so whether it has GLX.
+        (true, true) if only_ours(text) => nothing as *const c_void,
+        _ => next,
     }
+}
+
+/// Whether nobody has a name but this library.
+fn only_ours(name: &CStr) -> bool {
+    // What opens libraries comes last: other wrappers ask for names when they are opened.
+    provider::own(provider::symbol(libc::RTLD_DEFAULT, name))
+        && provider::symbol(libc::RTLD_NEXT, name).is_null()
+        && !provider::has(name.to_bytes())
+}
+
+/// dlsym for a name that nobody else has.
+unsafe extern "C" fn nothing(_: *mut c_void, _: *const c_char) -> *mut c_void {
+    core::ptr::null_mut()
 }
 
 /// dlsym for a name that we export.

@@ -212,7 +212,7 @@ impl Accumulation {
         self.make_textures(gl, names);
         let [width, height, rows] = self.size;
         // A pass would be fed back to the program where it selects or feeds back.
-        if gl.version() >= (4, 3) {
+        if gl.since((4, 3), None) {
             let size = self.size.map(|s| s as i32);
             gl.copy_image(c::TEXTURE_2D_ARRAY, 0, old[0], self.values, size);
         } else {

@@ -77,12 +77,15 @@ fn color_format(w: &Window) -> (u32, u32, u32) {
     let [r, _, _, a, _, _] = w.bits;
     match (r, a) {
         _ if w.float => (c::RGBA16F, c::RGBA, c::FLOAT),
-        (9..=10, _) => (c::RGB10_A2, c::RGBA, c::UNSIGNED_BYTE),
+        (9..=10, _) => (c::RGB10_A2, c::RGBA, c::UNSIGNED_INT_2_10_10_10_REV),
+        (11.., _) if w.es => (c::RGBA16F, c::RGBA, c::FLOAT),
         (11.., _) => (c::RGBA16, c::RGBA, c::UNSIGNED_SHORT),
         (5, 0) => (c::RGB565, c::RGB, c::UNSIGNED_BYTE),
         (5, 1) => (c::RGB5_A1, c::RGBA, c::UNSIGNED_BYTE),
         (4, _) => (c::RGBA4, c::RGBA, c::UNSIGNED_BYTE),
         // A window without alpha reads 1 there, and blending with the destination's alpha sees 1.
+        // Which OpenGL ES cannot draw to.
+        (_, 0) if w.srgb && w.es => (c::SRGB8_ALPHA8, c::RGBA, c::UNSIGNED_BYTE),
         (_, 0) if w.srgb => (c::SRGB8, c::RGB, c::UNSIGNED_BYTE),
         (_, 0) => (c::RGB8, c::RGB, c::UNSIGNED_BYTE),
         _ if w.srgb => (c::SRGB8_ALPHA8, c::RGBA, c::UNSIGNED_BYTE),
@@ -105,6 +108,12 @@ fn depth_format(w: &Window) -> Option<(u32, u32, u32, u32)> {
             c::DEPTH_COMPONENT16,
             c::DEPTH_COMPONENT,
             c::UNSIGNED_SHORT,
+            c::DEPTH_ATTACHMENT,
+        )),
+        (25.., 0) if w.es => Some((
+            c::DEPTH_COMPONENT32F,
+            c::DEPTH_COMPONENT,
+            c::FLOAT,
             c::DEPTH_ATTACHMENT,
         )),
         (25.., 0) => Some((
@@ -184,13 +193,10 @@ impl Atlas {
             if samples > 0 {
                 gl.bind_texture(c::TEXTURE_2D_MULTISAMPLE_ARRAY, name);
                 gl.tex_image_3d_multisample(
-                    c::TEXTURE_2D_MULTISAMPLE_ARRAY,
                     samples as i32,
                     format.0,
-                    width,
-                    height,
-                    layers,
-                    1,
+                    [width, height, layers],
+                    true,
                 );
                 gl.bind_texture(c::TEXTURE_2D_MULTISAMPLE_ARRAY, 0);
             } else {
@@ -222,7 +228,7 @@ impl Atlas {
                     attach(f.3, t);
                 }
                 if flip {
-                    gl.framebuffer_parameteri(c::FRAMEBUFFER, c::FRAMEBUFFER_FLIP_Y_MESA, 1);
+                    gl.flip_framebuffer(c::FRAMEBUFFER);
                 }
                 name
             };
@@ -235,8 +241,8 @@ impl Atlas {
                 .map(|l| framebuffer(Some(l), sampled, resolve_depth))
                 .collect()
         });
-        let layered =
-            (tiles.rows > 1 && gl.version() >= (3, 2)).then(|| framebuffer(None, color, depth));
+        let layered = (tiles.rows > 1 && gl.since((3, 2), Some((3, 2))))
+            .then(|| framebuffer(None, color, depth));
         let atlas = Atlas {
             tiles,
             flipped: flip,
@@ -301,9 +307,25 @@ impl Atlas {
         gl.bind_framebuffer(c::READ_FRAMEBUFFER, from);
         for view in self.tiles.order().filter(|&view| view != own) {
             let (to, x) = self.target(view);
+            if to == from && gl.is_es() {
+                self.copy_beside(gl, (from_x, x), [w, h]);
+                continue;
+            }
             gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, to);
             let all = c::COLOR_BUFFER_BIT | c::DEPTH_BUFFER_BIT | c::STENCIL_BUFFER_BIT;
             gl.blit_framebuffer(from_x, 0, from_x + w, h, x, 0, x + w, h, all, c::NEAREST);
+        }
+    }
+
+    /// A tile of the first layer to another one there: OpenGL ES does not blit from a framebuffer to itself.
+    fn copy_beside(&self, gl: &Gl, (from, to): (i32, i32), size: [i32; 2]) {
+        let target = match self.resolve {
+            Some(_) => c::TEXTURE_2D_MULTISAMPLE_ARRAY,
+            None => c::TEXTURE_2D_ARRAY,
+        };
+        let drawn = 1 + usize::from(self.depth != 0);
+        for &texture in self.textures.iter().take(drawn) {
+            gl.copy_inside((texture, target), (from, to), size);
         }
     }
 

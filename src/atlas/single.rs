@@ -37,7 +37,7 @@ impl Single {
             attach(point, (internal, format, kind));
         }
         if flip {
-            gl.framebuffer_parameteri(c::FRAMEBUFFER, c::FRAMEBUFFER_FLIP_Y_MESA, 1);
+            gl.flip_framebuffer(c::FRAMEBUFFER);
         }
         Single { framebuffer, size }
     }

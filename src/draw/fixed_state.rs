@@ -15,7 +15,7 @@ pub fn limits(gl: &Gl, glsl: u32) -> Limits {
         VertexLayer::ArbShaderViewportLayerArray,
         VertexLayer::AmdVertexShaderLayer,
     ];
-    if glsl < 150 {
+    if glsl < 150 || gl.is_es() {
         return Limits {
             glsl,
             ..Limits::default()
@@ -57,7 +57,10 @@ impl Driver {
             programs: gl.has_extension("GL_ARB_vertex_program"),
             fog_distance: gl.has_extension("GL_NV_fog_distance"),
             // One bit of the key for each.
-            clip_planes: (gl.get_integer(c::MAX_CLIP_DISTANCES).max(0) as u32).min(u8::BITS),
+            clip_planes: match gl.is_es() {
+                true => 0,
+                false => (gl.get_integer(c::MAX_CLIP_DISTANCES).max(0) as u32).min(u8::BITS),
+            },
         }
     }
 }

@@ -90,7 +90,7 @@ pub fn drawn(gl: &Gl, program: u32, texts: &[Text], way: Way) -> Result<Drawn, N
         amplifier,
         target,
         views,
-        es: false,
+        es: gl.is_es(),
     };
     let mut projection = false;
     let mut rewritten = Vec::with_capacity(texts.len());
@@ -99,7 +99,7 @@ pub fn drawn(gl: &Gl, program: u32, texts: &[Text], way: Way) -> Result<Drawn, N
     for text in texts {
         let moves = text.stage == last;
         if !moves && text.stage != Stage::Fragment {
-            let facts = facts(&text.source, false)?;
+            let facts = facts(&text.source, options.es)?;
             if facts.subroutines {
                 return Err(NoTwin::Subroutines);
             }

@@ -72,13 +72,11 @@ plain! {
     read_buffer = glReadBuffer(buffer: u32);
     framebuffer_texture = glFramebufferTexture(target: u32, attachment: u32, texture: u32, level: i32);
     framebuffer_texture_layer = glFramebufferTextureLayer(target: u32, attachment: u32, texture: u32, level: i32, layer: i32);
-    framebuffer_parameteri = glFramebufferParameteri(target: u32, name: u32, value: i32);
     check_framebuffer_status = glCheckFramebufferStatus(target: u32) -> u32;
     blit_framebuffer = glBlitFramebuffer(sx0: i32, sy0: i32, sx1: i32, sy1: i32, dx0: i32, dy0: i32, dx1: i32, dy1: i32, mask: u32, filter: u32);
     bind_texture = glBindTexture(target: u32, name: u32);
     active_texture = glActiveTexture(unit: u32);
     tex_parameteri = glTexParameteri(target: u32, name: u32, value: i32);
-    tex_image_3d_multisample = glTexImage3DMultisample(target: u32, samples: i32, format: u32, w: i32, h: i32, d: i32, fixed: u8);
     bind_sampler = glBindSampler(unit: u32, sampler: u32);
     is_texture = glIsTexture(name: u32) -> u8;
     is_framebuffer = glIsFramebuffer(name: u32) -> u8;
@@ -238,7 +236,20 @@ impl Gl {
         unsafe { self.real.glMaterialfv(face, name, v.as_ptr() as Ptr) }
     }
 
-    /// Major and minor version of the context.
+    /// Whether the context is of OpenGL ES.
+    pub fn is_es(&self) -> bool {
+        self.get_string(super::consts::VERSION)
+            .starts_with("OpenGL ES")
+    }
+
+    /// Whether the context is at least of this version of OpenGL, or of that of OpenGL ES; none where OpenGL ES has it in no version.
+    pub fn since(&self, desktop: (u32, u32), es: Option<(u32, u32)>) -> bool {
+        let least = if self.is_es() { es } else { Some(desktop) };
+        least.is_some_and(|least| self.version() >= least)
+    }
+
+    /// Major and minor version of the context, of OpenGL or of OpenGL ES: for what both have since the same version, else
+    /// [`Gl::since`].
     pub fn version(&self) -> (u32, u32) {
         let s = self.get_string(super::consts::VERSION);
         let s = s.trim_start_matches("OpenGL ES ");
@@ -252,59 +263,22 @@ impl Gl {
         unsafe { self.real.glLoadMatrixf(m.as_ptr() as Ptr) }
     }
 
-    /// glReadPixels of RGB bytes, rows bottom up; pack state must be the default with alignment 1.
-    pub fn read_rgb(&self, x: i32, y: i32, w: u32, h: u32) -> Vec<u8> {
-        let mut out = vec![0u8; w as usize * h as usize * 3];
-        let c = (super::consts::RGB, super::consts::UNSIGNED_BYTE);
-        // SAFETY: w·h·3 bytes; alignment 1, no pack buffer (contract above).
-        unsafe {
-            self.real
-                .glReadPixels(x, y, w as i32, h as i32, c.0, c.1, out.as_mut_ptr().cast())
-        };
-        out
+    /// Whether GL_FRAMEBUFFER_SRGB is a switch. Where OpenGL ES has none, what is drawn to sRGB is always converted.
+    pub fn switches_srgb(&self) -> bool {
+        !self.is_es() || self.has_extension("GL_EXT_sRGB_write_control")
     }
 
-    /// glReadPixels of depth as 16 bits, rows bottom up; pack state as for [`Gl::read_rgb`].
-    pub fn read_depth16(&self, x: i32, y: i32, w: u32, h: u32) -> Vec<u16> {
-        let mut out = vec![0u16; w as usize * h as usize];
-        let c = (
-            super::consts::DEPTH_COMPONENT,
-            super::consts::UNSIGNED_SHORT,
-        );
-        // SAFETY: w·h·2 bytes; alignment 1, no pack buffer.
-        unsafe {
-            self.real
-                .glReadPixels(x, y, w as i32, h as i32, c.0, c.1, out.as_mut_ptr().cast())
-        };
-        out
+    /// glIsEnabled of GL_FRAMEBUFFER_SRGB.
+    pub fn is_srgb_enabled(&self) -> bool {
+        !self.switches_srgb() || self.is_enabled(super::consts::FRAMEBUFFER_SRGB)
     }
 
-    /// glReadPixels of depth, 0 to `u32::MAX`, rows bottom up; no pack buffer may be bound.
-    pub fn read_depth32(&self, x: i32, y: i32, w: u32, h: u32) -> Vec<u32> {
-        let mut out = vec![0u32; w as usize * h as usize];
-        let c = (super::consts::DEPTH_COMPONENT, super::consts::UNSIGNED_INT);
-        // SAFETY: w·h·4 bytes; alignment 1, no pack buffer.
-        unsafe {
-            self.real
-                .glReadPixels(x, y, w as i32, h as i32, c.0, c.1, out.as_mut_ptr().cast())
-        };
-        out
-    }
-
-    /// glDrawPixels of RGB bytes, rows bottom up; unpack state must be the default with alignment 1.
-    pub fn draw_pixels_rgb(&self, w: i32, h: i32, data: &[u8]) {
-        if data.len() < w as usize * h as usize * 3 {
-            return;
-        }
-        // SAFETY: w·h·3 bytes (checked).
-        unsafe {
-            self.real.glDrawPixels(
-                w,
-                h,
-                super::consts::RGB,
-                super::consts::UNSIGNED_BYTE,
-                data.as_ptr() as Ptr,
-            )
+    /// glEnable or glDisable of GL_FRAMEBUFFER_SRGB, where that is a switch.
+    pub fn enable_srgb(&self, on: bool) {
+        match on {
+            _ if !self.switches_srgb() => {}
+            true => self.enable(super::consts::FRAMEBUFFER_SRGB),
+            false => self.disable(super::consts::FRAMEBUFFER_SRGB),
         }
     }
 
@@ -495,6 +469,19 @@ impl Gl {
         unsafe {
             self.real
                 .glUniform4fv(location, v.len() as i32, v.as_ptr() as Ptr)
+        }
+    }
+
+    /// The framebuffer that is bound is drawn to upside down (GL_MESA_framebuffer_flip_y).
+    pub fn flip_framebuffer(&self, target: u32) {
+        let name = super::consts::FRAMEBUFFER_FLIP_Y_MESA;
+        // SAFETY: a context is current.
+        unsafe {
+            if self.is_es() {
+                self.real.glFramebufferParameteriMESA(target, name, 1);
+            } else {
+                self.real.glFramebufferParameteri(target, name, 1);
+            }
         }
     }
 

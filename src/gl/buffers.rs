@@ -12,7 +12,7 @@ pub struct Fence(usize);
 impl Gl {
     /// glFenceSync; none where the context has no sync objects.
     pub fn fence(&self) -> Option<Fence> {
-        if self.version() < (3, 2) {
+        if !self.since((3, 2), Some((3, 0))) {
             return None;
         }
         // SAFETY: a context is current; the condition and the flags are the only ones there are.
@@ -63,7 +63,7 @@ impl Gl {
     /// glReadPixels of depth as floats into the bound pack buffer, from a byte on; pack state must be as
     /// [`crate::present::Saved::take`] leaves it. The driver refuses what does not fit.
     pub fn read_depth_to_buffer(&self, w: i32, h: i32, at: usize) {
-        if self.get_integer(c::PIXEL_PACK_BUFFER_BINDING) == 0 {
+        if self.get_integer(c::PIXEL_PACK_BUFFER_BINDING) == 0 || !self.reads_depths() {
             return;
         }
         // SAFETY: a pack buffer is bound (asked above), so the pointer is an offset into it, which the driver checks.
@@ -73,9 +73,25 @@ impl Gl {
         };
     }
 
-    /// glGetBufferSubData of floats.
+    /// glGetBufferSubData of floats, or what OpenGL ES has instead of it.
     pub fn get_buffer_floats(&self, target: u32, at: usize, out: &mut [f32]) {
         let bytes = core::mem::size_of_val(out) as isize;
+        if self.is_es() {
+            // SAFETY: no pointers; what is mapped, or beyond the end of the buffer, gives null and an error.
+            let from = unsafe {
+                self.real
+                    .glMapBufferRange(target, at as isize, bytes, c::MAP_READ_BIT)
+            };
+            if !from.is_null() {
+                // SAFETY: so many bytes are mapped, and they are not ours.
+                unsafe {
+                    let to: *mut u8 = out.as_mut_ptr().cast();
+                    core::ptr::copy_nonoverlapping(from.cast::<u8>(), to, bytes as usize);
+                    self.real.glUnmapBuffer(target);
+                }
+            }
+            return;
+        }
         // SAFETY: room for that many bytes.
         unsafe {
             self.real

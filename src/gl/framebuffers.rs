@@ -78,7 +78,8 @@ impl Gl {
             level: ask(c::FRAMEBUFFER_ATTACHMENT_TEXTURE_LEVEL),
             face: ask(c::FRAMEBUFFER_ATTACHMENT_TEXTURE_CUBE_MAP_FACE) as u32,
             layer: ask(c::FRAMEBUFFER_ATTACHMENT_TEXTURE_LAYER),
-            layered: self.version() >= (3, 2) && ask(c::FRAMEBUFFER_ATTACHMENT_LAYERED) != 0,
+            layered: self.since((3, 2), Some((3, 2)))
+                && ask(c::FRAMEBUFFER_ATTACHMENT_LAYERED) != 0,
             ..plain(Object::Texture(name))
         })
     }

@@ -9,6 +9,7 @@ pub mod consts;
 mod framebuffers;
 mod held;
 pub mod immediate;
+mod pixels;
 mod programs;
 #[allow(missing_docs, non_upper_case_globals, clippy::missing_safety_doc, reason = "generated; the names are the API's own")]
 #[rustfmt::skip]

@@ -193,7 +193,9 @@ impl Gl {
 
     /// The names of what a program's fragment shader writes; empty where the context cannot tell.
     pub fn program_outputs(&self, program: u32) -> Vec<CString> {
-        if self.version() < (4, 3) && !self.has_extension("GL_ARB_program_interface_query") {
+        let asks = self.since((4, 3), None) || self.has_extension("GL_ARB_program_interface_query");
+        // The texts of OpenGL ES say where, if there is more than one.
+        if self.is_es() || !asks {
             return Vec::new();
         }
         let ask = |name| {
@@ -380,19 +382,11 @@ impl Gl {
         if buffer <= 0 {
             return None;
         }
+        let at = usize::try_from(start).ok()? + offset as usize;
         let before = self.get_integer(c::COPY_READ_BUFFER) as u32;
         self.bind_buffer(c::COPY_READ_BUFFER, buffer as u32);
         let mut v = [0f32; 16];
-        let at = i64::from(start) + i64::from(offset);
-        // SAFETY: 64 bytes; the driver refuses what is beyond the end of the buffer.
-        unsafe {
-            self.real.glGetBufferSubData(
-                c::COPY_READ_BUFFER,
-                at as _,
-                size_of_val(&v) as _,
-                v.as_mut_ptr().cast(),
-            )
-        };
+        self.get_buffer_floats(c::COPY_READ_BUFFER, at, &mut v);
         self.bind_buffer(c::COPY_READ_BUFFER, before);
         Some(v)
     }

@@ -13,6 +13,8 @@ pub struct Level {
     depth: bool,
     stencil: bool,
     integer: bool,
+    /// Bits of red or of depth, where the internal format may leave them open.
+    bits: i32,
     samples: i32,
     fixed: bool,
 }
@@ -26,6 +28,7 @@ impl Level {
             depth: false,
             stencil: false,
             integer: false,
+            bits: 0,
             samples,
             fixed: true,
         }
@@ -69,6 +72,35 @@ impl Level {
             c::DEPTH_STENCIL => c::DEPTH24_STENCIL8,
             ..=2 | c::ALPHA | c::LUMINANCE | c::LUMINANCE_ALPHA | c::INTENSITY => return None,
             sized => sized,
+        })
+    }
+
+    /// The type that stands for the bits of an internal format without sizes, in OpenGL ES; none for one with sizes.
+    fn unsized_type(&self) -> Option<u32> {
+        Some(match (self.internal, self.bits) {
+            (c::RGB, 5) => c::UNSIGNED_SHORT_5_6_5,
+            (c::RGBA, 5) => c::UNSIGNED_SHORT_5_5_5_1,
+            (c::RGBA, 4) => c::UNSIGNED_SHORT_4_4_4_4,
+            (c::RGB | c::RGBA, 10) => c::UNSIGNED_INT_2_10_10_10_REV,
+            (c::RGB | c::RGBA, 16) => c::HALF_FLOAT_OES,
+            (c::RGB | c::RGBA, 32) => c::FLOAT,
+            (c::DEPTH_COMPONENT, 16) => c::UNSIGNED_SHORT,
+            (c::DEPTH_COMPONENT, _) => c::UNSIGNED_INT,
+            (c::DEPTH_STENCIL, _) => c::UNSIGNED_INT_24_8,
+            (
+                c::RGB
+                | c::RGBA
+                | c::RED
+                | c::RG
+                | c::ALPHA
+                | c::LUMINANCE
+                | c::LUMINANCE_ALPHA
+                | c::BGRA
+                | c::SRGB
+                | c::SRGB_ALPHA,
+                _,
+            ) => c::UNSIGNED_BYTE,
+            _ => return None,
         })
     }
 
@@ -125,6 +157,10 @@ impl Gl {
 
     /// What a level of the texture bound at a target is, if there is one; of a cube map its first face.
     pub fn tex_level(&self, target: u32, level: i32) -> Option<Level> {
+        // OpenGL ES 3.0 does not say.
+        if !self.since((1, 0), Some((3, 1))) {
+            return None;
+        }
         let plane = match target {
             c::TEXTURE_CUBE_MAP => c::TEXTURE_CUBE_MAP_POSITIVE_X,
             other => other,
@@ -134,11 +170,17 @@ impl Gl {
         if size[0] <= 0 {
             return None;
         }
-        let sampled = self.version() >= (3, 2) && is_multisampled(target);
+        let sampled = self.since((3, 2), Some((3, 1))) && is_multisampled(target);
+        let internal = ask(c::TEXTURE_INTERNAL_FORMAT) as u32;
+        let depth = ask(c::TEXTURE_DEPTH_SIZE);
         Some(Level {
             size,
-            internal: ask(c::TEXTURE_INTERNAL_FORMAT) as u32,
-            depth: ask(c::TEXTURE_DEPTH_SIZE) > 0,
+            internal,
+            bits: match depth {
+                0 if self.is_es() => ask(c::TEXTURE_RED_SIZE),
+                bits => bits,
+            },
+            depth: depth > 0,
             stencil: self.version() >= (3, 0) && ask(c::TEXTURE_STENCIL_SIZE) > 0,
             integer: self.version() >= (3, 0)
                 && [c::INT, c::UNSIGNED_INT].contains(&(ask(c::TEXTURE_RED_TYPE) as u32)),
@@ -149,7 +191,10 @@ impl Gl {
 
     /// glTexImage* of a level of the texture bound at a target, without data. No unpack buffer may be bound.
     pub fn tex_level_empty(&self, target: u32, level: i32, like: &Level) {
-        let (format, kind) = like.transfer();
+        let (format, kind) = match like.unsized_type() {
+            Some(kind) if self.is_es() => (like.internal, kind),
+            _ => like.transfer(),
+        };
         let (internal, [w, h, d]) = (like.internal as i32, like.size);
         let real = self.real;
         let plane = |plane: u32| {
@@ -189,11 +234,49 @@ impl Gl {
                 }
             }
             c::TEXTURE_2D_MULTISAMPLE_ARRAY => {
-                let fixed = u8::from(like.fixed);
-                self.tex_image_3d_multisample(target, like.samples, like.internal, w, h, d, fixed);
+                self.tex_image_3d_multisample(like.samples, like.internal, like.size, like.fixed);
             }
             _ => plane(target),
         }
+    }
+
+    /// A store for these levels of the texture bound at a target, from 0 on and without data. No unpack buffer may be bound.
+    pub fn tex_levels_empty(&self, target: u32, levels: &[Level]) {
+        let Some(first) = levels.first() else {
+            return;
+        };
+        // glTexImage* of OpenGL ES wants the very format and type that go with the internal format.
+        let kind = first.unsized_type();
+        if !self.is_es() || kind.is_some() {
+            for (at, level) in (0..).zip(levels) {
+                self.tex_level_empty(target, at, level);
+            }
+            return;
+        }
+        let internal = first.internal;
+        let ([w, h, d], fixed) = (first.size, u8::from(first.fixed));
+        // With levels that are still to be made: no more can be added.
+        let longest = match target {
+            c::TEXTURE_3D => w.max(h).max(d),
+            _ => w.max(h),
+        };
+        let count = longest.max(1).ilog2() as i32 + 1;
+        let real = self.real;
+        // SAFETY: no pointers.
+        unsafe {
+            match target {
+                c::TEXTURE_2D_MULTISAMPLE => {
+                    real.glTexStorage2DMultisample(target, first.samples, internal, w, h, fixed)
+                }
+                c::TEXTURE_2D_MULTISAMPLE_ARRAY => {
+                    real.glTexStorage3DMultisample(target, first.samples, internal, w, h, d, fixed)
+                }
+                c::TEXTURE_3D | c::TEXTURE_2D_ARRAY | c::TEXTURE_CUBE_MAP_ARRAY => {
+                    real.glTexStorage3D(target, count, internal, w, h, d)
+                }
+                _ => real.glTexStorage2D(target, count, internal, w, h),
+            }
+        };
     }
 
     /// glTexImage2D of level 0 of RGBA8 without data. No unpack buffer may be bound.
@@ -204,6 +287,7 @@ impl Gl {
             depth: false,
             stencil: false,
             integer: false,
+            bits: 0,
             samples: 0,
             fixed: false,
         };
@@ -301,6 +385,21 @@ impl Gl {
         };
     }
 
+    /// glCopyImageSubData of a rectangle of the first layer, over its whole height, to another column of the same.
+    pub fn copy_inside(
+        &self,
+        (name, target): (u32, u32),
+        (from, to): (i32, i32),
+        [w, h]: [i32; 2],
+    ) {
+        // SAFETY: no pointers.
+        unsafe {
+            self.real.glCopyImageSubData(
+                name, target, 0, from, 0, 0, name, target, 0, to, 0, 0, w, h, 1,
+            )
+        };
+    }
+
     /// glGetTexParameterfv; of what has one value the first.
     pub fn tex_parameter_floats(&self, target: u32, name: u32) -> [f32; 4] {
         let mut v = [0f32; 4];
@@ -366,6 +465,26 @@ impl Gl {
                 kind,
                 core::ptr::null_mut(),
             )
+        }
+    }
+
+    /// glTexImage3DMultisample, or what OpenGL ES has instead of it.
+    pub fn tex_image_3d_multisample(
+        &self,
+        samples: i32,
+        format: u32,
+        [w, h, d]: [i32; 3],
+        fixed: bool,
+    ) {
+        let (target, fixed) = (c::TEXTURE_2D_MULTISAMPLE_ARRAY, u8::from(fixed));
+        let real = self.real;
+        // SAFETY: no pointers.
+        unsafe {
+            if self.is_es() {
+                real.glTexStorage3DMultisample(target, samples, format, w, h, d, fixed);
+            } else {
+                real.glTexImage3DMultisample(target, samples, format, w, h, d, fixed);
+            }
         }
     }
 

@@ -174,6 +174,7 @@ impl Plain {
 /// A window of RGBA with 8 bits each and nothing else.
 fn window((width, height): (u32, u32)) -> Window {
     Window {
+        es: false,
         width,
         height,
         double_buffered: true,

@@ -65,9 +65,10 @@ struct Uploaded {
     black: u32,
 }
 
-/// GL_SHADING_LANGUAGE_VERSION × 100; 0 where there is none.
+/// GL_SHADING_LANGUAGE_VERSION × 100, also of OpenGL ES; 0 where there is none.
 pub fn glsl_version(gl: &Gl) -> u32 {
     let s = gl.get_string(c::SHADING_LANGUAGE_VERSION);
+    let s = s.trim_start_matches("OpenGL ES GLSL ES ");
     let mut parts = s.split(['.', ' ']).map(|p| p.parse::<u32>().unwrap_or(0));
     parts.next().unwrap_or(0) * 100 + parts.next().unwrap_or(0)
 }
@@ -231,11 +232,11 @@ impl Interleaver {
         gl.bind_vertex_array(self.vertex_array);
         // A view is decoded to linear light when it is fetched; written to an sRGB window it is encoded again.
         if source.srgb {
-            gl.enable(c::FRAMEBUFFER_SRGB);
+            gl.enable_srgb(true);
         }
         gl.draw_arrays(c::TRIANGLES, 0, 3);
         if source.srgb {
-            gl.disable(c::FRAMEBUFFER_SRGB);
+            gl.enable_srgb(false);
         }
         Ok(())
     }

@@ -15,7 +15,11 @@ pub struct Program {
 impl Program {
     /// For a context whose shading language has this version × 100. The error is naga's or the driver's.
     pub fn new(gl: &Gl, glsl: u32, pass: Pass) -> Result<Program, String> {
-        let version = GlslVersion::Desktop(glsl.min(u32::from(u16::MAX)) as u16);
+        let number = glsl.min(u32::from(u16::MAX)) as u16;
+        let version = match gl.is_es() {
+            true => GlslVersion::Embedded(number),
+            false => GlslVersion::Desktop(number),
+        };
         let vertex = shader::translate(pass, Stage::Vertex, version).map_err(|e| e.to_string())?;
         let fragment =
             shader::translate(pass, Stage::Fragment, version).map_err(|e| e.to_string())?;

@@ -127,6 +127,7 @@ impl Layer {
         self.alike.same == EVERYTHING
             && self.config.views > 1
             && !self.config.without.has(Saving::Alike)
+            && self.support.shares
             && self.atlas.tiles.grid.is_full()
             && !self.atlas.has_front()
             && self.accumulated.buffer.is_none()

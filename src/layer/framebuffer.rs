@@ -170,6 +170,10 @@ impl Layer {
         let twice = |(i, b): (usize, &u32)| {
             image(b).is_some() && buffers[..i].iter().any(|other| image(other) == image(b))
         };
+        // OpenGL ES takes one name for framebuffer 0.
+        if f.names_one() && buffers.len() != 1 {
+            return None;
+        }
         if buffers.iter().any(refused) || buffers.iter().enumerate().any(twice) {
             return None;
         }
@@ -188,11 +192,11 @@ impl Layer {
         call: &mut dyn FnMut(),
     ) {
         let mut taken = false;
-        let default = self.state.window.default_buffer;
+        let (default, es) = (self.state.window.default_buffer, self.state.window.es);
         self.with_true_zero(gl, target, &mut || {
             call();
             let is = |(i, b): (u32, &u32)| gl.get_integer(c::DRAW_BUFFER0 + i) as u32 == *b;
-            taken = !buffers.is_empty() && (0..).zip(buffers).all(is);
+            taken = !es && !buffers.is_empty() && (0..).zip(buffers).all(is);
             if taken && buffers != [default] {
                 gl.draw_buffer(default);
             }
@@ -304,6 +308,7 @@ impl Layer {
     pub fn answer(&self, name: u32) -> Option<i64> {
         let f = &self.state.framebuffers;
         let zero = f.draw == 0;
+        let es = self.state.window.es;
         let buffer = |i: usize| i64::from(f.draw_buffers.get(i).copied().unwrap_or(c::NONE));
         match (name, &self.state.list) {
             (c::LIST_INDEX, Some(list)) => return Some(list.list.into()),
@@ -315,17 +320,17 @@ impl Layer {
         match name {
             c::DRAW_FRAMEBUFFER_BINDING => Some(f.draw.into()),
             c::READ_FRAMEBUFFER_BINDING => Some(f.read.into()),
-            c::DRAW_BUFFER if zero => Some(buffer(0)),
+            c::DRAW_BUFFER if zero && !es => Some(buffer(0)),
             c::DRAW_BUFFER0..=c::DRAW_BUFFER15 if zero => {
                 Some(buffer((name - c::DRAW_BUFFER0) as usize))
             }
             c::READ_BUFFER if f.read == 0 => Some(f.read_buffer.into()),
-            c::ACCUM_RED_BITS..=c::ACCUM_ALPHA_BITS if zero => {
+            c::ACCUM_RED_BITS..=c::ACCUM_ALPHA_BITS if zero && !es => {
                 let at = (name - c::ACCUM_RED_BITS) as usize;
                 let bits = self.state.window.accumulation.get(at);
                 bits.map(|&bits| bits.into())
             }
-            c::DOUBLEBUFFER if zero => Some(self.state.window.double_buffered.into()),
+            c::DOUBLEBUFFER if zero && !es => Some(self.state.window.double_buffered.into()),
             _ => None,
         }
     }

@@ -34,7 +34,7 @@ pub use lists::is_scaled;
 pub use queries::Answer;
 
 use crate::atlas::{Atlas, AtlasError, Grid, Names, Tiles};
-use crate::config::{AtlasLayout, Config, Live, Projection, Saving, Strategy, profile};
+use crate::config::{AtlasLayout, Config, Live, Projection, Saving, Strategy, ViewScale, profile};
 use crate::display::{Display, Placement};
 use crate::draw::{Driver, FixedState, Programs};
 use crate::gl::{Count, Ends, Gl, Recording, consts as c};
@@ -55,9 +55,14 @@ pub enum LayerError {
         "OpenGL {0}.{1} has no framebuffer objects or array textures; OpenGL 3.0 is the least manyview can draw several views with"
     )]
     Version(u32, u32),
-    /// OpenGL ES is a later matter.
-    #[error("OpenGL ES contexts are not shown in several views yet")]
-    Es,
+    /// OpenGL ES without array textures, and without shaders for the output.
+    #[error(
+        "OpenGL ES {0}.{1} has no array textures; OpenGL ES 3.0 is the least manyview can draw several views with"
+    )]
+    Es(u32, u32),
+    /// OpenGL ES has nothing else to draw pictures with.
+    #[error("the passes that make the picture cannot be used: {0}")]
+    Passes(String),
     /// The atlas.
     #[error(transparent)]
     Atlas(#[from] AtlasError),
@@ -164,15 +169,34 @@ impl Layer {
         group: Arc<Group>,
     ) -> Result<Layer, LayerError> {
         let support = Support::ask(gl)?;
+        let layer = Self::made(gl, config, (width, height), group, support);
+        if layer.is_err() {
+            // What was tried is no business of the program's.
+            (0..16)
+                .take_while(|_| gl.get_error() != c::NO_ERROR)
+                .count();
+        }
+        layer
+    }
+
+    fn made(
+        gl: &Gl,
+        config: &'static Config,
+        (width, height): (u32, u32),
+        group: Arc<Group>,
+        support: Support,
+    ) -> Result<Layer, LayerError> {
         let mut state = State::new(
             Window::ask(gl, width, height, support.compatibility),
             support.compatibility,
         );
-        state.clip_control = gl.version() >= (4, 5) || gl.has_extension("GL_ARB_clip_control");
+        let clip_control = ["GL_ARB_clip_control", "GL_EXT_clip_control"];
+        state.clip_control =
+            gl.since((4, 5), None) || clip_control.iter().any(|e| gl.has_extension(e));
         state.offset_clamp =
-            gl.version() >= (4, 6) || gl.has_extension("GL_ARB_polygon_offset_clamp");
+            gl.since((4, 6), None) || gl.has_extension("GL_ARB_polygon_offset_clamp");
         state.pipelines =
-            gl.version() >= (4, 1) || gl.has_extension("GL_ARB_separate_shader_objects");
+            gl.since((4, 1), Some((3, 1))) || gl.has_extension("GL_ARB_separate_shader_objects");
         state.keep_errors(gl);
         let mut names = Names::default();
         let mut report = Report::default();
@@ -202,8 +226,10 @@ impl Layer {
             together: false,
         };
         let interleaver = Interleaver::new(gl, &mut names, support.glsl);
-        if let Some(note) = interleaver.note() {
-            report.note(note);
+        match interleaver.note() {
+            Some(note) if support.es => return Err(LayerError::Passes(note)),
+            Some(note) => report.note(note),
+            None => {}
         }
         left::sweep(gl, &group);
         let live = Live::new(config);
@@ -212,6 +238,9 @@ impl Layer {
         } else {
             sampling::Detail::Full
         };
+        if support.es && config.view_scale != ViewScale::Fixed(1.0) {
+            report.note("views are drawn at the size of the window, because the program has shaders of its own".into());
+        }
         let placement = Placement::full_screen(state.window.width, state.window.height);
         let shader = interleaver.note().is_none();
         let grid = sampling::grid(
@@ -370,7 +399,8 @@ impl Layer {
 
     /// The program uses a texture name that it never asked for and that is ours: our textures move to other names.
     pub fn yield_names(&mut self, gl: &Gl) {
-        if self.names.hidden() || !self.state.compatibility {
+        // Core profiles have no names but those that were asked for.
+        if self.names.hidden() || !(self.state.compatibility || self.support.es) {
             return;
         }
         self.outside_list(gl, |layer| layer.move_names(gl));
@@ -527,14 +557,15 @@ fn make_atlas(
 
 /// Runs something that copies bits as they are: no scissor, no conversion.
 fn as_they_are<R>(gl: &Gl, copy: impl FnOnce() -> R) -> R {
-    let switches = [c::SCISSOR_TEST, c::FRAMEBUFFER_SRGB];
-    let on = switches.map(|s| gl.is_enabled(s));
-    switches.into_iter().for_each(|s| gl.disable(s));
+    let (cut, srgb) = (gl.is_enabled(c::SCISSOR_TEST), gl.is_srgb_enabled());
+    gl.disable(c::SCISSOR_TEST);
+    gl.enable_srgb(false);
     let copied = copy();
-    for (switch, on) in switches.into_iter().zip(on) {
-        if on {
-            gl.enable(switch);
-        }
+    if cut {
+        gl.enable(c::SCISSOR_TEST);
+    }
+    if srgb {
+        gl.enable_srgb(true);
     }
     copied
 }

@@ -12,6 +12,8 @@ use serde::{Deserialize, Serialize};
 pub struct Support {
     /// Major and minor version.
     pub version: (u32, u32),
+    /// Whether the context is of OpenGL ES.
+    pub es: bool,
     /// Whether the context has the fixed-function pipeline.
     pub compatibility: bool,
     /// Whether framebuffer objects can be drawn to upside down, as windows are (GL_MESA_framebuffer_flip_y).
@@ -24,6 +26,8 @@ pub struct Support {
     pub vertex_layer: Option<VertexLayer>,
     /// Whether viewports can begin and end between pixels (GL_ARB_viewport_array).
     pub viewports: bool,
+    /// Whether a view can be copied to the others, wherever they lie.
+    pub shares: bool,
     /// How large an atlas may be.
     pub limits: Limits,
 }
@@ -31,9 +35,9 @@ pub struct Support {
 impl Support {
     /// Asks the current context. The error says why it cannot be shown in several views.
     pub fn ask(gl: &Gl) -> Result<Self, LayerError> {
-        let version = gl.version();
-        if gl.get_string(c::VERSION).starts_with("OpenGL ES") {
-            return Err(LayerError::Es);
+        let (version, es) = (gl.version(), gl.is_es());
+        if es && version < (3, 0) {
+            return Err(LayerError::Es(version.0, version.1));
         }
         let modern = version >= (3, 0)
             || (gl.has_extension("GL_ARB_framebuffer_object")
@@ -41,11 +45,12 @@ impl Support {
         if !modern {
             return Err(LayerError::Version(version.0, version.1));
         }
-        let compatibility = version < (3, 1)
-            || gl.has_extension("GL_ARB_compatibility")
-            || (version >= (3, 2) && gl.get_integer(c::CONTEXT_PROFILE_MASK) & 2 != 0);
+        let compatibility = !es
+            && (version < (3, 1)
+                || gl.has_extension("GL_ARB_compatibility")
+                || (version >= (3, 2) && gl.get_integer(c::CONTEXT_PROFILE_MASK) & 2 != 0));
         // An older context may know newer shading languages, but not all that goes with them.
-        let glsl = if version >= (3, 1) {
+        let glsl = if es || version >= (3, 1) {
             crate::interleave::glsl_version(gl)
         } else {
             120
@@ -59,12 +64,14 @@ impl Support {
         let side = gl.get_integer(c::MAX_TEXTURE_SIZE).min(width).min(height);
         Ok(Self {
             version,
+            es,
             compatibility,
             flip: gl.has_extension("GL_MESA_framebuffer_flip_y"),
             glsl,
             clip_distances,
             vertex_layer: crate::draw::limits(gl, glsl).vertex_layer,
-            viewports: version >= (4, 1) || gl.has_extension("GL_ARB_viewport_array"),
+            viewports: gl.since((4, 1), None) || gl.has_extension("GL_ARB_viewport_array"),
+            shares: !es || version >= (3, 2),
             limits: Limits {
                 side: side.max(1).unsigned_abs(),
                 layers: gl
@@ -115,6 +122,7 @@ impl Support {
         }
         if !self.instanced() && (self.compatibility || !self.layers()) {
             let reason = match (self.compatibility, self.glsl) {
+                _ if self.es => "OpenGL ES has no shaders that choose among layers",
                 (false, _) => "a core profile has no fixed function to generate shaders for",
                 (_, 150..) => "the driver has fewer than two clip distances",
                 _ => "instanced and geometry need GLSL 1.50",
@@ -152,12 +160,14 @@ mod tests {
     fn support(glsl: u32, compatibility: bool, clip_distances: u32) -> Support {
         Support {
             version: (3, 2),
+            es: false,
             compatibility,
             flip: true,
             glsl,
             clip_distances,
             vertex_layer: (clip_distances >= 2).then_some(VertexLayer::ArbShaderViewportLayerArray),
             viewports: true,
+            shares: true,
             limits: Limits {
                 side: 4096,
                 layers: 256,
@@ -178,6 +188,12 @@ mod tests {
             assert_eq!(less.strategies(), ["replay"]);
             assert!(less.notes()[0].contains(word), "{:?}", less.notes());
         }
+        let es = Support {
+            es: true,
+            ..support(320, false, 0)
+        };
+        assert_eq!(es.strategies(), ["replay"]);
+        assert!(es.notes()[0].contains("OpenGL ES"), "{:?}", es.notes());
         // Programs have shaders of their own in a core profile, whose twins choose layers.
         let core = Support {
             vertex_layer: Some(VertexLayer::ArbShaderViewportLayerArray),

@@ -3,7 +3,7 @@
 use crate::gl::{Attachment, Gl, Level, Object, consts as c};
 
 /// Copies a level of an object to that of another. Textures are of the same target; GL_RENDERBUFFER is that of renderbuffers. Before OpenGL
-/// 4.3 by way of framebuffers, whose bindings are changed.
+/// 4.3 or OpenGL ES 3.2 by way of framebuffers, whose bindings are changed.
 pub(super) fn fill(gl: &Gl, target: u32, (from, to): (Object, Object), at: i32, level: &Level) {
     let [w, h, depth] = level.size;
     let layers = if target == c::TEXTURE_CUBE_MAP {
@@ -12,7 +12,7 @@ pub(super) fn fill(gl: &Gl, target: u32, (from, to): (Object, Object), at: i32, 
         depth
     }
     .max(1);
-    if gl.version() >= (4, 3) {
+    if gl.since((4, 3), Some((3, 2))) {
         let (Object::Texture(from) | Object::Renderbuffer(from)) = from;
         let (Object::Texture(to) | Object::Renderbuffer(to)) = to;
         return gl.copy_image(target, at, from, to, [w, h, layers]);

@@ -39,6 +39,8 @@ pub(super) struct Means {
     parameters: Vec<u32>,
     /// Layers of an array can be textures of their own.
     pub(super) arrays: bool,
+    /// Textures have border colours.
+    borders: bool,
 }
 
 /// Texture targets with the names of their bindings.
@@ -91,9 +93,14 @@ pub(super) fn binding(target: u32) -> Option<u32> {
     known.map(|t| t.1)
 }
 
+/// Targets that OpenGL ES does not have.
+const DESKTOP: [u32; 2] = [c::TEXTURE_RECTANGLE, c::TEXTURE_1D];
+
 /// Runs with a texture bound at its target, which is tried out; none where it has none that is known. The caller keeps errors.
 pub(super) fn with_texture<R>(gl: &Gl, name: u32, work: impl FnOnce(u32) -> R) -> Option<R> {
-    for (target, binding) in TARGETS {
+    let es = gl.is_es();
+    let targets = TARGETS.into_iter();
+    for (target, binding) in targets.filter(|(target, _)| !(es && DESKTOP.contains(target))) {
         let before = gl.get_integer(binding) as u32;
         if before != name {
             gl.bind_texture(target, name);
@@ -191,33 +198,37 @@ impl Image {
 impl Means {
     /// Of the current context, with or without fixed function.
     pub(super) fn of(gl: &Gl, compatibility: bool) -> Means {
-        let version = gl.version();
         let mut parameters = PARAMETERS.to_vec();
-        if version >= (3, 3) {
+        if gl.since((3, 3), Some((3, 0))) {
             parameters.extend(SWIZZLES);
         }
         if compatibility {
             parameters.extend(OLD);
         }
-        if version >= (1, 4) {
+        if gl.since((1, 4), None) {
             parameters.push(c::TEXTURE_LOD_BIAS);
         }
-        if version >= (4, 3) {
+        if gl.since((4, 3), Some((3, 1))) {
             parameters.push(c::DEPTH_STENCIL_TEXTURE_MODE);
         }
-        if gl.has_extension("GL_EXT_texture_filter_anisotropic") || version >= (4, 6) {
+        if gl.has_extension("GL_EXT_texture_filter_anisotropic") || gl.since((4, 6), None) {
             parameters.push(c::TEXTURE_MAX_ANISOTROPY);
         }
         Means {
             parameters,
-            arrays: version >= (4, 3),
+            // In OpenGL ES no shader chooses a layer, so nothing is gained.
+            arrays: gl.since((4, 3), None),
+            borders: gl.since((1, 0), Some((3, 2))),
         }
     }
 
     fn look(&self, gl: &Gl, target: u32) -> (Vec<f32>, [f32; 4]) {
         let all = self.parameters.iter();
         let values = all.map(|&p| gl.tex_parameter_floats(target, p)[0]);
-        let border = gl.tex_parameter_floats(target, c::TEXTURE_BORDER_COLOR);
+        let border = match self.borders {
+            true => gl.tex_parameter_floats(target, c::TEXTURE_BORDER_COLOR),
+            false => [0.0; 4],
+        };
         (values.collect(), border)
     }
 
@@ -225,7 +236,9 @@ impl Means {
         for (&name, &value) in self.parameters.iter().zip(values) {
             gl.tex_parameterf(target, name, value);
         }
-        gl.set_border_color(target, border);
+        if self.borders {
+            gl.set_border_color(target, border);
+        }
     }
 
     /// Textures like the program's, which is bound, with what is in it.
@@ -246,8 +259,8 @@ impl Means {
             let name = names.texture(gl);
             gl.bind_texture(target, name);
             complete(gl, target, || {
+                gl.tex_levels_empty(target, &levels);
                 for (at, level) in (0..).zip(&levels) {
-                    gl.tex_level_empty(target, at, level);
                     let objects = (Object::Texture(texture), Object::Texture(name));
                     fill(gl, target, objects, at, level);
                 }

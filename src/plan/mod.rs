@@ -222,6 +222,7 @@ mod tests {
     #[test]
     fn a_picture_in_the_picture_stands_where_the_display_does() {
         let window = Window {
+            es: false,
             width: 640,
             height: 480,
             double_buffered: true,

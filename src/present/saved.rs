@@ -5,46 +5,53 @@ use crate::gl::{Gl, consts as c};
 /// Capabilities that would spoil a copy of colours; off while we draw.
 const CAPABILITIES: &[(u32, Needs)] = &[
     (c::ALPHA_TEST, Needs::Compatibility),
-    (c::COLOR_LOGIC_OP, Needs::Any),
+    (c::COLOR_LOGIC_OP, Needs::Desktop),
     (c::CULL_FACE, Needs::Any),
     (c::DEPTH_TEST, Needs::Any),
     (c::DITHER, Needs::Any),
     (c::POLYGON_STIPPLE, Needs::Compatibility),
-    (c::POLYGON_SMOOTH, Needs::Any),
+    (c::POLYGON_SMOOTH, Needs::Desktop),
     (c::SCISSOR_TEST, Needs::Any),
     (c::STENCIL_TEST, Needs::Any),
     (c::SAMPLE_ALPHA_TO_COVERAGE, Needs::Any),
-    (c::SAMPLE_ALPHA_TO_ONE, Needs::Any),
+    (c::SAMPLE_ALPHA_TO_ONE, Needs::Desktop),
     (c::SAMPLE_COVERAGE, Needs::Any),
-    (c::SAMPLE_MASK, Needs::Version(3, 2)),
-    (c::RASTERIZER_DISCARD, Needs::Version(3, 0)),
-    (c::FRAMEBUFFER_SRGB, Needs::Version(3, 0)),
+    (c::SAMPLE_MASK, Needs::Version((3, 2), (3, 1))),
+    (c::RASTERIZER_DISCARD, Needs::Version((3, 0), (3, 0))),
+    (c::FRAMEBUFFER_SRGB, Needs::Srgb),
 ];
 
 /// Values of glPixelStore that a read or an upload of ours depends on, with what we set.
-const PIXELS: &[(u32, i32)] = &[
-    (c::PACK_ALIGNMENT, 1),
-    (c::PACK_ROW_LENGTH, 0),
-    (c::PACK_SKIP_ROWS, 0),
-    (c::PACK_SKIP_PIXELS, 0),
-    (c::PACK_SWAP_BYTES, 0),
-    (c::UNPACK_ALIGNMENT, 1),
-    (c::UNPACK_ROW_LENGTH, 0),
-    (c::UNPACK_SKIP_ROWS, 0),
-    (c::UNPACK_SKIP_PIXELS, 0),
-    (c::UNPACK_SWAP_BYTES, 0),
-    (c::UNPACK_IMAGE_HEIGHT, 0),
-    (c::UNPACK_SKIP_IMAGES, 0),
+const PIXELS: &[(u32, i32, Needs)] = &[
+    (c::PACK_ALIGNMENT, 1, Needs::Any),
+    (c::PACK_ROW_LENGTH, 0, PIXELS_OF_ES),
+    (c::PACK_SKIP_ROWS, 0, PIXELS_OF_ES),
+    (c::PACK_SKIP_PIXELS, 0, PIXELS_OF_ES),
+    (c::PACK_SWAP_BYTES, 0, Needs::Desktop),
+    (c::UNPACK_ALIGNMENT, 1, Needs::Any),
+    (c::UNPACK_ROW_LENGTH, 0, PIXELS_OF_ES),
+    (c::UNPACK_SKIP_ROWS, 0, PIXELS_OF_ES),
+    (c::UNPACK_SKIP_PIXELS, 0, PIXELS_OF_ES),
+    (c::UNPACK_SWAP_BYTES, 0, Needs::Desktop),
+    (c::UNPACK_IMAGE_HEIGHT, 0, PIXELS_OF_ES),
+    (c::UNPACK_SKIP_IMAGES, 0, PIXELS_OF_ES),
 ];
+
+const PIXELS_OF_ES: Needs = Needs::Version((1, 0), (3, 0));
 
 /// Texture units that passes sample from.
 const UNITS: u32 = 3;
 
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, PartialEq)]
 enum Needs {
     Any,
     Compatibility,
-    Version(u32, u32),
+    /// Not OpenGL ES.
+    Desktop,
+    /// A switch for sRGB.
+    Srgb,
+    /// Of OpenGL, and of OpenGL ES.
+    Version((u32, u32), (u32, u32)),
 }
 
 /// The program's state, taken by [`Saved::take`], which also sets what our drawing needs.
@@ -62,6 +69,7 @@ pub struct Saved {
     active: u32,
     textures: Vec<[u32; 4]>,
     samplers: bool,
+    sampled_arrays: bool,
     pixels: Vec<(u32, i32)>,
     pack: u32,
     unpack: u32,
@@ -71,15 +79,21 @@ pub struct Saved {
 impl Saved {
     /// Saves and neutralises.
     pub fn take(gl: &Gl, compatibility: bool) -> Saved {
-        let version = gl.version();
+        let (version, es) = (gl.version(), gl.is_es());
+        let since = |desktop, of_es| version >= if es { of_es } else { desktop };
         let has = |n: Needs| match n {
             Needs::Any => true,
             Needs::Compatibility => compatibility,
-            Needs::Version(a, b) => version >= (a, b),
+            Needs::Desktop => !es,
+            Needs::Srgb => version >= (3, 0) && gl.switches_srgb(),
+            Needs::Version(desktop, of_es) => since(desktop, of_es),
         };
-        let modern = version >= (3, 1);
+        let modern = since((3, 1), (3, 0));
         let name = |n| gl.get_integer(n) as u32;
-        let planes = gl.get_integer(c::MAX_CLIP_DISTANCES).max(0) as u32;
+        let planes = match es && !gl.has_extension("GL_EXT_clip_cull_distance") {
+            true => 0,
+            false => gl.get_integer(c::MAX_CLIP_DISTANCES).max(0) as u32,
+        };
         let enabled: Vec<u32> = CAPABILITIES
             .iter()
             .filter(|k| has(k.1))
@@ -88,7 +102,7 @@ impl Saved {
             .filter(|&k| gl.is_enabled(k))
             .collect();
         enabled.iter().for_each(|&e| gl.disable(e));
-        let indexed = version >= (3, 0);
+        let indexed = since((3, 0), (3, 2));
         let blend = if indexed {
             gl.is_enabledi(c::BLEND, 0) != 0
         } else {
@@ -109,17 +123,15 @@ impl Saved {
         } else {
             gl.color_mask(1, 1, 1, 1)
         }
-        let pixels: Vec<(u32, i32)> = PIXELS
-            .iter()
-            .map(|&(p, _)| (p, gl.get_integer(p)))
-            .filter(|k| !PIXELS.contains(k))
-            .collect();
-        for &(p, _) in &pixels {
-            if let Some(&(_, ours)) = PIXELS.iter().find(|k| k.0 == p) {
+        let mut pixels = Vec::new();
+        for &(p, ours, _) in PIXELS.iter().filter(|k| has(k.2)) {
+            let value = gl.get_integer(p);
+            if value != ours {
+                pixels.push((p, value));
                 gl.pixel_storei(p, ours);
             }
         }
-        let (pack, unpack) = if version >= (2, 1) {
+        let (pack, unpack) = if since((2, 1), (3, 0)) {
             (
                 name(c::PIXEL_PACK_BUFFER_BINDING),
                 name(c::PIXEL_UNPACK_BUFFER_BINDING),
@@ -133,13 +145,17 @@ impl Saved {
         if unpack != 0 {
             gl.bind_buffer(c::PIXEL_UNPACK_BUFFER, 0);
         }
-        // A core context answers one mode, a compatibility context one per face.
-        let [front, back] = gl.get_integers::<2>(c::POLYGON_MODE).map(|m| m as u32);
+        // A core context answers one mode, a compatibility context one per face, and OpenGL ES has none.
+        let [front, back] = match es {
+            true => [c::FILL; 2],
+            false => gl.get_integers(c::POLYGON_MODE).map(|m| m as u32),
+        };
         let polygon_mode = [front, if compatibility { back } else { front }];
         if polygon_mode != [c::FILL; 2] {
             gl.polygon_mode(c::FRONT_AND_BACK, c::FILL);
         }
-        let samplers = version >= (3, 3);
+        let samplers = since((3, 3), (3, 0));
+        let sampled_arrays = since((3, 1), (3, 2));
         let active = name(c::ACTIVE_TEXTURE);
         let mut textures = Vec::new();
         for unit in 0..if modern { UNITS } else { 0 } {
@@ -152,14 +168,17 @@ impl Saved {
             textures.push([
                 name(c::TEXTURE_BINDING_2D),
                 name(c::TEXTURE_BINDING_2D_ARRAY),
-                name(c::TEXTURE_BINDING_2D_MULTISAMPLE_ARRAY),
+                match sampled_arrays {
+                    true => name(c::TEXTURE_BINDING_2D_MULTISAMPLE_ARRAY),
+                    false => 0,
+                },
                 sampler,
             ]);
             if sampler != 0 {
                 gl.bind_sampler(unit, 0);
             }
         }
-        let pipeline = if version >= (4, 1) {
+        let pipeline = if since((4, 1), (3, 1)) {
             name(c::PROGRAM_PIPELINE_BINDING)
         } else {
             0
@@ -181,6 +200,7 @@ impl Saved {
             active,
             textures,
             samplers,
+            sampled_arrays,
             pixels,
             pack,
             unpack,
@@ -225,7 +245,9 @@ impl Saved {
             gl.active_texture(c::TEXTURE0 + unit as u32);
             gl.bind_texture(c::TEXTURE_2D, t[0]);
             gl.bind_texture(c::TEXTURE_2D_ARRAY, t[1]);
-            gl.bind_texture(c::TEXTURE_2D_MULTISAMPLE_ARRAY, t[2]);
+            if self.sampled_arrays {
+                gl.bind_texture(c::TEXTURE_2D_MULTISAMPLE_ARRAY, t[2]);
+            }
             if self.samplers && t[3] != 0 {
                 gl.bind_sampler(unit as u32, t[3]);
             }

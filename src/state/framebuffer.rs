@@ -5,6 +5,8 @@ use crate::gl::{Gl, consts as c};
 /// The drawable behind framebuffer 0, as the driver describes the true one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Window {
+    /// Of a context of OpenGL ES: its only buffer is called GL_BACK.
+    pub es: bool,
     /// Pixels.
     pub width: u32,
     /// Pixels.
@@ -37,7 +39,7 @@ impl Window {
     /// Whether front and back buffer are two images. Those of multisampled windows are taken for one: which of them a program
     /// resolves and when is the driver's choice.
     pub fn has_two_images(&self) -> bool {
-        self.double_buffered && self.samples == 0
+        self.double_buffered && self.samples == 0 && !self.es
     }
 
     /// Whether it has an accumulation buffer.
@@ -56,13 +58,17 @@ impl Window {
             c::DEPTH_BITS,
             c::STENCIL_BITS,
         ];
-        let double_buffered = gl.get_integer(c::DOUBLEBUFFER) != 0;
-        let color = if double_buffered {
-            c::BACK_LEFT
-        } else {
-            c::FRONT_LEFT
+        let es = gl.is_es();
+        let double_buffered = es || gl.get_integer(c::DOUBLEBUFFER) != 0;
+        let color = match (es, double_buffered) {
+            (true, _) => c::BACK,
+            (_, true) => c::BACK_LEFT,
+            (_, false) => c::FRONT_LEFT,
         };
-        let default_read = gl.get_integer(c::READ_BUFFER) as u32;
+        let default_read = match es {
+            true => c::BACK,
+            false => gl.get_integer(c::READ_BUFFER) as u32,
+        };
         let names_back = double_buffered || {
             // A new context: the program has no errors in it yet.
             gl.read_buffer(c::BACK);
@@ -75,21 +81,25 @@ impl Window {
             && gl.attachment_parameter(color, c::FRAMEBUFFER_ATTACHMENT_COLOR_ENCODING) as u32
                 == c::SRGB;
         Window {
+            es,
             width,
             height,
             double_buffered,
-            stereo: gl.get_integer(c::STEREO) != 0,
+            stereo: !es && gl.get_integer(c::STEREO) != 0,
             accumulation: match compatibility {
                 true => [0, 1, 2, 3].map(|i| bit(c::ACCUM_RED_BITS + i)),
                 false => [0; 4],
             },
-            default_buffer: gl.get_integer(c::DRAW_BUFFER) as u32,
+            default_buffer: match es {
+                true => c::BACK,
+                false => gl.get_integer(c::DRAW_BUFFER) as u32,
+            },
             names_back,
             default_read,
             bits: names.map(bit),
             samples: bit(c::SAMPLES),
             srgb_capable,
-            srgb: srgb_capable && gl.is_enabled(c::FRAMEBUFFER_SRGB),
+            srgb: srgb_capable && gl.is_srgb_enabled(),
             float: modern
                 && gl.attachment_parameter(color, c::FRAMEBUFFER_ATTACHMENT_COMPONENT_TYPE) as u32
                     == c::FLOAT,
@@ -116,6 +126,7 @@ pub struct Framebuffers {
     default: u32,
     names_back: bool,
     two: bool,
+    es: bool,
 }
 
 impl Framebuffers {
@@ -130,6 +141,7 @@ impl Framebuffers {
             default,
             names_back: window.names_back,
             two: window.has_two_images(),
+            es: window.es,
         }
     }
 
@@ -143,11 +155,18 @@ impl Framebuffers {
         };
         match buffer {
             c::NONE => Some(&[]),
+            c::BACK if self.es => Some(&BOTH[1..]),
+            _ if self.es => None,
             c::FRONT | c::FRONT_LEFT => Some(front),
             c::LEFT | c::FRONT_AND_BACK => Some(both),
             c::BACK | c::BACK_LEFT if self.names_back => Some(&BOTH[1..]),
             _ => None,
         }
+    }
+
+    /// Whether glDrawBuffers takes one name for framebuffer 0.
+    pub fn names_one(&self) -> bool {
+        self.es
     }
 
     /// The images that are drawn to, as glDrawBuffers takes them.

@@ -72,6 +72,21 @@ pub(crate) fn scene(name: &str) -> Scene {
             let arguments = &["--copy", "--screen-blit", "--profile", "core"];
             scene("passes", arguments, 2)
         }
+        // OpenGL ES: GLSL 1.00 with uniforms, or one matrix; 3.00 with a block.
+        "shade_es2" => scene("shade", &["--profile", "es2"], 1),
+        "shade_es2_combined" => scene("shade", &["--profile", "es2", "--combined", "--toon"], 1),
+        "shade_es3" => scene("shade", &["--profile", "es3", "--glsl", "330"], 1),
+        "shade_es2_srgb" => scene("shade", &["--profile", "es2", "--srgb"], 1),
+        "passes_es3" => scene("passes", &["--profile", "es3", "--depth-blit"], 2),
+        "passes_es3_depth" => scene("passes", &["--profile", "es3", "--from-depth"], 2),
+        "passes_es3_samples" => {
+            let arguments = &["--profile", "es3", "--samples-inside", "4", "--mipmap"];
+            scene("passes", arguments, 1)
+        }
+        "passes_es3_copies" => {
+            let arguments = &["--profile", "es3", "--copy", "--screen-blit"];
+            scene("passes", arguments, 2)
+        }
         "crowd" => scene("crowd", &["--multi"], 2),
         "crowd_indirect" => {
             let arguments = &["--indirect", "--pulled", "--persistent"];
@@ -93,6 +108,12 @@ pub(crate) fn scene(name: &str) -> Scene {
         },
         "teapot_srgb" => scene("teapot", &["--srgb"], 1),
         "room_srgb" => scene("room", &["--srgb"], 1),
+        "shade_es2_samples" => Scene {
+            demo: "shade",
+            arguments: &["--profile", "es2", "--samples", "4"],
+            frames: 1,
+            window: true,
+        },
         "teapot_samples" => multisampled("teapot"),
         "room_samples" => multisampled("room"),
         _ => panic!("no scene {name}"),

@@ -176,6 +176,11 @@ pub(crate) unsafe fn glDrawBuffers(n: i32, bufs: Ptr) {
     );
 }
 
+pub(crate) unsafe fn glReadBufferNV(mode: u32) {
+    // SAFETY: the same command for contexts older than those that have it under its plain name.
+    unsafe { glReadBuffer(mode) };
+}
+
 pub(crate) unsafe fn glReadBuffer(src: u32) {
     if compile(Command::Of(Run::ReadBuffer(src)), Touch::NONE) {
         // SAFETY: compiled into the program's list.
@@ -252,6 +257,26 @@ pub(crate) unsafe fn glFramebufferReadBufferEXT(framebuffer: u32, mode: u32) {
         // SAFETY: the program's own call.
         &mut || unsafe { real().glFramebufferReadBufferEXT(framebuffer, mode) },
     );
+}
+
+pub(crate) unsafe fn glBlitFramebufferANGLE(
+    srcX0: i32,
+    srcY0: i32,
+    srcX1: i32,
+    srcY1: i32,
+    dstX0: i32,
+    dstY0: i32,
+    dstX1: i32,
+    dstY1: i32,
+    mask: u32,
+    filter: u32,
+) {
+    // SAFETY: the same command; what it refuses of more, no program does.
+    unsafe {
+        glBlitFramebuffer(
+            srcX0, srcY0, srcX1, srcY1, dstX0, dstY0, dstX1, dstY1, mask, filter,
+        )
+    };
 }
 
 pub(crate) unsafe fn glBlitFramebuffer(

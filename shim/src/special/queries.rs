@@ -8,23 +8,31 @@ use manyview_core::gl::consts::CURRENT_QUERY;
 use manyview_core::layer::Answer;
 use manyview_core::state::{Command, Run, Touch};
 
-pub(crate) unsafe fn glBeginQuery(target: u32, id: u32) {
-    let compiled = compile(Command::Of(Run::BeginQuery(target, id)), Touch::NONE);
-    // SAFETY: the program's own call.
-    unsafe { real().glBeginQuery(target, id) };
-    if !compiled {
-        enter(|gl, l| l.begun_query(gl, target, id));
-    }
+/// The beginning and the end of a query, under the names of OpenGL and of OpenGL ES's extension.
+macro_rules! counted {
+    ($begin:ident, $end:ident) => {
+        pub(crate) unsafe fn $begin(target: u32, id: u32) {
+            let compiled = compile(Command::Of(Run::BeginQuery(target, id)), Touch::NONE);
+            // SAFETY: the program's own call.
+            unsafe { real().$begin(target, id) };
+            if !compiled {
+                enter(|gl, l| l.begun_query(gl, target, id));
+            }
+        }
+
+        pub(crate) unsafe fn $end(target: u32) {
+            let compiled = compile(Command::Of(Run::EndQuery(target)), Touch::NONE);
+            // SAFETY: the program's own call.
+            unsafe { real().$end(target) };
+            if !compiled {
+                enter(|_, l| l.ended_query(target));
+            }
+        }
+    };
 }
 
-pub(crate) unsafe fn glEndQuery(target: u32) {
-    let compiled = compile(Command::Of(Run::EndQuery(target)), Touch::NONE);
-    // SAFETY: the program's own call.
-    unsafe { real().glEndQuery(target) };
-    if !compiled {
-        enter(|_, l| l.ended_query(target));
-    }
-}
+counted!(glBeginQuery, glEndQuery);
+counted!(glBeginQueryEXT, glEndQueryEXT);
 
 pub(crate) unsafe fn glDeleteQueries(n: i32, ids: Ptr) {
     let names = match usize::try_from(n) {
@@ -37,17 +45,25 @@ pub(crate) unsafe fn glDeleteQueries(n: i32, ids: Ptr) {
     enter(|_, l| l.deleted_queries(&names));
 }
 
-pub(crate) unsafe fn glGetQueryiv(target: u32, pname: u32, params: Ptr) {
-    // SAFETY: the program's own call.
-    unsafe { real().glGetQueryiv(target, pname, params) };
-    if pname == CURRENT_QUERY
-        && !params.is_null()
-        && let Some(Some(query)) = peek(|l| l.current_query(target))
-    {
-        // SAFETY: the driver has written one value there.
-        unsafe { *params.cast::<i32>() = query as i32 };
-    }
+/// A question about a target of queries.
+macro_rules! query_target {
+    ($name:ident) => {
+        pub(crate) unsafe fn $name(target: u32, pname: u32, params: Ptr) {
+            // SAFETY: the program's own call.
+            unsafe { real().$name(target, pname, params) };
+            if pname == CURRENT_QUERY
+                && !params.is_null()
+                && let Some(Some(query)) = peek(|l| l.current_query(target))
+            {
+                // SAFETY: the driver has written one value there.
+                unsafe { *params.cast::<i32>() = query as i32 };
+            }
+        }
+    };
 }
+
+query_target!(glGetQueryiv);
+query_target!(glGetQueryivEXT);
 
 pub(crate) unsafe fn glBeginConditionalRender(id: u32, mode: u32) {
     let part = enter(|gl, l| l.condition(gl, id)).unwrap_or(id);
@@ -92,5 +108,6 @@ macro_rules! query_object {
 
 query_object!(glGetQueryObjectiv, i32);
 query_object!(glGetQueryObjectuiv, u32);
+query_object!(glGetQueryObjectuivEXT, u32);
 query_object!(glGetQueryObjecti64v, i64);
 query_object!(glGetQueryObjectui64v, u64);

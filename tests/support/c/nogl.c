@@ -11,7 +11,7 @@ int main(int argc, char **argv)
     static const char *const names[] = {"glDrawArrays", "glXSwapBuffers", "eglSwapBuffers", "OSMesaMakeCurrent", "glXGetProcAddressARB"};
     int found = 0, status;
     for (unsigned i = 0; i < sizeof names / sizeof *names; i++)
-        if (dlsym(RTLD_DEFAULT, names[i])) {
+        if (dlsym(RTLD_DEFAULT, names[i]) || dlsym(RTLD_NEXT, names[i])) {
             fprintf(stderr, "%s is there\n", names[i]);
             found = 1;
         }

@@ -1,0 +1,76 @@
+//! The layer's calls that read and draw pixels.
+
+use super::consts as c;
+use super::{Gl, Ptr};
+
+impl Gl {
+    /// glReadPixels of RGB bytes, rows bottom up; pack state must be the default with alignment 1.
+    pub fn read_rgb(&self, x: i32, y: i32, w: u32, h: u32) -> Vec<u8> {
+        // OpenGL ES reads four or none.
+        let (format, size) = if self.is_es() {
+            (c::RGBA, 4)
+        } else {
+            (c::RGB, 3)
+        };
+        let mut out = vec![0u8; w as usize * h as usize * size];
+        let kind = c::UNSIGNED_BYTE;
+        let p = out.as_mut_ptr().cast();
+        // SAFETY: w·h texels of so many bytes; alignment 1, no pack buffer (contract above).
+        unsafe {
+            self.real
+                .glReadPixels(x, y, w as i32, h as i32, format, kind, p)
+        };
+        if size == 4 {
+            let texels = out.chunks_exact(4);
+            out = texels.flat_map(|t| t.iter().take(3).copied()).collect();
+        }
+        out
+    }
+
+    /// Whether glReadPixels reads depths; OpenGL ES has that by an extension.
+    pub fn reads_depths(&self) -> bool {
+        !self.is_es() || self.has_extension("GL_NV_read_depth")
+    }
+
+    /// glReadPixels of depth as 16 bits, rows bottom up, 0 where [`Gl::reads_depths`] says no; pack state as for [`Gl::read_rgb`].
+    pub fn read_depth16(&self, x: i32, y: i32, w: u32, h: u32) -> Vec<u16> {
+        let mut out = vec![0u16; w as usize * h as usize];
+        if !self.reads_depths() {
+            return out;
+        }
+        let c = (c::DEPTH_COMPONENT, c::UNSIGNED_SHORT);
+        // SAFETY: w·h·2 bytes; alignment 1, no pack buffer.
+        unsafe {
+            self.real
+                .glReadPixels(x, y, w as i32, h as i32, c.0, c.1, out.as_mut_ptr().cast())
+        };
+        out
+    }
+
+    /// glReadPixels of depth, 0 to `u32::MAX`, rows bottom up, 0 where [`Gl::reads_depths`] says no; no pack buffer may be bound.
+    pub fn read_depth32(&self, x: i32, y: i32, w: u32, h: u32) -> Vec<u32> {
+        let mut out = vec![0u32; w as usize * h as usize];
+        if !self.reads_depths() {
+            return out;
+        }
+        let c = (c::DEPTH_COMPONENT, c::UNSIGNED_INT);
+        // SAFETY: w·h·4 bytes; alignment 1, no pack buffer.
+        unsafe {
+            self.real
+                .glReadPixels(x, y, w as i32, h as i32, c.0, c.1, out.as_mut_ptr().cast())
+        };
+        out
+    }
+
+    /// glDrawPixels of RGB bytes, rows bottom up; unpack state must be the default with alignment 1.
+    pub fn draw_pixels_rgb(&self, w: i32, h: i32, data: &[u8]) {
+        if data.len() < w as usize * h as usize * 3 {
+            return;
+        }
+        // SAFETY: w·h·3 bytes (checked).
+        unsafe {
+            self.real
+                .glDrawPixels(w, h, c::RGB, c::UNSIGNED_BYTE, data.as_ptr() as Ptr)
+        }
+    }
+}
