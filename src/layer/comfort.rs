@@ -88,7 +88,9 @@ impl Comfort {
 impl Layer {
     /// Takes note of a draw that is about to be made, and a picture of the depths where it would spoil them.
     pub(super) fn watch_depths(&mut self, gl: &Gl, kind: Kind, classed: &Classed) {
-        if !self.comfort.on || self.live.flat || self.state.list.is_some() {
+        let looked_at = self.comfort.on && !self.live.flat && self.state.list.is_none();
+        // Depths elsewhere are not those of the window.
+        if !looked_at || self.state.framebuffers.draw != 0 {
             return;
         }
         if !std::mem::replace(&mut self.comfort.begun, true) {
@@ -117,16 +119,17 @@ impl Layer {
             (_, Class::Scene) => {
                 self.state.look(gl, Touch::RANGE | Touch::DEPTH);
                 let viewport = self.state.viewport_kind();
+                let [matrix, p] = self.projections();
                 if viewport == Viewport::Main && kind != Kind::Pixels {
-                    self.comfort.projection = Some(self.state.projection);
+                    self.comfort.projection = Some(p);
                 }
                 if self.state.look.depth != DepthState::On {
                     return;
                 }
-                let (p, look) = (&self.state.projection, &self.state.look);
-                if let Some(ramp) = Ramp::of(p, look.depths, look.zero_to_one) {
+                let look = &self.state.look;
+                if let Some(ramp) = Ramp::of(&matrix, look.depths, look.zero_to_one) {
                     self.comfort.pending |= viewport == Viewport::Main;
-                    self.comfort.ways.drawn(ramp, p, classed.focal, viewport);
+                    self.comfort.ways.drawn(ramp, &p, classed.focal, viewport);
                 }
             }
         }

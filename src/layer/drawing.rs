@@ -223,7 +223,7 @@ impl Layer {
             if self.output() == Output::Rgbd && self.frame.nearer_is_larger.is_none() {
                 self.state.look(gl, Touch::RANGE);
                 let look = &self.state.look;
-                let ramp = Ramp::of(&self.state.projection, look.depths, look.zero_to_one);
+                let ramp = Ramp::of(&self.projections()[0], look.depths, look.zero_to_one);
                 self.frame.nearer_is_larger = ramp.map(|ramp| ramp.nearer_is_larger());
             }
         }

@@ -38,6 +38,16 @@ pub(super) struct Entered<'a> {
     pub(super) layers: bool,
 }
 
+/// The camera of a program.
+#[derive(Clone, Copy, Debug)]
+struct Camera {
+    /// Which of its matrices it is in, and that.
+    at: usize,
+    matrix: [f32; 16],
+    /// See [`camera::equivalent`].
+    projection: [f32; 16],
+}
+
 /// How the draws of one program go.
 #[derive(Debug)]
 struct Known {
@@ -50,8 +60,8 @@ struct Known {
     samplers: Samplers,
     /// Their units, and the changes of uniforms up to which they are known.
     units: (u64, Vec<(u32, u32)>),
-    /// The last one that was among them, and which of them it was in.
-    camera: Option<(usize, [f32; 16])>,
+    /// The last one that was among them.
+    camera: Option<Camera>,
     /// None of them has a perspective now.
     lost: bool,
     /// The changes of uniforms up to which its camera was looked for, and its values follow.
@@ -253,11 +263,13 @@ impl Layer {
         let changed = std::mem::replace(seen, change) != change;
         // The one that it was in has mostly only moved.
         let mut search = camera.is_none();
-        if let (true, Some((at, found))) = (changed, camera.as_mut())
-            && let Some(now) = matrices.value(gl, program, *at)
+        if let (true, Some(found)) = (changed, camera.as_mut())
+            && let Some(matrix) = matrices.value(gl, program, found.at)
         {
-            match camera::equivalent(&now) {
-                Some(now) => (*found, *lost) = (now, false),
+            match camera::equivalent(&matrix) {
+                Some(projection) => {
+                    (found.matrix, found.projection, *lost) = (matrix, projection, false);
+                }
                 None => search = true,
             }
         }
@@ -267,15 +279,31 @@ impl Layer {
             if reads {
                 self.state.keep_errors(gl);
             }
-            let found = camera::among(&matrices.values(gl, program, reads), aspect);
+            let values = matrices.values(gl, program, reads);
+            let found = camera::among(&values, aspect).and_then(|(at, projection)| {
+                let matrix = *values.get(at)?;
+                Some(Camera {
+                    at,
+                    matrix,
+                    projection,
+                })
+            });
             *lost = found.is_none();
             *camera = found.or(*camera);
         }
-        let camera = camera.map(|(_, camera)| camera);
+        let camera = camera.map(|camera| camera.projection);
         if reads {
             self.drain_own_errors(gl);
         }
         Some(camera)
+    }
+
+    /// What the scene that is being drawn is projected by, as it is and as a projection alone.
+    pub(super) fn projections(&self) -> [[f32; 16]; 2] {
+        let known = self.twins.known.get(&self.state.program);
+        let camera = known.and_then(|known| known.camera);
+        let fixed = || [self.state.projection; 2];
+        camera.map_or_else(fixed, |camera| [camera.matrix, camera.projection])
     }
 
     /// The kind of projection of the program's own shaders; none where that is fixed function's.

@@ -1,10 +1,10 @@
 /* Three walls at distances of 4 + frame/2, 10 and 40 units from the camera, in frames 1 to 10 of a surface without a window system.
  *
- * depths plain|reversed|inverted|overlay|weapon|cleared|nodepth
+ * depths plain|reversed|inverted|overlay|weapon|cleared|nodepth|shader|block|reversed-shader
  *
  * reversed: glClipControl with depths from 1 (near) to 0 (infinitely far); inverted: glDepthRange(1, 0); overlay: then a flat picture
  * over everything that writes depths; weapon: something at 1.5 in a depth range of its own; cleared: the same after the depths were
- * cleared; nodepth: no depth test. */
+ * cleared; nodepth: no depth test; shader, block: shaders of its own, with the projection in a uniform or a block of them. */
 #include "surface.h"
 
 #include <string.h>
@@ -32,10 +32,39 @@ static void scene(int frame)
     wall(40 * 0.6, 40, 8);
 }
 
+/* A program with the projection that is set. */
+static void shaders(int block)
+{
+    static const char *const vertex[] = {
+        "#version 120\nuniform mat4 camera; void main() { gl_Position = camera * gl_Vertex; gl_FrontColor = gl_Color; }",
+        "#version 150 compatibility\nlayout(std140) uniform View { mat4 camera; }; void main() { gl_Position = camera * gl_Vertex; gl_FrontColor = gl_Color; }",
+    };
+    static const char *const fragment = "void main() { gl_FragColor = gl_Color; }";
+    GLuint program = glCreateProgram(), shader[] = {glCreateShader(GL_VERTEX_SHADER), glCreateShader(GL_FRAGMENT_SHADER)}, buffer;
+    GLfloat camera[16];
+    glShaderSource(shader[0], 1, &vertex[block], NULL);
+    glShaderSource(shader[1], 1, &fragment, NULL);
+    for (int i = 0; i < 2; i++) {
+        glCompileShader(shader[i]);
+        glAttachShader(program, shader[i]);
+    }
+    glLinkProgram(program);
+    glUseProgram(program);
+    glGetFloatv(GL_PROJECTION_MATRIX, camera);
+    if (block) {
+        glGenBuffers(1, &buffer);
+        glBindBufferBase(GL_UNIFORM_BUFFER, 0, buffer);
+        glBufferData(GL_UNIFORM_BUFFER, sizeof camera, camera, GL_STATIC_DRAW);
+    } else
+        glUniformMatrix4fv(glGetUniformLocation(program, "camera"), 1, GL_FALSE, camera);
+    glLoadIdentity();
+}
+
 int main(int count, char **arguments)
 {
     const char *how = count > 1 ? arguments[1] : "plain";
-    const int reversed = !strcmp(how, "reversed"), inverted = !strcmp(how, "inverted");
+    const int block = !strcmp(how, "block"), shader = block || strstr(how, "shader") != NULL;
+    const int reversed = !strncmp(how, "reversed", 8), inverted = !strcmp(how, "inverted");
     PFNGLCLIPCONTROLPROC clip_control = (PFNGLCLIPCONTROLPROC)eglGetProcAddress("glClipControl");
     if (!open_surface() || !new_context(EGL_NO_CONTEXT))
         return 77;
@@ -51,6 +80,8 @@ int main(int count, char **arguments)
             glLoadIdentity();
             glFrustum(-1, 1, -1, 1, 1, 100);
         }
+        if (shader && frame == 1)
+            shaders(block);
         if (inverted)
             glDepthRange(1, 0);
         glClearDepth(reversed || inverted ? 0 : 1);
