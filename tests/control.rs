@@ -12,7 +12,7 @@ use std::os::unix::fs::{MetadataExt, PermissionsExt};
 use std::os::unix::net::UnixStream;
 use std::path::Path;
 use std::time::Duration;
-use support::{Compiled, Screen, bare, compiled, layered, library, own_screen, rgb, run};
+use support::{Compiled, Screen, bare, compiled, extent, layered, library, own_screen, rgb, run};
 
 /// Cameras far enough apart to be seen in 96 pixels.
 const CAMERAS: [(&str, &str); 2] = [("SEPARATION", "0.03"), ("CONVERGENCE", "8")];
@@ -72,6 +72,32 @@ fn what_is_set_holds_for_the_next_frame() {
         assert!(placed != wider, "{strategy}");
         assert_eq!(running.end(), (Some(0), String::new()));
     }
+}
+
+#[test]
+fn what_is_set_holds_for_contexts_that_show_nothing_themselves() {
+    let screen = own_screen();
+    let program = compiled("widget", Compiled::Program, &["-lEGL", "-lGL"]);
+    let options = [
+        ("VIEWS", "3"),
+        ("CONTROL", "1"),
+        ("SEPARATION", "0.2"),
+        ("CONVERGENCE", "2"),
+    ];
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut running = Running::start_in(folder, &screen, &mut layered(program, &options));
+    until("a socket", || running.socket().exists().then_some(()));
+    // At depth 1, moved by 32 columns times the separation.
+    for (separation, wanted) in [("0.2", 6.4), ("0.1", 3.2)] {
+        running.done(&["set", "separation", separation]);
+        let all = running.capture("atlas");
+        let [left, own] = [0, 1].map(|view| extent(&all, 3, view, [0, 255, 0]));
+        assert!(
+            (left[0] - own[0] - wanted).abs() <= 1.5,
+            "{left:?}, {own:?}"
+        );
+    }
+    running.end();
 }
 
 #[test]

@@ -69,6 +69,40 @@ fn draws(frames: &str, arguments: &[&str]) -> [u64; 2] {
 }
 
 #[test]
+fn what_is_computed_of_a_scene_is_computed_for_each_view() {
+    let program = compiled("compute", Compiled::Program, &["-lEGL", "-lGL"]);
+    let folder = tempfile::tempdir().expect("a folder");
+    let picture = folder.path().join("frame.png");
+    let expected = lines(&mut bare(&program));
+    assert_eq!(expected.matches("shown 0 0 255, error 0x0").count(), 2);
+    for atlas in ["side-by-side", "layers"] {
+        for frame in ["1", "2"] {
+            let options = [
+                ("VIEWS", "3"),
+                ("ATLAS", atlas),
+                ("STRATEGY", "replay"),
+                ("SEPARATION", "0.4"),
+                ("CONVERGENCE", "4"),
+                ("CAPTURE_OUT", picture.to_str().expect("UTF-8")),
+                ("CAPTURE_FRAMES", frame),
+                ("CAPTURE_WHAT", "atlas"),
+            ];
+            assert_eq!(lines(&mut layered(&program, &options)), expected, "{atlas}");
+            let all = rgb(&picture);
+            let [left, own, right] = [0, 1, 2].map(|view| extent(&all, VIEWS, view, [0, 0, 255]));
+            // At depth 2, moved by ±0.4 · (2 − 4) / 2 in 32 columns.
+            for (at, shift) in [(left, 12.8), (right, -12.8)] {
+                let by = at[0] - own[0];
+                assert!(
+                    (by - shift).abs() <= 1.5,
+                    "{atlas}, frame {frame}: {by} for {shift}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
 fn what_a_toolkit_draws_in_a_widget_has_its_views_in_the_window() {
     let program = compiled("widget", Compiled::Program, &["-lEGL", "-lGL"]);
     let folder = tempfile::tempdir().expect("a folder");

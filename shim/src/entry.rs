@@ -11831,16 +11831,12 @@ export! { 846, glBindImageTextures, first_glBindImageTextures, hook_glBindImageT
     unsafe { gl.glBindImageTextures(first, count, textures) };
 } }
 export! { 847, glDispatchCompute, first_glDispatchCompute, hook_glDispatchCompute, (num_groups_x: u32, num_groups_y: u32, num_groups_z: u32) -> (), {
-    hooks::settle();
-    let gl = hooks::real();
     // SAFETY: the program's own call.
-    unsafe { gl.glDispatchCompute(num_groups_x, num_groups_y, num_groups_z) };
+    hooks::compute(&mut |gl| unsafe { gl.glDispatchCompute(num_groups_x, num_groups_y, num_groups_z) })
 } }
 export! { 848, glDispatchComputeIndirect, first_glDispatchComputeIndirect, hook_glDispatchComputeIndirect, (indirect: isize) -> (), {
-    hooks::settle();
-    let gl = hooks::real();
     // SAFETY: the program's own call.
-    unsafe { gl.glDispatchComputeIndirect(indirect) };
+    hooks::compute(&mut |gl| unsafe { gl.glDispatchComputeIndirect(indirect) })
 } }
 export! { 849, glVertexAttribDivisor, first_glVertexAttribDivisor, hook_glVertexAttribDivisor, (index: u32, divisor: u32) -> (), {
     hooks::divide();

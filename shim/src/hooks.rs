@@ -117,6 +117,14 @@ pub(crate) fn mipmap(target: u32, call: &mut dyn FnMut(&'static Real)) {
     }
 }
 
+/// A call that runs a compute shader.
+pub(crate) fn compute(call: &mut dyn FnMut(&'static Real)) {
+    ask();
+    if enter(|gl, l| l.compute(gl, &mut || call(gl.real()))).is_none() {
+        call(real());
+    }
+}
+
 /// A copy of the read framebuffer to the texture bound at `target`, of columns in pixels.
 pub(crate) fn copy(target: u32, x: i32, width: i32, call: &mut dyn FnMut(&'static Real)) {
     let copied = enter(|gl, l| l.copy_texture(gl, target, x, width, &mut || call(gl.real())));

@@ -42,6 +42,9 @@ pub enum NoTwin {
     /// Subroutines are chosen per context, and not followed.
     #[error("it has subroutines")]
     Subroutines,
+    /// Nothing is drawn with it.
+    #[error("it computes")]
+    Computes,
     /// Nothing moves vertices that could be shifted.
     #[error("it has no vertex shader")]
     NoVertex,
@@ -69,6 +72,9 @@ pub struct Twin {
 pub fn drawn(gl: &Gl, program: u32, texts: &[Text], way: Way) -> Result<Drawn, NoTwin> {
     if texts.is_empty() || texts.iter().any(|text| text.source.is_empty()) {
         return Err(NoTwin::NoText);
+    }
+    if texts.iter().any(|text| text.stage == Stage::Compute) {
+        return Err(NoTwin::Computes);
     }
     let rank = |stage: Stage| match stage {
         Stage::Vertex => 1,

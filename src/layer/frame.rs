@@ -200,9 +200,11 @@ impl Layer {
         }
     }
 
-    /// Whether a flush shows what was drawn: it went to the front buffer, or there is no other.
+    /// Whether a flush shows what was drawn: it went to the front buffer, or there is no other, and somebody can see it.
     pub fn shows_on_flush(&self) -> bool {
-        self.drawn && (!self.state.window.double_buffered || self.state.framebuffers.draws_front())
+        self.drawn
+            && !self.is_hidden()
+            && (!self.state.window.double_buffered || self.state.framebuffers.draws_front())
     }
 
     /// Whether something was drawn since the last frame was shown.

@@ -7,6 +7,7 @@ mod auto;
 mod blits;
 mod classing;
 mod comfort;
+mod compute;
 mod control;
 mod copies;
 mod drawing;

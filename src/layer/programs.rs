@@ -3,7 +3,7 @@
 use super::Layer;
 use crate::config::{Class, DepthState, Projection};
 use crate::draw::{Drawn, NoTwin, Twin, Way, drawn};
-use crate::gl::{Gl, Held, consts as c};
+use crate::gl::{Gl, Held, ImageUnit, consts as c};
 use crate::plan::class::Why;
 use crate::plan::{Classed, Flat, Kind, Method, Plan, camera};
 use crate::state::{Linked, Matrices, Samplers, Shaders, Touch, texts, uniform_change};
@@ -348,6 +348,17 @@ impl Layer {
         known.units.1.clone()
     }
 
+    /// What is bound to the image units that a program loads and stores.
+    pub(super) fn images_of(&mut self, gl: &Gl, program: u32) -> Vec<ImageUnit> {
+        self.know(gl, program);
+        let known = self.twins.known.get(&program);
+        let units = known.map_or_else(Vec::new, |known| known.samplers.image_units(gl, program));
+        units
+            .into_iter()
+            .filter_map(|unit| gl.image_unit(unit))
+            .collect()
+    }
+
     /// The number of a program, counted as they are linked, and the sum of its shaders' texts; 0 where they are not known.
     pub(super) fn told_of(&self, program: u32) -> (u32, u64) {
         let linked = self.linked_from(program);
@@ -389,7 +400,7 @@ impl Layer {
                 self.programs.compiled += 1;
                 self.report.shaders(self.programs.compiled);
             }
-            Ok(Drawn::ByMatrix) => {}
+            Ok(Drawn::ByMatrix) | Err(NoTwin::Computes) => {}
             Err(reason) => self.report.note(format!(
                 "what program {program} draws is the same in all views: {reason}"
             )),

@@ -142,6 +142,12 @@ impl Offscreen {
             .split_texture(gl, &self.means, names, at, &self.tiles)
     }
 
+    /// The same of a texture by its name, whatever its target.
+    pub fn split_named(&mut self, gl: &Gl, names: &mut Names, texture: u32) -> bool {
+        let split = |target| self.split_texture(gl, names, (target, texture));
+        image::with_texture(gl, texture, split).unwrap_or(false)
+    }
+
     /// What the program's own objects lack of their view.
     pub fn settle(&mut self, gl: &Gl) {
         let layer = self.tiles.slot(self.tiles.own());

@@ -147,29 +147,41 @@ impl Matrices {
     }
 }
 
-/// The textures that a program's own shaders sample.
+/// The textures that a program's own shaders sample, and the images that they load and store.
 #[derive(Debug, Default)]
 pub struct Samplers {
     /// Locations, and texture targets.
     uniforms: Vec<(i32, u32)>,
+    /// Locations of images.
+    images: Vec<i32>,
 }
 
 impl Samplers {
     /// Of a program that is linked.
     pub fn of(gl: &Gl, program: u32) -> Samplers {
-        let mut uniforms = Vec::new();
+        let mut found = Samplers::default();
         for active in gl.active_uniforms(program) {
-            let Some(target) = sampled(active.kind) else {
+            let (target, image) = (sampled(active.kind), is_image(active.kind));
+            if target.is_none() && !image {
                 continue;
-            };
+            }
             for name in active.elements() {
                 let location = gl.uniform_location(program, &name);
-                if location >= 0 {
-                    uniforms.push((location, target));
+                match target {
+                    _ if location < 0 => {}
+                    Some(target) => found.uniforms.push((location, target)),
+                    None => found.images.push(location),
                 }
             }
         }
-        Samplers { uniforms }
+        found
+    }
+
+    /// Image units, counted from 0.
+    pub fn image_units(&self, gl: &Gl, program: u32) -> Vec<u32> {
+        let all = self.images.iter();
+        all.map(|&at| gl.uniform_int(program, at).max(0).unsigned_abs())
+            .collect()
     }
 
     /// Texture units, counted from 0, and targets.
@@ -194,6 +206,11 @@ fn sampled(kind: u32) -> Option<u32> {
         0x900C..=0x900F => c::TEXTURE_CUBE_MAP_ARRAY,
         _ => return None,
     })
+}
+
+/// Whether a type of uniforms is that of an image: GL_IMAGE_1D to GL_UNSIGNED_INT_IMAGE_2D_MULTISAMPLE_ARRAY.
+fn is_image(kind: u32) -> bool {
+    (0x904C..=0x906C).contains(&kind)
 }
 
 /// FNV-1a of all texts with their types, 64 bits.

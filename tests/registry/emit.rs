@@ -286,6 +286,7 @@ pub fn entry(commands: &[Command]) -> String {
             "read" => writeln!(o, "    // SAFETY: the program's own call.\n    hooks::read(x, width, &mut |gl| {call})").unwrap(),
             "copy" => writeln!(o, "    // SAFETY: the program's own call.\n    hooks::copy(target, x, width, &mut |gl| {call})").unwrap(),
             "now" => writeln!(o, "    // SAFETY: the program's own call.\n    hooks::read_now(x, width, &mut |gl| {call})").unwrap(),
+            "compute" => writeln!(o, "    // SAFETY: the program's own call.\n    hooks::compute(&mut |gl| {call})").unwrap(),
             "mipmap" => writeln!(o, "    // SAFETY: the program's own call.\n    hooks::mipmap(target, &mut |gl| {call})").unwrap(),
             "hide" | "attach" => {
                 writeln!(o, "    // SAFETY: the program's own call.\n    hooks::{class}({}, &mut |gl| {call})", c.params[0].name).unwrap()

@@ -1,6 +1,10 @@
 /* A scene as a toolkit draws it in a widget: in a context of its own, current on a surface that nobody sees, into a framebuffer whose image another
- * context shows in the window; in the first frame by a texture, in the second, larger one by a blit. */
+ * context shows in the window; in the first frame by a texture, in the second, larger one by a blit.
+ *
+ * widget [FILE]: two frames, or as many until there is a file. */
 #include "surface.h"
+
+#include <unistd.h>
 
 static const char *const vertex = "#version 120\nuniform mat4 camera; uniform float depth; attribute vec2 place;\n"
                                   "void main() { gl_Position = camera * vec4(place * 0.25 * depth, -depth, 1.0); }\n";
@@ -38,7 +42,7 @@ static void tell(const char *what, int x, int y)
     printf("%s: pixel %d %d %d, error 0x%x\n", what, pixel[0], pixel[1], pixel[2], glGetError());
 }
 
-int main(void)
+int main(int count, char **arguments)
 {
     static const EGLint one[] = {EGL_WIDTH, 1, EGL_HEIGHT, 1, EGL_NONE};
     GLuint texture, depth, framebuffer, shown, scene, reader;
@@ -56,8 +60,8 @@ int main(void)
     glGenTextures(1, &texture);
     glGenRenderbuffers(1, &depth);
     glGenFramebuffers(1, &framebuffer);
-    for (int frame = 0; frame < 2; frame++) {
-        int size = frame ? 2 : 1;
+    for (int frame = 0; count > 1 ? access(arguments[1], F_OK) : frame < 2; frame++) {
+        int size = frame % 2 ? 2 : 1;
         /* Narrower than the window: the widget has a shape of its own. */
         int w = WIDTH * size / 2, h = HEIGHT * size;
         const float a = (float)h / (float)w;
@@ -87,7 +91,7 @@ int main(void)
         glViewport(0, 0, WIDTH, HEIGHT);
         glClearColor(0, 0, 1, 1);
         glClear(GL_COLOR_BUFFER_BIT);
-        if (frame == 0) {
+        if (frame % 2 == 0) {
             glBindTexture(GL_TEXTURE_2D, texture);
             glUseProgram(shown);
             glDisable(GL_DEPTH_TEST);

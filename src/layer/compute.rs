@@ -1,0 +1,67 @@
+//! Compute shaders that read what the views differ in: each view gets images of its own to be written to.
+
+use super::{Layer, keep_bindings};
+use crate::atlas::Tiles;
+use crate::gl::{Gl, ImageUnit, Object};
+
+impl Layer {
+    /// glDispatchCompute: once, or for each view with its textures and images. What is written to buffers is written each time: where there
+    /// is nothing but buffers to write to, they get what the program's own view makes of it.
+    pub fn compute(&mut self, gl: &Gl, call: &mut dyn FnMut()) {
+        if !self.has_copies() {
+            return call();
+        }
+        self.state.refresh(gl);
+        let program = self.state.program;
+        let (sampled, images) = match program {
+            // Of a pipeline nothing is known.
+            0 => Default::default(),
+            program => {
+                let units = self.units_of(gl, program).into_iter();
+                let sampled = self.offscreen.bound_among(gl, units);
+                (sampled, self.images_of(gl, program))
+            }
+        };
+        let differs = |image: &ImageUnit| self.offscreen.has(Object::Texture(image.texture));
+        let reads = !sampled.is_empty() || images.iter().any(differs);
+        let writes = |image: &&ImageUnit| image.is_written();
+        if !reads || !images.iter().any(|image| writes(&image)) {
+            self.settle_textures(gl);
+            return call();
+        }
+        self.state.keep_errors(gl);
+        keep_bindings(gl, || {
+            for image in images.iter().filter(writes) {
+                self.offscreen
+                    .split_named(gl, &mut self.names, image.texture);
+            }
+        });
+        self.drain_own_errors(gl);
+        let tiles = Tiles {
+            shown: self.wanted_views(),
+            ..self.atlas.tiles
+        };
+        let own = tiles.own();
+        self.queries.pause(gl);
+        for view in tiles.order().filter(|&view| view != own).chain([own]) {
+            self.offscreen.bind(gl, &sampled, view);
+            for image in &images {
+                let views = self.offscreen.views(image.texture);
+                if let Some(&name) = views.get(view as usize) {
+                    gl.bind_image(image, name);
+                }
+            }
+            if view == own {
+                self.queries.resume(gl);
+            }
+            call();
+        }
+        self.offscreen.unbind(gl, &sampled);
+        for image in &images {
+            gl.bind_image(image, image.texture);
+        }
+        for image in images.iter().filter(writes) {
+            self.offscreen.written(image.texture);
+        }
+    }
+}
