@@ -55,7 +55,8 @@ impl Atlas {
     /// Takes a picture of the depths as they are now; false where there is room for no more. Changes the framebuffer bindings;
     /// state must be as [`crate::present::Saved::take`] leaves it.
     pub fn take_depths(&mut self, gl: &Gl) -> bool {
-        if self.depths.as_ref().is_none_or(|d| d.taken == PICTURES) {
+        let full = self.depths.as_ref().is_none_or(|d| d.taken == PICTURES);
+        if full || !gl.reads_depths() {
             return false;
         }
         self.resolve(gl, true, c::DEPTH_BUFFER_BIT);
@@ -103,7 +104,7 @@ impl Atlas {
         gl.bind_buffer(c::PIXEL_PACK_BUFFER, depths.buffer);
         let pictures = (0..std::mem::take(&mut depths.taken)).map(|picture| {
             let mut samples = vec![0.0; bytes(size) / size_of::<f32>()];
-            gl.get_buffer_floats(c::PIXEL_PACK_BUFFER, picture * bytes(size), &mut samples);
+            gl.get_buffer_depths(c::PIXEL_PACK_BUFFER, picture * bytes(size), &mut samples);
             samples
         });
         let pictures = pictures.collect();

@@ -66,11 +66,26 @@ impl Gl {
         if self.get_integer(c::PIXEL_PACK_BUFFER_BINDING) == 0 || !self.reads_depths() {
             return;
         }
+        // OpenGL ES reads no floats but of a buffer of floats.
+        let kind = match self.is_es() {
+            true => c::UNSIGNED_INT,
+            false => c::FLOAT,
+        };
         // SAFETY: a pack buffer is bound (asked above), so the pointer is an offset into it, which the driver checks.
         unsafe {
             self.real
-                .glReadPixels(0, 0, w, h, c::DEPTH_COMPONENT, c::FLOAT, at as Ptr)
+                .glReadPixels(0, 0, w, h, c::DEPTH_COMPONENT, kind, at as Ptr)
         };
+    }
+
+    /// What [`Gl::read_depth_to_buffer`] has read, 0 to 1.
+    pub fn get_buffer_depths(&self, target: u32, at: usize, out: &mut [f32]) {
+        self.get_buffer_floats(target, at, out);
+        if self.is_es() {
+            for depth in out {
+                *depth = (f64::from(depth.to_bits()) / f64::from(u32::MAX)) as f32;
+            }
+        }
     }
 
     /// glGetBufferSubData of floats, or what OpenGL ES has instead of it.
