@@ -37,6 +37,8 @@ const LIMITS: Limits = Limits {
     layers: 2048,
 };
 const EYE_SPACING: &str = "0.3";
+/// Cameras so little nearer to each other that nothing but rounding can tell.
+const EYE_SPACING_ROUNDED: &str = "0.299999";
 const FOCAL_DEPTH: &str = "8";
 
 const STRATEGIES: [&str; 3] = ["replay", "instanced", "geometry"];
@@ -78,24 +80,27 @@ struct Oracle<'a> {
     drawn: HashMap<(i64, u32, u32), Vec<RgbImage>>,
 }
 
+/// A view among N, the width of its canvas, and its left edge there.
+type Place = (u32, u32, u32, u32);
+
 impl Oracle<'_> {
     fn view(&mut self, view: u32, views: u32, canvas: u32, x: u32) -> &[RgbImage] {
         // Cameras of different N fall together: only 2i - (N - 1) counts.
         let key = (i64::from(2 * view) - i64::from(views - 1), canvas, x);
         if !self.drawn.contains_key(&key) {
-            let pictures = self.draw(view, views, canvas, x);
+            let pictures = self.draw((view, views, canvas, x), EYE_SPACING);
             self.drawn.insert(key, pictures);
         }
         &self.drawn[&key]
     }
 
-    fn draw(&self, view: u32, views: u32, canvas: u32, x: u32) -> Vec<RgbImage> {
+    fn draw(&self, (view, views, canvas, x): Place, eye_spacing: &str) -> Vec<RgbImage> {
         let out = self.folder.join("oracle-%d.png");
         let mut command = bare(demo(self.scene.demo));
         arguments(&mut command, self.scene, self.api);
         command.args(["--view", &format!("{view}/{views}")]).args([
             "--eye-spacing",
-            EYE_SPACING,
+            eye_spacing,
             "--focal-depth",
             FOCAL_DEPTH,
         ]);
@@ -225,6 +230,13 @@ fn may_be_split(scene: &Scene, compared: &Comparison) -> bool {
         && compared.differing_fraction() < 0.01
 }
 
+/// Bloom and samples: where a bright sample lies on an edge to within a millionth of the cameras' distance, the program's own picture depends on its
+/// rounding by more than the gate allows (measured: 113 of 66,000 pixels, worst by 15, with cameras that much nearer). Then a picture is right that passes the
+/// gate for either rounding.
+fn may_be_rounded(scene: &Scene) -> bool {
+    scene.demo == "passes" && scene.arguments.contains(&"--samples-inside")
+}
+
 /// The worst figures of several pictures, each on its own.
 #[derive(Clone, Copy, Default)]
 struct Worst {
@@ -342,7 +354,13 @@ fn check_in(
                         let expected = &oracle.view(view, views, tiles.texture_width(), x)[frame];
                         let compared = compare(expected, actual);
                         row.asserted.add(&compared);
-                        let result = gate.check(&compared);
+                        let mut result = gate.check(&compared);
+                        if result.is_err() && may_be_rounded(&scene) {
+                            let place = (view, views, tiles.texture_width(), x);
+                            let rounded = &oracle.draw(place, EYE_SPACING_ROUNDED)[frame];
+                            result = gate.check(&compare(rounded, actual));
+                        }
+                        let expected = &oracle.view(view, views, tiles.texture_width(), x)[frame];
                         if result.is_err() && split == 0 && may_be_split(&scene, &compared) {
                             split += 1;
                             row.split += 1;
