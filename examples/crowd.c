@@ -53,15 +53,6 @@ static void turned(const double (*profile)[2], int n, int closed, struct corner 
         }
 }
 
-static GLuint buffer(GLenum target, const void *data, size_t size)
-{
-    GLuint name;
-    glGenBuffers(1, &name);
-    glBindBuffer(target, name);
-    glBufferData(target, (GLsizeiptr)size, data, data ? GL_STATIC_DRAW : GL_STREAM_DRAW);
-    return name;
-}
-
 static void attribute(GLuint index, GLint size, GLenum type, size_t stride, size_t offset, GLuint divisor)
 {
     glEnableVertexAttribArray(index);
@@ -104,15 +95,15 @@ static void make_shapes(void)
 
     glGenVertexArrays(1, &crowd_arrays);
     glBindVertexArray(crowd_arrays);
-    buffer(GL_ELEMENT_ARRAY_BUFFER, i, indices * sizeof *i);
-    GLuint shapes = buffer(GL_ARRAY_BUFFER, v, vertices * sizeof *v);
+    demo_buffer(GL_ELEMENT_ARRAY_BUFFER, i, indices * sizeof *i);
+    GLuint shapes = demo_buffer(GL_ARRAY_BUFFER, v, vertices * sizeof *v);
     attribute(0, 3, GL_FLOAT, sizeof *v, 0, 0);
     attribute(1, 3, GL_FLOAT, sizeof *v, 12, 0);
     glGenVertexArrays(1, &flat_arrays);
     glBindVertexArray(flat_arrays);
     glBindBuffer(GL_ARRAY_BUFFER, shapes);
     attribute(0, 3, GL_FLOAT, sizeof *v, 0, 0);
-    rectangles = buffer(GL_ARRAY_BUFFER, NULL, RECTANGLES * sizeof(struct rectangle));
+    rectangles = demo_buffer(GL_ARRAY_BUFFER, NULL, RECTANGLES * sizeof(struct rectangle));
     attribute(6, 4, GL_FLOAT, sizeof(struct rectangle), 0, 1);
     attribute(4, 4, GL_FLOAT, sizeof(struct rectangle), 16, 1);
 }
@@ -138,8 +129,8 @@ static void make_floor(void)
         }
     glGenVertexArrays(1, &floor_arrays);
     glBindVertexArray(floor_arrays);
-    buffer(GL_ELEMENT_ARRAY_BUFFER, i, sizeof i);
-    buffer(GL_ARRAY_BUFFER, v, sizeof v);
+    demo_buffer(GL_ELEMENT_ARRAY_BUFFER, i, sizeof i);
+    demo_buffer(GL_ARRAY_BUFFER, v, sizeof v);
     attribute(0, 3, GL_FLOAT, sizeof **v, 0, 0);
     attribute(1, 3, GL_FLOAT, sizeof **v, 12, 0);
     attribute(4, 4, GL_UNSIGNED_BYTE, sizeof **v, 24, 0);
@@ -167,7 +158,7 @@ void demo_setup(void)
     make_floor();
     for (unsigned k = 0; k < CROWD; k++)
         hue(trim[k], 0.61803 * k, 0.62, 0.31);
-    trims = buffer(GL_ARRAY_BUFFER, trim, sizeof trim);
+    trims = demo_buffer(GL_ARRAY_BUFFER, trim, sizeof trim);
     if (persistent) {
         GLbitfield how = GL_MAP_WRITE_BIT | GL_MAP_PERSISTENT_BIT | GL_MAP_COHERENT_BIT;
         GLsizeiptr size = 2 * CROWD * sizeof(struct one);
@@ -178,7 +169,7 @@ void demo_setup(void)
         if (!mapped)
             demo_fail(1, "glMapBufferRange gives nothing");
     } else {
-        instances = buffer(GL_ARRAY_BUFFER, NULL, CROWD * sizeof(struct one));
+        instances = demo_buffer(GL_ARRAY_BUFFER, NULL, CROWD * sizeof(struct one));
     }
     if (pulled) {
         GLuint texture;
@@ -194,9 +185,9 @@ void demo_setup(void)
             GLuint plain[5] = {elements[kind], groups[g].count, corners[kind], groups[g].from, 0};
             memcpy(c[g].numbers, kind <= RING ? indexed : plain, sizeof plain);
         }
-        commands = buffer(GL_DRAW_INDIRECT_BUFFER, c, sizeof c);
+        commands = demo_buffer(GL_DRAW_INDIRECT_BUFFER, c, sizeof c);
     }
-    block = buffer(GL_UNIFORM_BUFFER, NULL, 36 * sizeof(GLfloat));
+    block = demo_buffer(GL_UNIFORM_BUFFER, NULL, 36 * sizeof(GLfloat));
     glBindBufferBase(GL_UNIFORM_BUFFER, 1, block);
     for (int p = 0; p < PROGRAMS; p++) {
         for (int k = 0; k < 2; k++)

@@ -24,15 +24,6 @@ static GLint at(const char *name) { return glGetUniformLocation(used, name); }
 
 /* ---- set up ---- */
 
-static GLuint buffer(GLenum target, const void *data, size_t size)
-{
-    GLuint name;
-    glGenBuffers(1, &name);
-    glBindBuffer(target, name);
-    glBufferData(target, (GLsizeiptr)size, data, data ? GL_STATIC_DRAW : GL_STREAM_DRAW);
-    return name;
-}
-
 /* 20 across and 22 away, from behind the camera: two triangles a square, or a patch for STEP by STEP of them. */
 static void make_land(void)
 {
@@ -56,8 +47,8 @@ static void make_land(void)
         v[CORNERS + k][0] = k % 2 ? 10.0f : -10.0f, v[CORNERS + k][1] = k < 2 ? 7.0f : -15.0f;
     glGenVertexArrays(1, &land_arrays);
     glBindVertexArray(land_arrays);
-    buffer(GL_ARRAY_BUFFER, v, sizeof v);
-    buffer(GL_ELEMENT_ARRAY_BUFFER, list, (size_t)indices * sizeof *list);
+    demo_buffer(GL_ARRAY_BUFFER, v, sizeof v);
+    demo_buffer(GL_ELEMENT_ARRAY_BUFFER, list, (size_t)indices * sizeof *list);
     glEnableVertexAttribArray(0);
     glVertexAttribPointer(0, 2, GL_FLOAT, 0, sizeof *v, NULL);
 }
@@ -77,7 +68,7 @@ static void make_points(void)
     }
     glGenVertexArrays(1, &point_arrays);
     glBindVertexArray(point_arrays);
-    buffer(GL_ARRAY_BUFFER, v, sizeof v);
+    demo_buffer(GL_ARRAY_BUFFER, v, sizeof v);
     glEnableVertexAttribArray(0);
     glVertexAttribPointer(0, 4, GL_FLOAT, 0, sizeof *v, NULL);
 }
@@ -93,7 +84,7 @@ void demo_setup(void)
     glGenVertexArrays(1, &no_arrays);
     glGenVertexArrays(1, &flat_arrays);
     glBindVertexArray(flat_arrays);
-    rectangles = buffer(GL_ARRAY_BUFFER, NULL, RECTANGLES * sizeof(struct rectangle));
+    rectangles = demo_buffer(GL_ARRAY_BUFFER, NULL, RECTANGLES * sizeof(struct rectangle));
     for (GLuint k = 0; k < 2; k++) {
         glEnableVertexAttribArray(k);
         glVertexAttribPointer(k, 4, GL_FLOAT, 0, sizeof(struct rectangle), (void *)(16 * (size_t)k));

@@ -4,37 +4,30 @@
 
 mod support;
 
-use support::{Compiled, bare, compiled, demo, extent, layered, lines, rgb, screen, succeed};
-
-const VIEWS: u32 = 3;
+use support::views::{VIEWS, Views, extents};
+use support::{Compiled, bare, compiled, demo, layered, lines, screen, succeed};
 
 #[test]
 fn a_program_knows_of_its_framebuffers_what_it_knows_without_the_layer() {
     let program = compiled("offscreen", Compiled::Program, &["-lEGL", "-lGL"]);
-    let folder = tempfile::tempdir().expect("a folder");
-    let picture = folder.path().join("frame.png");
     // Before OpenGL 4.3 no layer of an array is a texture of its own.
     let old = Some(("MESA_GL_VERSION_OVERRIDE", "4.2COMPAT"));
     for (atlas, driver) in [("side-by-side", None), ("layers", None), ("layers", old)] {
         let expected = lines(bare(&program).envs(driver));
         assert!(expected.contains("shown: bound 0 0"), "{expected}");
-        let options = [
-            ("VIEWS", "3"),
-            ("ATLAS", atlas),
-            ("STRATEGY", "replay"),
-            ("SEPARATION", "0.4"),
-            ("CONVERGENCE", "4"),
-            ("CAPTURE_OUT", picture.to_str().expect("UTF-8")),
-            ("CAPTURE_FRAMES", "1"),
-            ("CAPTURE_WHAT", "atlas"),
-        ];
-        let told = lines(layered(&program, &options).envs(driver));
+        let views = Views {
+            atlas,
+            strategy: "replay",
+            separation: 0.4,
+            convergence: 4.0,
+            frame: 1,
+        };
+        let (told, all) = views.shown(layered(&program, &[]).envs(driver));
         for (told, expected) in told.lines().zip(expected.lines()) {
             assert_eq!(told, expected, "{atlas}");
         }
         assert_eq!(told.lines().count(), expected.lines().count());
-        let all = rgb(&picture);
-        let [left, own, right] = [0, 1, 2].map(|view| extent(&all, VIEWS, view, [255, 0, 255]));
+        let [left, own, right] = extents(&all, [255, 0, 255]);
         // At depth 3, moved by ±0.4 · (3 − 4) / 3 in 32 columns, blitted to 64: the left camera's to the right.
         for (moved, shift) in [(left[0] - own[0], 4.3), (right[1] - own[1], -4.3)] {
             assert!(
@@ -71,25 +64,20 @@ fn draws(frames: &str, arguments: &[&str]) -> [u64; 2] {
 #[test]
 fn what_is_computed_of_a_scene_is_computed_for_each_view() {
     let program = compiled("compute", Compiled::Program, &["-lEGL", "-lGL"]);
-    let folder = tempfile::tempdir().expect("a folder");
-    let picture = folder.path().join("frame.png");
     let expected = lines(&mut bare(&program));
     assert_eq!(expected.matches("shown 0 0 255, error 0x0").count(), 2);
     for atlas in ["side-by-side", "layers"] {
-        for frame in ["1", "2"] {
-            let options = [
-                ("VIEWS", "3"),
-                ("ATLAS", atlas),
-                ("STRATEGY", "replay"),
-                ("SEPARATION", "0.4"),
-                ("CONVERGENCE", "4"),
-                ("CAPTURE_OUT", picture.to_str().expect("UTF-8")),
-                ("CAPTURE_FRAMES", frame),
-                ("CAPTURE_WHAT", "atlas"),
-            ];
-            assert_eq!(lines(&mut layered(&program, &options)), expected, "{atlas}");
-            let all = rgb(&picture);
-            let [left, own, right] = [0, 1, 2].map(|view| extent(&all, VIEWS, view, [0, 0, 255]));
+        for frame in [1, 2] {
+            let views = Views {
+                atlas,
+                strategy: "replay",
+                separation: 0.4,
+                convergence: 4.0,
+                frame,
+            };
+            let (told, all) = views.shown(&mut layered(&program, &[]));
+            assert_eq!(told, expected, "{atlas}");
+            let [left, own, right] = extents(&all, [0, 0, 255]);
             // At depth 2, moved by ±0.4 · (2 − 4) / 2 in 32 columns.
             for (at, shift) in [(left, 12.8), (right, -12.8)] {
                 let by = at[0] - own[0];
@@ -105,25 +93,20 @@ fn what_is_computed_of_a_scene_is_computed_for_each_view() {
 #[test]
 fn what_a_toolkit_draws_in_a_widget_has_its_views_in_the_window() {
     let program = compiled("widget", Compiled::Program, &["-lEGL", "-lGL"]);
-    let folder = tempfile::tempdir().expect("a folder");
-    let picture = folder.path().join("frame.png");
     let expected = lines(&mut bare(&program));
     assert_eq!(expected.matches("pixel 0 255 0, error 0x0").count(), 5);
     for (atlas, strategy) in [("side-by-side", "replay"), ("layers", "instanced")] {
-        for frame in ["1", "2", "3"] {
-            let options = [
-                ("VIEWS", "3"),
-                ("ATLAS", atlas),
-                ("STRATEGY", strategy),
-                ("SEPARATION", "0.2"),
-                ("CONVERGENCE", "2"),
-                ("CAPTURE_OUT", picture.to_str().expect("UTF-8")),
-                ("CAPTURE_FRAMES", frame),
-                ("CAPTURE_WHAT", "atlas"),
-            ];
-            assert_eq!(lines(&mut layered(&program, &options)), expected);
-            let all = rgb(&picture);
-            let [left, own, right] = [0, 1, 2].map(|view| extent(&all, VIEWS, view, [0, 255, 0]));
+        for frame in [1, 2, 3] {
+            let views = Views {
+                atlas,
+                strategy,
+                separation: 0.2,
+                convergence: 2.0,
+                frame,
+            };
+            let (told, all) = views.shown(&mut layered(&program, &[]));
+            assert_eq!(told, expected);
+            let [left, own, right] = extents(&all, [0, 255, 0]);
             // At depth 1, moved by ±0.2 · (1 − 2) / 1 in 32 columns.
             for (at, moved, shift) in [(left, "left", 6.4), (right, "right", -6.4)] {
                 let by = [at[0] - own[0], at[1] - own[1]];
@@ -195,23 +178,14 @@ fn an_explanation_names_passes_and_keeps_shaders_and_rules_change_them() {
 #[test]
 fn every_way_to_draw_reaches_the_framebuffers_of_all_views() {
     let program = compiled("aside", Compiled::Program, &["-lEGL", "-lGL"]);
-    let folder = tempfile::tempdir().expect("a folder");
-    let picture = folder.path().join("frame.png");
-    let all = |way: &str| {
-        let options = [
-            ("VIEWS", "3"),
-            ("ATLAS", "side-by-side"),
-            ("STRATEGY", "replay"),
-            ("SEPARATION", "0.3"),
-            ("CONVERGENCE", "6"),
-            ("CAPTURE_OUT", picture.to_str().expect("UTF-8")),
-            ("CAPTURE_FRAMES", "2"),
-            ("CAPTURE_WHAT", "atlas"),
-        ];
-        let _ = std::fs::remove_file(&picture);
-        succeed(layered(&program, &options).arg(way).env_remove("DISPLAY"));
-        rgb(&picture)
+    let views = Views {
+        atlas: "side-by-side",
+        strategy: "replay",
+        separation: 0.3,
+        convergence: 6.0,
+        frame: 2,
     };
+    let all = |way: &str| views.shown(layered(&program, &[]).arg(way)).1;
     let first = all("");
     // The first red column: at depth 3, moved by 0.3 · (3 − 6) / 3 in 32 columns.
     let width = first.width() / VIEWS;

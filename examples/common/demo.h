@@ -3,6 +3,8 @@
 #ifndef DEMO_H
 #define DEMO_H
 
+#include <stddef.h>
+
 #define GL_GLEXT_PROTOTYPES
 #ifdef DEMO_DLOPEN
 #include "dlgl.h"
@@ -68,6 +70,8 @@ GLuint demo_checker(int size, int squares, const GLubyte a[3], const GLubyte b[3
 GLuint demo_program(const char *vertex, const char *fragment);
 /* The same of any stages, null where there is none: vertex, tessellation control and evaluation, geometry, fragment. */
 GLuint demo_stages(const char *const texts[5]);
+/* A new buffer, left bound; without data it is one that is written often. */
+GLuint demo_buffer(GLenum target, const void *data, size_t size);
 /* Fails where the context is older; 42 is OpenGL 4.2. */
 void demo_needs(int version);
 typedef GLfloat demo_matrix[16]; /* column-major */

@@ -8,7 +8,7 @@
 static const char *first_line(const char **text)
 {
     static const struct { const char *desktop, *es; } lines[] = {
-        {"#version 120\n", "#version 100\nprecision highp float;\n"},
+        {"#version 120\n", "precision highp float;\n"},
         {"#version 330 core\n", "#version 300 es\nprecision highp float;\nprecision highp int;\nprecision highp sampler2DShadow;\n"}};
     for (size_t k = 0; demo_es && k < sizeof lines / sizeof *lines; k++) {
         size_t n = strlen(lines[k].desktop);
@@ -68,6 +68,15 @@ GLuint demo_stages(const char *const texts[5])
 GLuint demo_program(const char *vertex, const char *fragment)
 {
     return demo_stages((const char *const[5]){vertex, NULL, NULL, NULL, fragment});
+}
+
+GLuint demo_buffer(GLenum target, const void *data, size_t size)
+{
+    GLuint name;
+    glGenBuffers(1, &name);
+    glBindBuffer(target, name);
+    glBufferData(target, (GLsizeiptr)size, data, data ? GL_STATIC_DRAW : GL_STREAM_DRAW);
+    return name;
 }
 
 void demo_needs(int version)

@@ -1,7 +1,8 @@
 //! What the generated hooks call: one function per class of command.
 
 use crate::context::{self, enter};
-use manyview_core::gl::Real;
+use manyview_core::gl::{Gl, Real};
+use manyview_core::layer::Layer;
 
 pub(crate) use manyview_core::gl::Object;
 
@@ -52,31 +53,32 @@ pub(crate) fn uniform() {
     manyview_core::state::uniform_changes();
 }
 
+/// What the layer does only where the views have images of their own.
+pub(crate) fn copied(f: impl FnOnce(&Gl, &mut Layer)) {
+    if context::peek(|l| l.has_copies()) == Some(true) {
+        enter(f);
+    }
+}
+
 /// The texture bound at `target` is about to be written to.
 #[inline]
 pub(crate) fn texture(target: u32) {
     any();
-    if context::peek(|l| l.has_copies()) == Some(true) {
-        enter(|gl, l| l.texture_written(gl, target));
-    }
+    copied(|gl, l| l.texture_written(gl, target));
 }
 
 /// A texture or renderbuffer is about to be written to.
 #[inline]
 pub(crate) fn named(object: Object) {
     ask();
-    if context::peek(|l| l.has_copies()) == Some(true) {
-        enter(|gl, l| l.written(gl, object));
-    }
+    copied(|gl, l| l.written(gl, object));
 }
 
 /// Textures are about to be read or written in another way than by drawing.
 #[inline]
 pub(crate) fn settle() {
     ask();
-    if context::peek(|l| l.has_copies()) == Some(true) {
-        enter(|gl, l| l.settle_textures(gl));
-    }
+    copied(|gl, l| l.settle_textures(gl));
 }
 
 /// An attribute is about to advance by instances.
@@ -103,18 +105,14 @@ pub(crate) fn attached() {
 /// The renderbuffer that is bound is about to get another store.
 pub(crate) fn storage() {
     ask();
-    if context::peek(|l| l.has_copies()) == Some(true) {
-        enter(|gl, l| l.storage_changed(gl));
-    }
+    copied(|gl, l| l.storage_changed(gl));
 }
 
 /// A call that makes the smaller levels of the texture bound at `target`.
 pub(crate) fn mipmap(target: u32, call: &mut dyn FnMut(&'static Real)) {
     any();
     call(real());
-    if context::peek(|l| l.has_copies()) == Some(true) {
-        enter(|gl, l| l.mipmaps(gl, target, &mut || call(gl.real())));
-    }
+    copied(|gl, l| l.mipmaps(gl, target, &mut || call(gl.real())));
 }
 
 /// A call that runs a compute shader.

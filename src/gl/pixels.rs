@@ -35,31 +35,28 @@ impl Gl {
     /// glReadPixels of depth as 16 bits, rows bottom up, 0 where [`Gl::reads_depths`] says no; pack state as for [`Gl::read_rgb`].
     pub fn read_depth16(&self, x: i32, y: i32, w: u32, h: u32) -> Vec<u16> {
         let mut out = vec![0u16; w as usize * h as usize];
-        if !self.reads_depths() {
-            return out;
-        }
-        let c = (c::DEPTH_COMPONENT, c::UNSIGNED_SHORT);
-        // SAFETY: w·h·2 bytes; alignment 1, no pack buffer.
-        unsafe {
-            self.real
-                .glReadPixels(x, y, w as i32, h as i32, c.0, c.1, out.as_mut_ptr().cast())
-        };
+        // SAFETY: w·h texels of 2 bytes.
+        unsafe { self.read_depths(x, y, [w, h], c::UNSIGNED_SHORT, out.as_mut_ptr().cast()) };
         out
     }
 
     /// glReadPixels of depth, 0 to `u32::MAX`, rows bottom up, 0 where [`Gl::reads_depths`] says no; no pack buffer may be bound.
     pub fn read_depth32(&self, x: i32, y: i32, w: u32, h: u32) -> Vec<u32> {
         let mut out = vec![0u32; w as usize * h as usize];
-        if !self.reads_depths() {
-            return out;
-        }
-        let c = (c::DEPTH_COMPONENT, c::UNSIGNED_INT);
-        // SAFETY: w·h·4 bytes; alignment 1, no pack buffer.
-        unsafe {
-            self.real
-                .glReadPixels(x, y, w as i32, h as i32, c.0, c.1, out.as_mut_ptr().cast())
-        };
+        // SAFETY: w·h texels of 4 bytes.
+        unsafe { self.read_depths(x, y, [w, h], c::UNSIGNED_INT, out.as_mut_ptr().cast()) };
         out
+    }
+
+    /// # Safety
+    /// `out` has room for the texels of this kind; no pack buffer is bound, and the alignment is no more than theirs.
+    unsafe fn read_depths(&self, x: i32, y: i32, size: [u32; 2], kind: u32, out: Ptr) {
+        let [w, h] = size.map(|side| side as i32);
+        if self.reads_depths() {
+            let format = c::DEPTH_COMPONENT;
+            // SAFETY: the caller's.
+            unsafe { self.real.glReadPixels(x, y, w, h, format, kind, out) };
+        }
     }
 
     /// glDrawPixels of RGB bytes, rows bottom up; unpack state must be the default with alignment 1.

@@ -6,7 +6,9 @@ use crate::draw::{Drawn, NoTwin, Twin, Way, drawn};
 use crate::gl::{Gl, Held, ImageUnit, consts as c};
 use crate::plan::class::Why;
 use crate::plan::{Classed, Flat, Kind, Method, Plan, camera};
-use crate::state::{Linked, Matrices, Samplers, Shaders, Touch, texts, uniform_change};
+use crate::state::{
+    Linked, Matrices, Samplers, Shaders, Touch, link_change, texts, uniform_change,
+};
 use std::collections::HashMap;
 
 /// The programs that were drawn with, by name.
@@ -53,6 +55,8 @@ struct Camera {
 struct Known {
     /// The link that it belongs to.
     link: u64,
+    /// The changes of programs up to which it is the last one.
+    checked: u64,
     how: Result<Drawn, NoTwin>,
     /// The twins that choose layers, once they have been wanted: for one view, and for all.
     layered: [Option<Option<Twin>>; 2],
@@ -60,6 +64,8 @@ struct Known {
     samplers: Samplers,
     /// Their units, and the changes of uniforms up to which they are known.
     units: (u64, Vec<(u32, u32)>),
+    /// Its matrices that take depths back, where they are, up to a change of uniforms and for an aspect.
+    unprojections: (u64, f64, Vec<(i32, [f32; 16])>),
     /// The last one that was among them.
     camera: Option<Camera>,
     /// None of them has a perspective now.
@@ -326,13 +332,17 @@ impl Layer {
     }
 
     /// The matrices by which a program computes positions from depths, with their locations.
-    pub(super) fn unprojections_of(&self, gl: &Gl, program: u32) -> Vec<(i32, [f32; 16])> {
-        let Some(known) = self.twins.known.get(&program) else {
+    pub(super) fn unprojections_of(&mut self, gl: &Gl, program: u32) -> Vec<(i32, [f32; 16])> {
+        let (change, aspect) = (uniform_change(), self.aspect());
+        let Some(known) = self.twins.known.get_mut(&program) else {
             return Vec::new();
         };
-        let mut all = known.matrices.uniforms(gl, program);
-        all.retain(|(_, m)| camera::unprojects(m, self.aspect()));
-        all
+        if (known.unprojections.0, known.unprojections.1) != (change, aspect) {
+            let mut all = known.matrices.uniforms(gl, program);
+            all.retain(|(_, m)| camera::unprojects(m, aspect));
+            known.unprojections = (change, aspect, all);
+        }
+        known.unprojections.2.clone()
     }
 
     /// The texture units that a program samples, counted from 0, with the targets.
@@ -377,14 +387,15 @@ impl Layer {
 
     /// Learns how a program is drawn, once for each of its links.
     pub(super) fn know(&mut self, gl: &Gl, program: u32) {
-        let linked = self.linked_from(program);
+        let checked = link_change();
+        let mut known = self.twins.known.get_mut(&program);
+        if known.as_ref().is_some_and(|known| known.checked == checked) {
+            return;
+        }
+        let linked = self.group.lists().shaders.of(program);
         let link = linked.as_ref().map_or(0, |linked| linked.link);
-        if self
-            .twins
-            .known
-            .get(&program)
-            .is_some_and(|k| k.link == link)
-        {
+        if let Some(known) = known.as_mut().filter(|known| known.link == link) {
+            known.checked = checked;
             return;
         }
         self.state.keep_errors(gl);
@@ -407,10 +418,12 @@ impl Layer {
         }
         let new = Known {
             link,
+            checked,
             how,
             matrices,
             samplers,
             units: (0, Vec::new()),
+            unprojections: (0, 0.0, Vec::new()),
             camera: None,
             lost: true,
             seen: 0,

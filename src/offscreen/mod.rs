@@ -238,11 +238,7 @@ impl Offscreen {
 
     /// Whether the views differ in what a framebuffer holds.
     pub fn is_split(&mut self, gl: &Gl, framebuffer: u32) -> bool {
-        if self.is_empty() || framebuffer == 0 {
-            return false;
-        }
-        let attachments = self.target(gl, framebuffer).attachments.clone();
-        attachments.iter().any(|a| self.has(a.object))
+        framebuffer != 0 && !self.is_empty() && self.target(gl, framebuffer).is_split()
     }
 
     /// The framebuffer of a view; the program's own where it is the only one.

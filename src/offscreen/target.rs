@@ -78,6 +78,11 @@ impl Target {
         !self.views.is_empty()
     }
 
+    /// Whether something that is attached has an image per view.
+    pub(super) fn is_split(&self) -> bool {
+        self.objects.iter().any(Option::is_some)
+    }
+
     /// Nothing but depth or stencil is attached.
     pub fn is_depth_only(&self) -> bool {
         let points = [c::DEPTH_ATTACHMENT, c::STENCIL_ATTACHMENT];

@@ -13,7 +13,7 @@ pub use framebuffer::{BACK, FRONT, Framebuffers, Window};
 pub use lists::{Body, Command, Compiling, Left, Lists, Run, Segment, Start};
 pub use look::Look;
 pub use shaders::{
-    Linked, Matrices, Samplers, Shaders, Text, texts, uniform_change, uniform_changes,
+    Linked, Matrices, Samplers, Shaders, Text, link_change, texts, uniform_change, uniform_changes,
 };
 
 use crate::gl::{Gl, consts as c};

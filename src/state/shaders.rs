@@ -38,6 +38,9 @@ pub struct Shaders {
 /// Changes of uniforms, in all contexts.
 static CHANGES: AtomicU64 = AtomicU64::new(1);
 
+/// Programs that were linked or deleted, in all share groups.
+static LINKS: AtomicU64 = AtomicU64::new(1);
+
 /// A uniform of some program gets another value.
 pub fn uniform_changes() {
     CHANGES.fetch_add(1, Ordering::Relaxed);
@@ -46,6 +49,11 @@ pub fn uniform_changes() {
 /// How many have changed so far.
 pub fn uniform_change() -> u64 {
     CHANGES.load(Ordering::Relaxed)
+}
+
+/// How often any program's executable has changed so far.
+pub fn link_change() -> u64 {
+    LINKS.load(Ordering::Relaxed)
 }
 
 /// What a program has just been linked from. None where that failed, which leaves the executable that was there before.
@@ -69,6 +77,7 @@ impl Shaders {
     /// A program was linked.
     pub fn linked(&mut self, program: u32, texts: Arc<[Text]>) {
         self.links += 1;
+        LINKS.fetch_add(1, Ordering::Relaxed);
         let sum = sum(&texts);
         let link = self.links;
         self.programs.insert(program, Linked { link, texts, sum });
@@ -76,6 +85,7 @@ impl Shaders {
 
     /// A program got its executable in another way, or is no more.
     pub fn forget(&mut self, program: u32) {
+        LINKS.fetch_add(1, Ordering::Relaxed);
         self.programs.remove(&program);
     }
 

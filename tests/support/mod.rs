@@ -2,6 +2,8 @@
 #![forbid(unsafe_code)]
 #![allow(dead_code, reason = "each test file uses its part")]
 
+pub(crate) mod views;
+
 use image::{ImageBuffer, RgbImage, Rgba};
 use manyview::config::OPTIONS;
 use manyview::launch::Xvfb;

@@ -1,7 +1,7 @@
 //! Framebuffer objects and the program's framebuffer 0.
 
-use crate::context::{enter, peek, real};
-use crate::hooks::{Object, ask, compile, named, settle};
+use crate::context::{enter, real};
+use crate::hooks::{Object, ask, compile, copied, named, settle};
 use core::slice::from_raw_parts;
 use manyview_core::gl::{Gl, Ptr, consts as c};
 use manyview_core::layer::{Layer, is_scaled};
@@ -42,10 +42,10 @@ pub(crate) unsafe fn glDeleteFramebuffers(n: i32, framebuffers: Ptr) {
 
 pub(crate) unsafe fn glDeleteRenderbuffers(n: i32, renderbuffers: Ptr) {
     ask();
-    if peek(|l| l.has_copies()) == Some(true) && !renderbuffers.is_null() && n > 0 {
+    if !renderbuffers.is_null() && n > 0 {
         // SAFETY: n names (the program's array).
         let names = unsafe { from_raw_parts(renderbuffers as *const u32, n as usize) };
-        enter(|gl, l| l.deleted_renderbuffers(gl, names));
+        copied(|gl, l| l.deleted_renderbuffers(gl, names));
     }
     // SAFETY: the program's own call.
     unsafe { real().glDeleteRenderbuffers(n, renderbuffers) };
@@ -86,11 +86,9 @@ pub(crate) unsafe fn glGenerateTextureMipmap(texture: u32) {
     ask();
     // SAFETY: the program's own call.
     unsafe { real().glGenerateTextureMipmap(texture) };
-    if peek(|l| l.has_copies()) == Some(true) {
-        // SAFETY: the program's own call, on a texture of ours.
-        let call = &mut |name| unsafe { real().glGenerateTextureMipmap(name) };
-        enter(|gl, l| l.mipmaps_of(gl, texture, call));
-    }
+    // SAFETY: the program's own call, on a texture of ours.
+    let call = &mut |name| unsafe { real().glGenerateTextureMipmap(name) };
+    copied(|gl, l| l.mipmaps_of(gl, texture, call));
 }
 
 /// A choice of buffers: ours for framebuffer 0, else the driver's. In a display list the translated name is compiled.

@@ -1,5 +1,9 @@
 /* A scene in a framebuffer, made into another picture by a compute shader, which the window shows; another one writes what it sees to a buffer. */
+#include "shaders.h"
 #include "surface.h"
+
+/* As the shaders say it themselves. */
+enum { PLACE = 0 };
 
 static const char *const vertex = "#version 430\nuniform mat4 camera; uniform float depth; layout(location = 0) in vec2 place;\n"
                                   "void main() { gl_Position = camera * vec4(place * 0.25 * depth, -depth, 1.0); }\n";
@@ -16,26 +20,12 @@ static const char *const turned[] = {
 static const char *const counted = "#version 430\nlayout(local_size_x = 8, local_size_y = 8) in; uniform sampler2D from; layout(std430, binding = 0) buffer Sum { uint sum; };\n"
                                    "void main() { ivec2 p = ivec2(gl_GlobalInvocationID.xy); if (texelFetch(from, p, 0).g > 0.5) atomicAdd(sum, uint(p.x)); }\n";
 
-static GLuint linked(const char *v, const char *f)
+static GLuint computing(const char *text)
 {
     GLuint program = glCreateProgram();
-    const char *texts[] = {v, f};
-    for (int i = 0; i < (f ? 2 : 1); i++) {
-        GLuint shader = glCreateShader(!f ? GL_COMPUTE_SHADER : i ? GL_FRAGMENT_SHADER : GL_VERTEX_SHADER);
-        glShaderSource(shader, 1, &texts[i], NULL);
-        glCompileShader(shader);
-        glAttachShader(program, shader);
-    }
+    attached(program, GL_COMPUTE_SHADER, text);
     glLinkProgram(program);
     return program;
-}
-
-static void quad(void)
-{
-    static const GLfloat corners[] = {-1, -1, 1, -1, 1, 1, -1, 1};
-    glEnableVertexAttribArray(0);
-    glVertexAttribPointer(0, 2, GL_FLOAT, GL_FALSE, 0, corners);
-    glDrawArrays(GL_TRIANGLE_FAN, 0, 4);
 }
 
 int main(void)
@@ -45,9 +35,9 @@ int main(void)
     unsigned char pixel[4], all[WIDTH * HEIGHT * 4];
     if (!open_surface() || !new_context(EGL_NO_CONTEXT))
         return 2;
-    scene = linked(vertex, fragment), shown = linked(whole, picture), count = linked(counted, NULL);
+    scene = linked(vertex, fragment, PLACE), shown = linked(whole, picture, PLACE), count = computing(counted);
     for (int i = 0; i < 2; i++)
-        computed[i] = linked(turned[i], NULL);
+        computed[i] = computing(turned[i]);
     glGenTextures(2, textures);
     for (int i = 0; i < 2; i++) {
         glBindTexture(GL_TEXTURE_2D, textures[i]);
@@ -65,7 +55,7 @@ int main(void)
         glUseProgram(scene);
         glUniformMatrix4fv(glGetUniformLocation(scene, "camera"), 1, GL_FALSE, camera);
         glUniform1f(glGetUniformLocation(scene, "depth"), 2.0f);
-        quad();
+        quad(PLACE);
         glBindTexture(GL_TEXTURE_2D, textures[0]);
         glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, buffer);
         glBufferData(GL_SHADER_STORAGE_BUFFER, sizeof sum, NULL, GL_DYNAMIC_READ);
@@ -84,7 +74,7 @@ int main(void)
         glGetTexImage(GL_TEXTURE_2D, 0, GL_RGBA, GL_UNSIGNED_BYTE, all);
         glBindFramebuffer(GL_FRAMEBUFFER, 0);
         glUseProgram(shown);
-        quad();
+        quad(PLACE);
         glReadPixels(WIDTH / 2, HEIGHT / 2, 1, 1, GL_RGBA, GL_UNSIGNED_BYTE, pixel);
         const unsigned char *middle = all + 4 * (WIDTH * HEIGHT / 2 + WIDTH / 2);
         printf("sum %u, computed %d %d %d, shown %d %d %d, error 0x%x\n", sum, middle[0], middle[1], middle[2], pixel[0], pixel[1], pixel[2], glGetError());

@@ -5,6 +5,7 @@
  * reversed: glClipControl with depths from 1 (near) to 0 (infinitely far); inverted: glDepthRange(1, 0); overlay: then a flat picture
  * over everything that writes depths; weapon: something at 1.5 in a depth range of its own; cleared: the same after the depths were
  * cleared; nodepth: no depth test; shader, block: shaders of its own, with the projection in a uniform or a block of them. */
+#include "shaders.h"
 #include "surface.h"
 
 #include <string.h>
@@ -40,14 +41,10 @@ static void shaders(int block)
         "#version 150 compatibility\nlayout(std140) uniform View { mat4 camera; }; void main() { gl_Position = camera * gl_Vertex; gl_FrontColor = gl_Color; }",
     };
     static const char *const fragment = "void main() { gl_FragColor = gl_Color; }";
-    GLuint program = glCreateProgram(), shader[] = {glCreateShader(GL_VERTEX_SHADER), glCreateShader(GL_FRAGMENT_SHADER)}, buffer;
+    GLuint program = glCreateProgram(), buffer;
     GLfloat camera[16];
-    glShaderSource(shader[0], 1, &vertex[block], NULL);
-    glShaderSource(shader[1], 1, &fragment, NULL);
-    for (int i = 0; i < 2; i++) {
-        glCompileShader(shader[i]);
-        glAttachShader(program, shader[i]);
-    }
+    attached(program, GL_VERTEX_SHADER, vertex[block]);
+    attached(program, GL_FRAGMENT_SHADER, fragment);
     glLinkProgram(program);
     glUseProgram(program);
     glGetFloatv(GL_PROJECTION_MATRIX, camera);

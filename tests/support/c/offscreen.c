@@ -1,6 +1,9 @@
 /* Framebuffers of a program's own, with a scene in them: prints what a program can know of them, of what they hold and of its errors, while it
  * attaches other images, gives them other stores, reads, copies, blits, deletes. The frame shows the last one. */
+#include "shaders.h"
 #include "surface.h"
+
+enum { PLACE = 3 };
 
 static const char *const vertex = "#version 120\nuniform mat4 camera; uniform float depth; attribute vec2 place;\n"
                                   "void main() { gl_Position = camera * vec4(place * depth * 0.4, -depth, 1.0); }\n";
@@ -11,23 +14,8 @@ static const char *const fetching = "#version 120\nuniform sampler2D image; vary
                                     "void main() { told = texture2DLod(image, vec2(0.1), 0.0); gl_Position = vec4(0.0); }\n";
 static GLuint scene, shown, target[2], depth, colours[2];
 
-static GLuint linked(const char *v, const char *f)
+static void draw(GLuint program, float depth, float r, float g, float b)
 {
-    GLuint program = glCreateProgram();
-    for (int i = 0; i < 2; i++) {
-        GLuint s = glCreateShader(i ? GL_FRAGMENT_SHADER : GL_VERTEX_SHADER);
-        glShaderSource(s, 1, i ? &f : &v, NULL);
-        glCompileShader(s);
-        glAttachShader(program, s);
-    }
-    glBindAttribLocation(program, 3, "place");
-    glLinkProgram(program);
-    return program;
-}
-
-static void quad(GLuint program, float depth, float r, float g, float b)
-{
-    static const GLfloat corners[] = {-1, -1, 1, -1, 1, 1, -1, 1};
     const GLfloat camera[16] = {1.5f, 0, 0, 0, 0, 2, 0, 0, 0, 0, -1.04f, -1, 0, 0, -2.04f, 0};
     glUseProgram(program);
     if (program == scene) {
@@ -35,9 +23,7 @@ static void quad(GLuint program, float depth, float r, float g, float b)
         glUniform1f(glGetUniformLocation(scene, "depth"), depth);
         glUniform4f(glGetUniformLocation(scene, "colour"), r, g, b, 1.0f);
     }
-    glEnableVertexAttribArray(3);
-    glVertexAttribPointer(3, 2, GL_FLOAT, 0, 0, corners);
-    glDrawArrays(GL_TRIANGLE_FAN, 0, 4);
+    quad(PLACE);
 }
 
 static GLuint texture(int width, int height)
@@ -80,7 +66,7 @@ static void fed(void)
 {
     static const char *const names[] = {"told"};
     GLfloat told[4] = {0};
-    GLuint program = linked(fetching, fragment), buffer;
+    GLuint program = linked(fetching, fragment, PLACE), buffer;
     glTransformFeedbackVaryings(program, 1, names, GL_INTERLEAVED_ATTRIBS);
     glLinkProgram(program);
     glGenBuffers(1, &buffer);
@@ -109,7 +95,7 @@ int main(void)
     EGLContext context;
     if (!open_surface() || !(context = new_context(EGL_NO_CONTEXT)))
         return 2;
-    scene = linked(vertex, fragment), shown = linked(whole, picture);
+    scene = linked(vertex, fragment, PLACE), shown = linked(whole, picture, PLACE);
     glGenFramebuffers(2, target);
     glGenRenderbuffers(1, &depth);
     glBindRenderbuffer(GL_RENDERBUFFER, depth);
@@ -121,15 +107,15 @@ int main(void)
     glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, colours[0], 0);
     glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth);
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-    quad(scene, 20, 1, 0, 0);
+    draw(scene, 20, 1, 0, 0);
     tell("a scene", 32, 24);
     glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, colours[1], 0);
     glClear(GL_COLOR_BUFFER_BIT);
-    quad(scene, 10, 0, 1, 0);
+    draw(scene, 10, 0, 1, 0);
     tell("another image", 32, 24);
     image("of the other");
     glDrawBuffer(GL_NONE);
-    quad(scene, 5, 1, 1, 1);
+    draw(scene, 5, 1, 1, 1);
     tell("no image", 32, 24);
     glDrawBuffer(GL_COLOR_ATTACHMENT0);
     glDrawBuffer(GL_COLOR_ATTACHMENT1 + 40);
@@ -139,7 +125,7 @@ int main(void)
     glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, WIDTH / 2, HEIGHT / 2, 0, GL_RGBA, GL_UNSIGNED_BYTE, NULL);
     glViewport(0, 0, WIDTH / 2, HEIGHT / 2);
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-    quad(scene, 3, 0, 0, 1);
+    draw(scene, 3, 0, 0, 1);
     tell("half the size", 16, 12);
 
     glBindFramebuffer(GL_FRAMEBUFFER, target[1]);
@@ -167,19 +153,19 @@ int main(void)
     glViewport(0, 0, WIDTH, HEIGHT);
     glClearColor(0, 1, 0, 1);
     glClear(GL_COLOR_BUFFER_BIT);
-    quad(scene, 3, 0, 0, 1);
+    draw(scene, 3, 0, 0, 1);
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
     glDisable(GL_DEPTH_TEST);
     fed();
     /* As it looks, not only what it holds. */
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_SWIZZLE_R, GL_BLUE);
     glTexParameterf(GL_TEXTURE_2D, GL_TEXTURE_LOD_BIAS, 0.25f);
-    quad(shown, 0, 0, 0, 0);
+    draw(shown, 0, 0, 0, 0);
     tell("shown", 32, 24);
     eglSwapBuffers(display, surface);
 
     glBindFramebuffer(GL_FRAMEBUFFER, target[1]);
-    quad(scene, 9, 1, 1, 0);
+    draw(scene, 9, 1, 1, 0);
     /* Without a surface there is nothing to show in views. */
     context = eglCreateContext(display, config, context, NULL);
     if (!eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context))

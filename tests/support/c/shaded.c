@@ -1,22 +1,20 @@
 /* Programs with shaders: prints what a program can know of them and of its errors, with draws in between. The first frame is drawn by a
  * program with a camera, linked twice; the second by one without, while errors are made. */
+#include "shaders.h"
 #include "surface.h"
 #include <GL/glext.h>
 #include <string.h>
 
-static GLuint linked(GLuint program, const char *fragment, int flat)
+enum { PLACE = 3 };
+
+/* Its shaders are gone when it is linked. */
+static GLuint made(GLuint program, const char *fragment, int flat)
 {
     const char *vertex = flat ? "#version 120\nattribute vec2 place; void main() { gl_Position = vec4(place, 0.0, 1.0); }\n"
                               : "#version 120\nuniform mat4 camera; uniform float depth; attribute vec2 place;\n"
                                 "void main() { gl_Position = camera * vec4(place * depth * 0.4, -depth, 1.0); }\n";
-    GLuint shaders[2] = {glCreateShader(GL_VERTEX_SHADER), glCreateShader(GL_FRAGMENT_SHADER)};
-    const char *texts[2] = {vertex, fragment};
-    for (int i = 0; i < 2; i++) {
-        glShaderSource(shaders[i], 1, &texts[i], NULL);
-        glCompileShader(shaders[i]);
-        glAttachShader(program, shaders[i]);
-    }
-    glBindAttribLocation(program, 3, "place");
+    GLuint shaders[2] = {attached(program, GL_VERTEX_SHADER, vertex), attached(program, GL_FRAGMENT_SHADER, fragment)};
+    glBindAttribLocation(program, PLACE, "place");
     glLinkProgram(program);
     for (int i = 0; i < 2; i++) {
         glDetachShader(program, shaders[i]);
@@ -50,14 +48,6 @@ static void tell(const char *what)
     printf("  pixel %d %d %d, error 0x%x\n", pixel[0], pixel[1], pixel[2], glGetError());
 }
 
-static void quad(void)
-{
-    static const GLfloat corners[] = {-1, -1, 1, -1, 1, 1, -1, 1};
-    glEnableVertexAttribArray(3);
-    glVertexAttribPointer(3, 2, GL_FLOAT, 0, 0, corners);
-    glDrawArrays(GL_TRIANGLE_FAN, 0, 4);
-}
-
 int main(void)
 {
     const GLfloat camera[16] = {1.5f, 0, 0, 0, 0, 2, 0, 0, 0, 0, -1.04f, -1, 0, 0, -2.04f, 0};
@@ -65,35 +55,35 @@ int main(void)
         return 2;
     glEnable(GL_DEPTH_TEST);
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-    GLuint seen = linked(glCreateProgram(), "void main() { gl_FragColor = vec4(1.0, 0.0, 0.0, 1.0); }", 0);
+    GLuint seen = made(glCreateProgram(), "void main() { gl_FragColor = vec4(1.0, 0.0, 0.0, 1.0); }", 0);
     glUseProgram(seen);
     glUniformMatrix4fv(glGetUniformLocation(seen, "camera"), 1, 0, camera);
     glUniform1f(glGetUniformLocation(seen, "depth"), 20.0f);
-    quad();
+    quad(PLACE);
     tell("a far quad");
-    linked(seen, "uniform float green; void main() { gl_FragColor = vec4(0.0, green, 0.0, 1.0); }", 0);
+    made(seen, "uniform float green; void main() { gl_FragColor = vec4(0.0, green, 0.0, 1.0); }", 0);
     glUniformMatrix4fv(glGetUniformLocation(seen, "camera"), 1, 0, camera);
     glUniform1f(glGetUniformLocation(seen, "depth"), 20.0f);
     glUniform1f(glGetUniformLocation(seen, "green"), 0.25f);
     glClear(GL_DEPTH_BUFFER_BIT);
-    quad();
+    quad(PLACE);
     tell("linked anew");
     glDeleteProgram(seen);
     glUniform1f(glGetUniformLocation(seen, "depth"), 2.0f);
     glUniform1f(glGetUniformLocation(seen, "green"), 1.0f);
-    quad();
+    quad(PLACE);
     tell("deleted, and nearer");
     GLint gone[2];
     glGetProgramiv(seen, GL_DELETE_STATUS, &gone[0]);
     eglSwapBuffers(display, surface);
 
-    GLuint plain = linked(glCreateProgram(), "void main() { gl_FragColor = vec4(0.0, 0.0, 1.0, 1.0); }", 1);
+    GLuint plain = made(glCreateProgram(), "void main() { gl_FragColor = vec4(0.0, 0.0, 1.0, 1.0); }", 1);
     glUseProgram(plain);
     glGetProgramiv(plain, GL_DELETE_STATUS, &gone[1]);
     printf("deleted: %d %d, there: %d %d\n", gone[0], gone[1], glIsProgram(seen), glIsProgram(plain));
     for (int i = 0; i < 3; i++) {
         glEnable(GL_TEXTURE_2D + 0x7000);
-        quad();
+        quad(PLACE);
         printf("an error before a draw: 0x%x\n", glGetError());
     }
     tell("without a camera");

@@ -2,38 +2,18 @@
  * context shows in the window; in the first frame by a texture, in the second, larger one by a blit.
  *
  * widget [FILE]: two frames, or as many until there is a file. */
+#include "shaders.h"
 #include "surface.h"
 
 #include <unistd.h>
+
+enum { PLACE = 0 };
 
 static const char *const vertex = "#version 120\nuniform mat4 camera; uniform float depth; attribute vec2 place;\n"
                                   "void main() { gl_Position = camera * vec4(place * 0.25 * depth, -depth, 1.0); }\n";
 static const char *const fragment = "void main() { gl_FragColor = vec4(0.0, 1.0, 0.0, 1.0); }";
 static const char *const whole = "attribute vec2 place; varying vec2 at; void main() { at = place * 0.5 + 0.5; gl_Position = vec4(place, 0.0, 1.0); }";
 static const char *const picture = "uniform sampler2D image; varying vec2 at; void main() { gl_FragColor = texture2D(image, at); }";
-
-static GLuint linked(const char *v, const char *f)
-{
-    GLuint program = glCreateProgram();
-    GLuint shaders[] = {glCreateShader(GL_VERTEX_SHADER), glCreateShader(GL_FRAGMENT_SHADER)};
-    glShaderSource(shaders[0], 1, &v, NULL);
-    glShaderSource(shaders[1], 1, &f, NULL);
-    for (int i = 0; i < 2; i++) {
-        glCompileShader(shaders[i]);
-        glAttachShader(program, shaders[i]);
-    }
-    glBindAttribLocation(program, 0, "place");
-    glLinkProgram(program);
-    return program;
-}
-
-static void quad(void)
-{
-    static const GLfloat corners[] = {-1, -1, 1, -1, 1, 1, -1, 1};
-    glEnableVertexAttribArray(0);
-    glVertexAttribPointer(0, 2, GL_FLOAT, GL_FALSE, 0, corners);
-    glDrawArrays(GL_TRIANGLE_FAN, 0, 4);
-}
 
 static void tell(const char *what, int x, int y)
 {
@@ -50,13 +30,13 @@ int main(int count, char **arguments)
     EGLSurface unseen;
     if (!open_surface() || !(window = new_context(EGL_NO_CONTEXT)))
         return 2;
-    shown = linked(whole, picture);
+    shown = linked(whole, picture, PLACE);
     glGenFramebuffers(1, &reader);
     unseen = eglCreatePbufferSurface(display, config, one);
     widget = eglCreateContext(display, config, window, NULL);
     if (!eglMakeCurrent(display, unseen, unseen, widget))
         return 3;
-    scene = linked(vertex, fragment);
+    scene = linked(vertex, fragment, PLACE);
     glGenTextures(1, &texture);
     glGenRenderbuffers(1, &depth);
     glGenFramebuffers(1, &framebuffer);
@@ -83,7 +63,7 @@ int main(int count, char **arguments)
         glUniformMatrix4fv(glGetUniformLocation(scene, "camera"), 1, GL_FALSE, camera);
         /* Where w is 1 for things in the scene, as it is for those that have no depth. */
         glUniform1f(glGetUniformLocation(scene, "depth"), 1.0f);
-        quad();
+        quad(PLACE);
         tell("in the widget", w / 2, h / 2);
         glFlush();
 
@@ -95,7 +75,7 @@ int main(int count, char **arguments)
             glBindTexture(GL_TEXTURE_2D, texture);
             glUseProgram(shown);
             glDisable(GL_DEPTH_TEST);
-            quad();
+            quad(PLACE);
         } else {
             glBindFramebuffer(GL_FRAMEBUFFER, reader);
             glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture, 0);
@@ -111,7 +91,7 @@ int main(int count, char **arguments)
     glBindTexture(GL_TEXTURE_2D, texture);
     glUseProgram(shown);
     glClear(GL_COLOR_BUFFER_BIT);
-    quad();
+    quad(PLACE);
     tell("of a context that is gone", WIDTH / 2, HEIGHT / 2);
     glDeleteTextures(1, &texture);
     eglSwapBuffers(display, surface);

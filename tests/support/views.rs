@@ -1,0 +1,46 @@
+//! Programs in three views: what they print, and the picture of all views of one frame.
+#![forbid(unsafe_code)]
+
+use super::{extent, lines, rgb};
+use image::RgbImage;
+use std::process::Command;
+
+/// As many as [`Views::shown`] asks for.
+pub(crate) const VIEWS: u32 = 3;
+
+/// How the views are drawn, and the frame that is kept.
+#[derive(Clone, Copy)]
+pub(crate) struct Views<'a> {
+    pub(crate) atlas: &'a str,
+    pub(crate) strategy: &'a str,
+    pub(crate) separation: f64,
+    pub(crate) convergence: f64,
+    /// From 1.
+    pub(crate) frame: u32,
+}
+
+impl Views<'_> {
+    /// What a program without a screen prints, and its atlas: the views side by side. The command is one of
+    /// [`layered`](super::layered).
+    pub(crate) fn shown(self, command: &mut Command) -> (String, RgbImage) {
+        let folder = tempfile::tempdir().expect("a folder");
+        let picture = folder.path().join("frame.png");
+        let options = [
+            ("VIEWS", VIEWS.to_string()),
+            ("ATLAS", self.atlas.to_owned()),
+            ("STRATEGY", self.strategy.to_owned()),
+            ("SEPARATION", self.separation.to_string()),
+            ("CONVERGENCE", self.convergence.to_string()),
+            ("CAPTURE_OUT", picture.display().to_string()),
+            ("CAPTURE_FRAMES", self.frame.to_string()),
+            ("CAPTURE_WHAT", "atlas".to_owned()),
+        ];
+        command.envs(options.map(|(name, value)| (format!("MANYVIEW_{name}"), value)));
+        (lines(command), rgb(&picture))
+    }
+}
+
+/// The [`extent`] of a colour in each view, the leftmost camera's first.
+pub(crate) fn extents(all: &RgbImage, colour: [u8; 3]) -> [[f64; 2]; VIEWS as usize] {
+    std::array::from_fn(|view| extent(all, VIEWS, view as u32, colour))
+}
