@@ -43,7 +43,7 @@ pub enum DepthRange {
     Whole,
     /// From the near end, not to the far one: before what is drawn to the whole, wherever it is.
     Near,
-    /// The far end alone: behind everything.
+    /// The far hundredth alone: behind everything.
     Far,
     /// Anything else.
     Part,

@@ -99,10 +99,13 @@ impl State {
 }
 
 /// The part of the depth buffer between two values of glDepthRange.
+/// From here on nothing but a sky is drawn: the scene has all that is nearer, in Trigger Rally up to 0.999.
+const FAR: f32 = 0.99;
+
 fn depth_range([near, far]: [f32; 2]) -> DepthRange {
     match (near.min(far), near.max(far)) {
         (0.0, 1.0) => DepthRange::Whole,
-        (1.0, _) => DepthRange::Far,
+        (FAR.., _) => DepthRange::Far,
         (0.0, _) => DepthRange::Near,
         _ => DepthRange::Part,
     }
@@ -118,6 +121,9 @@ mod tests {
             ([0.0, 1.0], DepthRange::Whole),
             ([1.0, 0.0], DepthRange::Whole),
             ([1.0, 1.0], DepthRange::Far),
+            ([0.999, 1.0], DepthRange::Far),
+            ([1.0, 0.99], DepthRange::Far),
+            ([0.98, 1.0], DepthRange::Part),
             ([0.0, 0.3], DepthRange::Near),
             ([0.0, 0.0], DepthRange::Near),
             ([0.3, 1.0], DepthRange::Part),
