@@ -50,6 +50,13 @@ struct Uniforms {
     // (x, y, 1, i) (lenses only).
     column: vec4<f32>,
     row: vec4<f32>,
+    // Heights: the factor of the depth, what is added, what is infinitely far, and the depth of what nothing was drawn on (the rest
+    // is of synthesis only, see field.wgsl).
+    field: vec4<f32>,
+    // Levers: of view 0, from view to view; the height of what nothing was drawn on; by how much depths are moved away.
+    lever: vec4<f32>,
+    // Of one view: its lever, the left edge of its tile; 1: holes are marked; the longest lever of any view.
+    aim: vec4<f32>,
 }
 
 var<immediate> u: Uniforms;

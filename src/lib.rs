@@ -23,8 +23,6 @@ pub mod gl;
 
 pub mod metric;
 
-pub mod synthesis;
-
 pub mod report;
 
 #[cfg(feature = "cli")]
@@ -43,6 +41,8 @@ pub mod draw;
 pub mod interleave;
 
 pub mod accumulation;
+
+pub mod synthesis;
 
 pub mod present;
 

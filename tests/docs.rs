@@ -113,7 +113,7 @@ fn the_commands_of_the_documents_are_accepted() {
     // The picture that an earlier line takes of a program.
     let panel = image::RgbImage::new(96, 54);
     panel.save(folder.path().join("panel.png")).expect("saved");
-    let quilt = folder.path().join("scene_qs4x2a1.78.png");
+    let quilt = folder.path().join("scene_qs4x2a1.png");
     panel.save(quilt).expect("saved");
     support::library();
     let documents = [
@@ -190,7 +190,12 @@ fn the_pictures_and_documents_that_are_linked_exist_and_are_small() {
         if let Some(heading) = target.strip_prefix('#') {
             let headings = README.lines().filter(|line| line.starts_with('#'));
             let here = headings
-                .map(|line| line.trim_start_matches('#').trim().to_lowercase())
+                .map(|line| {
+                    line.trim_start_matches('#')
+                        .trim()
+                        .to_lowercase()
+                        .replace(' ', "-")
+                })
                 .any(|line| line == heading);
             assert!(here, "{target}");
             continue;

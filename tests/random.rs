@@ -265,6 +265,13 @@ fn random_calls_by_instances() {
 }
 
 #[test]
+fn random_calls_by_depth_images() {
+    compare(Api::Egl, "side-by-side", "depth-image", 43_000..43_060);
+    compare(Api::Egl, "layers", "depth-image", 43_060..43_090);
+    compare(Api::OsMesa, "side-by-side", "depth-image", 43_090..43_110);
+}
+
+#[test]
 #[ignore = "minutes"]
 fn full_ten_thousand_random_sequences() {
     compare(Api::Egl, "side-by-side", "replay", 100_000..110_000);

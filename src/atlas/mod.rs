@@ -2,6 +2,7 @@
 #![forbid(unsafe_code)]
 
 mod depths;
+mod field;
 mod front;
 mod grid;
 mod names;
@@ -12,6 +13,8 @@ mod surface;
 mod tiles;
 
 use depths::Depths;
+use field::Field;
+pub use field::{FieldTarget, FieldTextures};
 use front::Front;
 pub use grid::Grid;
 pub use names::Names;
@@ -44,6 +47,7 @@ pub struct Atlas {
     /// What is read from, and what a scaled blit is drawn to.
     singles: Vec<Single>,
     depths: Option<Depths>,
+    field: Option<Field>,
     bound_row: u32,
 }
 
@@ -156,6 +160,12 @@ fn padded(gl: &Gl, width: u32) -> u32 {
 fn store(gl: &Gl, name: u32, format: (u32, u32, u32), [width, height, layers]: [i32; 3]) {
     gl.bind_texture(c::TEXTURE_2D_ARRAY, name);
     gl.tex_storage_3d(format.0, width, height, layers, format.1, format.2);
+    fetched(gl);
+    gl.bind_texture(c::TEXTURE_2D_ARRAY, 0);
+}
+
+/// The texture that is bound has one level, and is fetched from.
+fn fetched(gl: &Gl) {
     for (p, v) in [
         (c::TEXTURE_MIN_FILTER, c::NEAREST),
         (c::TEXTURE_MAG_FILTER, c::NEAREST),
@@ -163,7 +173,6 @@ fn store(gl: &Gl, name: u32, format: (u32, u32, u32), [width, height, layers]: [
     ] {
         gl.tex_parameteri(c::TEXTURE_2D_ARRAY, p, v as i32);
     }
-    gl.bind_texture(c::TEXTURE_2D_ARRAY, 0);
 }
 
 impl Atlas {
@@ -256,6 +265,7 @@ impl Atlas {
             front: None,
             singles: Vec::new(),
             depths: None,
+            field: None,
             bound_row: 0,
         };
         if status != c::FRAMEBUFFER_COMPLETE {
@@ -285,7 +295,9 @@ impl Atlas {
         let resolve = self.resolve.iter().flatten().copied();
         let singles = self.singles.iter().map(Single::framebuffer);
         let depths = self.depths.iter().map(Depths::framebuffer);
-        self.targets().chain(resolve).chain(singles).chain(depths)
+        let field = self.field.iter().flat_map(Field::framebuffers);
+        let views = self.targets().chain(resolve);
+        views.chain(singles).chain(depths).chain(field)
     }
 
     /// Whether a texture is the atlas's own.

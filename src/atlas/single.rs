@@ -1,6 +1,6 @@
 //! A copy of one tile with nothing beside it, for reads that the tiles themselves cannot answer.
 
-use super::{Names, color_format, depth_format};
+use super::{Names, color_format, depth_format, fetched};
 use crate::gl::{Gl, consts as c};
 use crate::state::Window;
 
@@ -8,6 +8,8 @@ use crate::state::Window;
 #[derive(Debug)]
 pub(super) struct Single {
     framebuffer: u32,
+    /// Colours and depths; 0 where there is none.
+    textures: [u32; 2],
     size: [i32; 2],
 }
 
@@ -24,22 +26,29 @@ impl Single {
     ) -> Single {
         let framebuffer = gl.gen_framebuffer();
         gl.bind_framebuffer(c::FRAMEBUFFER, framebuffer);
-        let mut attach = |point, (internal, format, kind)| {
+        let mut own = [0; 2];
+        let mut attach = |at: usize, point, (internal, format, kind)| {
             let name = names.texture(gl);
             gl.bind_texture(c::TEXTURE_2D_ARRAY, name);
             gl.tex_storage_3d(internal, size[0], size[1], 1, format, kind);
+            fetched(gl);
             gl.bind_texture(c::TEXTURE_2D_ARRAY, 0);
             gl.framebuffer_texture_layer(c::FRAMEBUFFER, point, name, 0, 0);
             textures.push(name);
+            own[at] = name;
         };
-        attach(c::COLOR_ATTACHMENT0, color_format(window));
+        attach(0, c::COLOR_ATTACHMENT0, color_format(window));
         if let Some((internal, format, kind, point)) = depth_format(window) {
-            attach(point, (internal, format, kind));
+            attach(1, point, (internal, format, kind));
         }
         if flip {
             gl.flip_framebuffer(c::FRAMEBUFFER);
         }
-        Single { framebuffer, size }
+        Single {
+            framebuffer,
+            textures: own,
+            size,
+        }
     }
 
     /// Takes a copy of the tile at an x offset in pixels of a framebuffer. Binds that one for reading and itself for drawing; the
@@ -74,6 +83,11 @@ impl Single {
     /// Width and height in pixels.
     pub(super) fn size(&self) -> [i32; 2] {
         self.size
+    }
+
+    /// Of its colours and depths; 0 where the window has none.
+    pub(super) fn textures(&self) -> [u32; 2] {
+        self.textures
     }
 
     /// Its name.

@@ -71,6 +71,11 @@ pub const CONFIGURATIONS: &[Configuration] = &[
         "one draw, a geometry shader makes the views",
     ),
     row(
+        "depth-image",
+        &[(OptionId::Strategy, "depth-image")],
+        "the scene once, the other views by its depths",
+    ),
+    row(
         "replay-layers",
         &[REPLAY, LAYERS],
         "replay, the views in layers of the atlas",

@@ -36,7 +36,7 @@ pub(crate) struct LayerArguments {
     #[arg(long)]
     auto_depth: bool,
     /// How draws are repeated per view [default: auto]
-    #[arg(long, value_name = "auto|replay|instanced|geometry")]
+    #[arg(long, value_name = "auto|replay|instanced|geometry|depth-image")]
     strategy: Option<String>,
     /// Where the views lie in memory [default: side-by-side]
     #[arg(long, value_name = "side-by-side|layers")]
@@ -44,6 +44,9 @@ pub(crate) struct LayerArguments {
     /// Put the views of instanced and geometry side by side, and keep them apart so [default: views lie in layers]
     #[arg(long, value_name = "distances|discard|both|cut")]
     clip: Option<String>,
+    /// What views made by depth-image have where nothing is known: what is behind, or magenta [default: fill]
+    #[arg(long, value_name = "fill|mark")]
+    holes: Option<String>,
     /// Size of a view over the size of the window, above 0 and at most 1 [default: 1]
     #[arg(long, value_name = "F", allow_hyphen_values = true)]
     view_scale: Option<String>,
@@ -94,6 +97,7 @@ impl LayerArguments {
             (OptionId::Strategy, &self.strategy),
             (OptionId::Atlas, &self.atlas),
             (OptionId::Clip, &self.clip),
+            (OptionId::Holes, &self.holes),
             (OptionId::ViewScale, &self.view_scale),
             (OptionId::HudDepth, &self.hud_depth),
             (OptionId::Without, &self.without),

@@ -55,6 +55,8 @@ pub struct Config {
     pub atlas: AtlasLayout,
     /// What keeps views beside each other apart where one draw makes several; views lie in layers unless it is given.
     pub clip: Option<Clip>,
+    /// Holes of views that are made of depths are magenta.
+    pub marks_holes: bool,
     /// Size of a tile over the size of the window.
     pub view_scale: ViewScale,
     /// Where flat draws stand that no rule places: 0 on the panel, 1 infinitely far; a fraction of the separation at infinity.
@@ -264,6 +266,8 @@ pub enum Strategy {
     Instanced,
     /// One draw through a generated geometry shader.
     Geometry,
+    /// The scene once, and the other views by its depths.
+    DepthImage,
 }
 
 impl Strategy {

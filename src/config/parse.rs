@@ -31,7 +31,7 @@ impl Config {
                 settings,
                 OptionId::Strategy,
                 STRATEGIES,
-                "auto, replay, instanced and geometry",
+                "auto, replay, instanced, geometry and depth-image",
             )?
             .unwrap_or(Strategy::Auto),
             atlas: choice(
@@ -47,6 +47,8 @@ impl Config {
                 CLIPS,
                 "distances, discard, both and cut",
             )?,
+            marks_holes: choice(settings, OptionId::Holes, HOLES, "fill and mark")?
+                .unwrap_or(false),
             view_scale: view_scale(settings)?,
             hud_depth: hud_depth(settings)?,
             without: without(settings)?,
@@ -68,7 +70,10 @@ pub(super) const STRATEGIES: &[(&str, Strategy)] = &[
     ("replay", Strategy::Replay),
     ("instanced", Strategy::Instanced),
     ("geometry", Strategy::Geometry),
+    ("depth-image", Strategy::DepthImage),
 ];
+
+const HOLES: &[(&str, bool)] = &[("fill", false), ("mark", true)];
 
 const CLIPS: &[(&str, Clip)] = &[
     ("distances", Clip::Distances),

@@ -137,6 +137,18 @@ impl Gl {
         gen_vertex_array = glGenVertexArrays, VertexArray;
     }
 
+    /// glDepthFunc
+    pub fn depth_func(&self, func: u32) {
+        // SAFETY: a context is current.
+        unsafe { self.real.glDepthFunc(func) }
+    }
+
+    /// glDepthMask
+    pub fn depth_mask(&self, mask: u8) {
+        // SAFETY: a context is current.
+        unsafe { self.real.glDepthMask(mask) }
+    }
+
     /// glIsEnabled
     pub fn is_enabled(&self, cap: u32) -> bool {
         // SAFETY: a context is current.

@@ -1,9 +1,12 @@
 //! The output passes in the program's context: on the GPU, or by the CPU reference where the context's GLSL is too old.
 
-use super::shader::{DEPTH_UNIT, Lenses, MASK_UNIT, Pass, Texels, Uniforms, VIEWS_UNIT};
+use super::shader::{
+    DEPTH_UNIT, Lenses, MASK_UNIT, PEAKS_UNIT, Pass, RANGE_UNIT, Synthesis, Texels, Uniforms,
+    VIEWS_UNIT,
+};
 use super::sheet::{self, Sheet};
-use super::{Depth, Form, Layout, Program, reference, rgbd};
-use crate::atlas::{Names, Shown, Tiles};
+use super::{Depth, Form, Heights, Layout, Program, reference, rgbd};
+use crate::atlas::{FieldTextures, Names, Shown, Tiles};
 use crate::config::{Config, Filter, Output};
 use crate::display::{Display, GUARD, Lens, Mask, Placement};
 use crate::gl::{Gl, consts as c};
@@ -21,6 +24,8 @@ pub struct Source<'a> {
     /// The array texture of their depths, 0 where the window has none, and what is in it of the own view; only where the output
     /// shows it.
     pub depth: Option<(u32, &'a Depth)>,
+    /// The own view alone was drawn: the textures of its heights, measured, and what they are; only a panel's picture is made of it.
+    pub field: Option<(FieldTextures, Heights)>,
     /// Its colours are stored as sRGB, and so are the window's.
     pub srgb: bool,
 }
@@ -97,8 +102,9 @@ fn reserve(gl: &Gl, names: &mut Names) -> u32 {
 }
 
 impl Interleaver {
-    /// Compiles the passes. Where that fails the CPU takes over and [`Interleaver::note`] says why.
-    pub fn new(gl: &Gl, names: &mut Names, glsl: u32) -> Self {
+    /// Compiles the passes, `synthesis`: also the one from the own view alone. Where that fails the CPU takes over and
+    /// [`Interleaver::note`] says why.
+    pub fn new(gl: &Gl, names: &mut Names, glsl: u32, synthesis: bool) -> Self {
         let mut i = Interleaver {
             vertex_array: 0,
             programs: Vec::new(),
@@ -109,7 +115,9 @@ impl Interleaver {
             uploaded: None,
             cpu: None,
         };
-        for pass in Pass::OUTPUTS {
+        let panel = |whole| Pass::Synthesis(Synthesis::Panel { whole });
+        let panels = [true, false].into_iter().filter(|_| synthesis).map(panel);
+        for pass in Pass::OUTPUTS.into_iter().chain(panels) {
             match Program::new(gl, glsl, pass) {
                 Ok(program) => i.programs.push((pass, program)),
                 Err(e) => {
@@ -199,6 +207,16 @@ impl Interleaver {
             gl.active_texture(c::TEXTURE0 + DEPTH_UNIT);
             gl.bind_texture(c::TEXTURE_2D_ARRAY, texture);
         }
+        if let Some((textures, _)) = source.field {
+            for (unit, texture) in [
+                (DEPTH_UNIT, textures.depth),
+                (RANGE_UNIT, textures.range),
+                (PEAKS_UNIT, textures.peaks),
+            ] {
+                gl.active_texture(c::TEXTURE0 + unit);
+                gl.bind_texture(c::TEXTURE_2D_ARRAY, texture);
+            }
+        }
         gl.active_texture(c::TEXTURE0 + VIEWS_UNIT);
         gl.bind_texture(c::TEXTURE_2D_ARRAY, source.texture);
         let t = &source.tiles;
@@ -227,6 +245,9 @@ impl Interleaver {
             },
             grid: t.grid,
             depth: source.depth.map_or([0.0; 2], |(_, depth)| depth.ends),
+            heights: source
+                .field
+                .map_or(Heights::default(), |(_, heights)| heights),
         };
         program.bind(gl, &uniforms.words());
         gl.bind_vertex_array(self.vertex_array);
@@ -244,6 +265,11 @@ impl Interleaver {
     /// The pass that makes a picture; where it needs the mask, that is bound.
     fn pass(&mut self, gl: &Gl, of: Of, form: &Form, source: &Source, size: [u32; 2]) -> Pass {
         let tiles = &source.tiles;
+        if source.field.is_some()
+            && let Some(Uploaded { whole, .. }) = self.upload(gl, of, None, None)
+        {
+            return Pass::Synthesis(Synthesis::Panel { whole });
+        }
         let texels = tiles.grid.is_full() && [tiles.width, tiles.height] == size;
         let filter = match form {
             Form::Layout(Layout::View(_)) if texels => return Pass::Whole,

@@ -1,12 +1,13 @@
 //! From N views to the picture that is shown.
 //!
 //! `reference` does it exactly on the CPU and is what the GPU is compared with; `shader` translates the passes of
-//! `shaders/*.wgsl` for the program's context, `program` compiles them; `layout`, `anaglyph` and `depth` hold what both agree on; `gpu` draws.
+//! `shaders/*.wgsl` for the program's context, `program` compiles them; `layout`, `anaglyph`, `depth` and `field` hold what both agree on; `gpu` draws.
 #![forbid(unsafe_code)]
 
 mod anaglyph;
 pub mod cost;
 mod depth;
+mod field;
 mod gpu;
 mod layout;
 mod program;
@@ -20,6 +21,7 @@ mod tests;
 
 pub use anaglyph::Matrix;
 pub use depth::{Depth, rgbd};
+pub use field::Heights;
 pub use gpu::{Glass, Interleaver, Source, glsl_version};
 pub use layout::Layout;
 pub use program::Program;

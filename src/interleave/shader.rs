@@ -7,6 +7,7 @@
 
 use super::Layout;
 use super::anaglyph::Matrix;
+use super::field::Heights;
 use crate::atlas::Grid;
 use crate::config::Filter;
 use naga::back::glsl;
@@ -22,6 +23,9 @@ const LENSES: &str = include_str!("../../shaders/lenses.wgsl");
 const LAYOUT: &str = include_str!("../../shaders/layout.wgsl");
 const ANAGLYPH: &str = include_str!("../../shaders/anaglyph.wgsl");
 const RGBD: &str = include_str!("../../shaders/rgbd.wgsl");
+const FIELD: &str = include_str!("../../shaders/field.wgsl");
+const SYNTHESIS: &str = include_str!("../../shaders/synthesis.wgsl");
+const THROUGH: &str = include_str!("../../shaders/through.wgsl");
 const COPY: &str = include_str!("../../shaders/copy.wgsl");
 const ACCUMULATE: &str = include_str!("../../shaders/accumulate.wgsl");
 
@@ -32,6 +36,11 @@ pub const MASK_UNIT: u32 = 1;
 
 /// Texture unit of the depths of the views: a 2D array texture.
 pub const DEPTH_UNIT: u32 = 2;
+
+/// Texture unit of the range of heights that rays meet: an array texture of one layer; see `shaders/field.wgsl`.
+pub const RANGE_UNIT: u32 = 3;
+/// Texture unit of the same of blocks.
+pub const PEAKS_UNIT: u32 = 4;
 
 /// What a pass makes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -54,6 +63,8 @@ pub enum Pass {
     Copy,
     /// A step of the accumulation buffer.
     Accumulate(Step),
+    /// Views of a picture with depths.
+    Synthesis(Synthesis),
 }
 
 /// What the mask and the atlas are like; see `shaders/texels.wgsl`.
@@ -74,6 +85,24 @@ pub enum Lenses {
     Pixels,
     /// Between texels.
     Texels,
+}
+
+/// What is made of a picture with depths; see `shaders/field.wgsl`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Synthesis {
+    /// The greatest and the least height of each block of a row.
+    Peaks,
+    /// The greatest of each row.
+    Tops,
+    /// The greatest and the least of all that the rays of a block can meet.
+    Range,
+    /// One view, with depths.
+    View,
+    /// The panel's picture, through a mask of views; of one view for each pixel, where the mask is `whole`.
+    Panel {
+        /// Red, green and blue show the same view.
+        whole: bool,
+    },
 }
 
 /// What is done to the accumulation buffer, texel by texel; see `shaders/accumulate.wgsl`.
@@ -108,6 +137,18 @@ impl Pass {
         Self::Whole,
         Self::Anaglyph,
         Self::Rgbd,
+    ];
+}
+
+impl Synthesis {
+    /// All of them.
+    pub const ALL: [Self; 6] = [
+        Self::Peaks,
+        Self::Tops,
+        Self::Range,
+        Self::View,
+        Self::Panel { whole: false },
+        Self::Panel { whole: true },
     ];
 }
 
@@ -255,17 +296,19 @@ pub struct Uniforms {
     pub depth: [f32; 2],
     /// Where the picture's pixels lie in the tiles; only the passes of lenses read it.
     pub grid: Grid,
+    /// What depths are; only the passes of synthesis read it.
+    pub heights: Heights,
 }
 
 impl Uniforms {
     /// In the order and alignment of the WGSL struct.
-    pub fn words(&self) -> [u32; 56] {
+    pub fn words(&self) -> [u32; 68] {
         let [tile_x, tile_y] = self.tile;
         let [out_x, out_y] = self.picture;
         let (grid_x, grid_y) = self.layout.grid(self.views);
         let (columns, views) = (self.columns.max(1), self.views.max(1));
         let [period_x, period_y] = self.period.map(|p| p.max(1));
-        let mut words = [0; 56];
+        let mut words = [0; 68];
         let whole = [
             tile_x,
             tile_y,
@@ -308,6 +351,10 @@ impl Uniforms {
         let lenses = [grid.across, grid.shear, x, step_x, 0.0, grid.up, y, step_y];
         for (word, value) in words.iter_mut().skip(48).zip(lenses) {
             *word = (value as f32).to_bits();
+        }
+        let heights = self.heights.rows();
+        for (word, value) in words.iter_mut().skip(56).zip(heights.as_flattened()) {
+            *word = value.to_bits();
         }
         words
     }
@@ -438,6 +485,12 @@ fn entry(pass: Pass) -> &'static str {
         Pass::Accumulate(Step::Multiply) => "multiply",
         Pass::Accumulate(Step::Add) => "add",
         Pass::Accumulate(Step::Return) => "give_back",
+        Pass::Synthesis(Synthesis::Peaks) => "peaks",
+        Pass::Synthesis(Synthesis::Tops) => "tops",
+        Pass::Synthesis(Synthesis::Range) => "range",
+        Pass::Synthesis(Synthesis::View) => "view",
+        Pass::Synthesis(Synthesis::Panel { whole: false }) => "panel_subpixels",
+        Pass::Synthesis(Synthesis::Panel { whole: true }) => "panel_pixels",
     }
 }
 
@@ -452,5 +505,9 @@ fn source(pass: Pass) -> String {
         Pass::Rgbd => [COVER, COMMON, ATLAS, RGBD].join("\n"),
         Pass::Copy => [COVER, COPY].join("\n"),
         Pass::Accumulate(_) => [COVER, ACCUMULATE].join("\n"),
+        Pass::Synthesis(Synthesis::Panel { .. }) => {
+            [COVER, COMMON, ATLAS, MASK, FIELD, THROUGH].join("\n")
+        }
+        Pass::Synthesis(_) => [COVER, COMMON, ATLAS, FIELD, SYNTHESIS].join("\n"),
     }
 }

@@ -221,7 +221,7 @@ fn every_pass_translates_for_every_version() {
             for texture in &fragment.textures {
                 assert!(fragment.source.contains(&format!(" {};", texture.name)));
             }
-            assert_eq!(fragment.uniforms.len(), 23);
+            assert_eq!(fragment.uniforms.len(), 26);
             assert!(!fragment.source.contains("std140"), "no uniform block");
 
             let vertex = translate(pass, Stage::Vertex, version).unwrap();
@@ -262,6 +262,18 @@ fn uniforms_are_found_by_name() {
             origin: [8.0, 9.0],
             step: [10.0, 11.0],
             exact: true,
+        },
+        heights: Heights {
+            scale: 21.0,
+            offset: 22.0,
+            far: 23.0,
+            clear: 24.0,
+            sky: true,
+            levers: [25.0, 26.0],
+            longest: 29.0,
+            margin: 27.0,
+            aim: (2, 28),
+            marked: true,
         },
     };
     let version = GlslVersion::Desktop(330);
@@ -306,6 +318,14 @@ fn uniforms_are_found_by_name() {
     assert_eq!(of[20], ("depth", &ends[..]));
     assert_eq!(of[21], ("column", &column[..]));
     assert_eq!(of[22], ("row", &row[..]));
+    let rows = [
+        [21.0f32, 22.0, 23.0, 24.0],
+        [25.0, 26.0, 0.0, 27.0],
+        [77.0, 28.0, 1.0, 29.0],
+    ];
+    for (at, (name, row)) in ["field", "lever", "aim"].into_iter().zip(rows).enumerate() {
+        assert_eq!(of[23 + at], (name, &row.map(f32::to_bits)[..]));
+    }
 }
 
 #[test]
@@ -441,6 +461,24 @@ fn dubois_is_as_published() {
             [[-16, -123, -17], [6, 62, -17], [94, 185, 911]]
         )
     );
+}
+
+#[test]
+fn every_pass_of_synthesis_translates_for_every_version() {
+    for pass in Synthesis::ALL {
+        let textures: &[u32] = match pass {
+            Synthesis::Peaks => &[DEPTH_UNIT],
+            Synthesis::Tops => &[PEAKS_UNIT],
+            Synthesis::Range => &[RANGE_UNIT, PEAKS_UNIT],
+            Synthesis::View => &[VIEWS_UNIT, DEPTH_UNIT, RANGE_UNIT, PEAKS_UNIT],
+            Synthesis::Panel { .. } => &[VIEWS_UNIT, MASK_UNIT, DEPTH_UNIT, RANGE_UNIT, PEAKS_UNIT],
+        };
+        for version in GlslVersion::SUPPORTED {
+            let got = translate(Pass::Synthesis(pass), Stage::Fragment, version).unwrap();
+            let units: Vec<_> = got.textures.iter().map(|t| t.unit).collect();
+            assert_eq!(units, textures, "{pass:?}");
+        }
+    }
 }
 
 #[test]

@@ -2,7 +2,7 @@
 //! what the panel shows. The others get what it has as soon as something is drawn that depends on the view.
 
 use super::{Layer, as_they_are};
-use crate::config::{CaptureWhat, Filter, Output, Saving};
+use crate::config::{CaptureWhat, Filter, Output, Saving, Strategy};
 use crate::gl::{Gl, consts as c};
 use crate::plan::{Kind, Method, Plan};
 use crate::state::BACK;
@@ -46,7 +46,7 @@ impl Layer {
 
     /// Before a draw that is planned.
     pub(super) fn keep_alike(&mut self, gl: &Gl, kind: Kind, plan: &Plan) {
-        if plan.method == Method::Once || !self.state.draws_to_window() {
+        if plan.method == Method::Once || self.synthesis.is_on() || !self.state.draws_to_window() {
             return;
         }
         if let Kind::Clear { whole, .. } = kind {
@@ -98,6 +98,7 @@ impl Layer {
 
     /// The other views get what the program's own one has, and are drawn again.
     pub(super) fn part(&mut self, gl: &Gl) {
+        self.make_views(gl);
         if !std::mem::take(&mut self.alike.rests) {
             return;
         }
@@ -126,6 +127,7 @@ impl Layer {
         let captured = self.config.capture.as_ref().map(|capture| capture.what);
         self.alike.same == EVERYTHING
             && self.config.views > 1
+            && self.config.strategy != Strategy::DepthImage
             && !self.config.without.has(Saving::Alike)
             && self.support.shares
             && self.atlas.tiles.grid.is_full()

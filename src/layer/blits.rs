@@ -15,6 +15,9 @@ impl Layer {
         }
         let f = &self.state.framebuffers;
         let (draw, read) = (f.draw, f.read);
+        if read == 0 && draw != 0 {
+            self.make_views(gl);
+        }
         let split = self.offscreen.is_split(gl, read);
         if draw != 0 {
             let differs = split || (read == 0 && self.config.views > 1 && !self.rests());

@@ -233,6 +233,7 @@ impl Layer {
         let plan = self.plan_shaders(gl, kind, &classed, plan);
         let plan = self.follow(gl, kind, self.uncounted(plan));
         let plan = self.by_instances(gl, kind, plan);
+        self.keep_own(gl, kind, &plan, &classed);
         self.keep_alike(gl, kind, &plan);
         let told = match classed.why {
             Why::Rule(_) => classed,
@@ -266,7 +267,7 @@ impl Layer {
     /// all draws go the same way. A pass before that one, in the program's first frame, is not made again.
     fn keep_together(&mut self, gl: &Gl) {
         let alike = match self.means.strategy {
-            Strategy::Replay | Strategy::Auto => true,
+            Strategy::Replay | Strategy::Auto | Strategy::DepthImage => true,
             Strategy::Instanced => self.config.clip.is_none() && self.support.layers(),
             Strategy::Geometry => false,
         };

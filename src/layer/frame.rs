@@ -34,6 +34,7 @@ impl Layer {
         let front = !swap && self.atlas.has_front() && self.state.framebuffers.draws_front();
         let image = if front { FRONT } else { BACK };
         self.reading(gl, image, |layer| layer.present(gl, image));
+        self.leave_scene();
         if !swap || !self.state.window.double_buffered {
             // Mesa shows the front buffer of what is bound when it flushes.
             gl.bind_framebuffer(c::FRAMEBUFFER, 0);
@@ -66,7 +67,9 @@ impl Layer {
 
     /// Draws the picture into the true framebuffer 0 and captures what is wanted.
     fn present(&mut self, gl: &Gl, image: u32) {
-        self.atlas.resolve(gl, self.rests(), c::COLOR_BUFFER_BIT);
+        self.end_scene(gl);
+        let own = self.rests() || self.synthesis.field.is_some();
+        self.atlas.resolve(gl, own, c::COLOR_BUFFER_BIT);
         let output = self.output();
         let depth = (output == Output::Rgbd).then(|| self.own_depth(gl));
         gl.bind_framebuffer(c::FRAMEBUFFER, 0);
@@ -88,6 +91,7 @@ impl Layer {
             tiles: self.atlas.tiles,
             texture: self.atlas.sampled(image),
             depth: depth.map(|depth| (self.atlas.depth, depth)),
+            field: self.synthesis.field,
             top_down: self.atlas.flipped,
             srgb: self.state.window.srgb,
         }

@@ -24,6 +24,7 @@ impl Layer {
         lists.left.fences.extend(fence);
         let programs = self.interleaver.programs().chain(self.programs.names());
         let programs = programs.chain(self.twins.names());
+        let programs = programs.chain(self.synthesis.programs());
         lists.left.programs.extend(programs);
         if let Some(accumulation) = &self.accumulated.buffer {
             lists.left.framebuffers.push(accumulation.framebuffer());

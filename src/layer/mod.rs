@@ -27,6 +27,7 @@ mod prove;
 mod queries;
 mod sampling;
 pub mod support;
+mod synthesis;
 
 pub use control::Pictured;
 pub use drawing::Primitives;
@@ -137,6 +138,7 @@ pub struct Layer {
     picture: control::Picture,
     proving: prove::Proving,
     made: Count,
+    synthesis: synthesis::Synthesis,
     on_screen: Option<OnScreen>,
     detail: sampling::Detail,
     /// A picture waits for views that are not shown.
@@ -226,7 +228,10 @@ impl Layer {
             geometry: support.geometry(),
             together: false,
         };
-        let interleaver = Interleaver::new(gl, &mut names, support.glsl);
+        let made_of = config.strategy == Strategy::DepthImage && config.views > 1;
+        let (synthesis, note) = synthesis::Synthesis::new(gl, made_of, support.glsl);
+        note.into_iter().for_each(|note| report.note(note));
+        let interleaver = Interleaver::new(gl, &mut names, support.glsl, made_of);
         match interleaver.note() {
             Some(note) if support.es => return Err(LayerError::Passes(note)),
             Some(note) => report.note(note),
@@ -311,6 +316,7 @@ impl Layer {
             picture: control::Picture::None,
             proving: prove::Proving::default(),
             made: Count::default(),
+            synthesis,
             detail,
             undrawn: false,
             auto,

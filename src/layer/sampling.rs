@@ -161,7 +161,7 @@ impl Layer {
 
     /// The views that the next frame is drawn in.
     pub(super) fn shown(&self) -> Shown {
-        if self.rests() {
+        if self.rests() || self.synthesis.is_on() {
             return [].into_iter().collect();
         }
         self.wanted_views()

@@ -44,12 +44,18 @@ impl Ramp {
         (found && !oblique).then_some(ramp)
     }
 
+    /// Slope and offset of 1/w over the depth.
+    pub fn line(&self) -> [f64; 2] {
+        [self.slope, self.offset]
+    }
+
     /// Whether what is nearer has larger depths.
     pub fn nearer_is_larger(&self) -> bool {
         self.slope > 0.0
     }
 
-    fn is_like(&self, other: &Ramp) -> bool {
+    /// Whether both turn depths into the same distances.
+    pub fn is_like(&self, other: &Ramp) -> bool {
         let near = |a: f64, b: f64| (a - b).abs() <= 1e-5 * b.abs();
         self.range == other.range
             && near(self.slope, other.slope)

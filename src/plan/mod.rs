@@ -57,6 +57,8 @@ pub enum Reason {
     Driver(&'static str),
     /// The driver refused a generated shader.
     Compile,
+    /// Views were made of the scene before something that has to be drawn in each.
+    Parted(&'static str),
 }
 
 impl core::fmt::Display for Reason {
@@ -67,6 +69,7 @@ impl core::fmt::Display for Reason {
             Reason::Fixed(u) => write!(f, "{u}"),
             Reason::Driver(what) => write!(f, "the driver has no {what}"),
             Reason::Compile => f.write_str("the driver refused the generated shader"),
+            Reason::Parted(what) => write!(f, "views are made before {what}"),
         }
     }
 }
@@ -176,8 +179,8 @@ fn magnified(state: &State) -> f64 {
 
 fn method(kind: Kind, state: &State, means: &Means) -> Result<Method, Option<Reason>> {
     let wish = match means.strategy {
-        // `auto` is in force as one of the others.
-        Strategy::Replay | Strategy::Auto => return Err(None),
+        // `auto` is in force as one of the others, and what no view is made of is drawn in each.
+        Strategy::Replay | Strategy::Auto | Strategy::DepthImage => return Err(None),
         Strategy::Geometry => Method::Geometry,
         Strategy::Instanced => Method::Instanced,
     };

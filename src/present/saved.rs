@@ -8,6 +8,7 @@ const CAPABILITIES: &[(u32, Needs)] = &[
     (c::COLOR_LOGIC_OP, Needs::Desktop),
     (c::CULL_FACE, Needs::Any),
     (c::DEPTH_TEST, Needs::Any),
+    (c::DEPTH_CLAMP, DESKTOP_3_2),
     (c::DITHER, Needs::Any),
     (c::POLYGON_STIPPLE, Needs::Compatibility),
     (c::POLYGON_SMOOTH, Needs::Desktop),
@@ -37,10 +38,13 @@ const PIXELS: &[(u32, i32, Needs)] = &[
     (c::UNPACK_SKIP_IMAGES, 0, PIXELS_OF_ES),
 ];
 
+/// And nothing of the kind in OpenGL ES.
+const DESKTOP_3_2: Needs = Needs::Version((3, 2), (u32::MAX, 0));
+
 const PIXELS_OF_ES: Needs = Needs::Version((1, 0), (3, 0));
 
 /// Texture units that passes sample from.
-const UNITS: u32 = 3;
+const UNITS: u32 = 5;
 
 #[derive(Clone, Copy, PartialEq)]
 enum Needs {

@@ -20,6 +20,7 @@ use std::time::{Duration, Instant};
 pub struct Report {
     frames: u64,
     alike: u64,
+    synthesised: Synthesised,
     frame_ms: Vec<f32>,
     /// Method and class.
     draws: Counts<(&'static str, &'static str)>,
@@ -36,6 +37,21 @@ pub struct Report {
     last_write: Option<Instant>,
 }
 
+/// Frames whose scene was drawn in one view, and the others made of it.
+#[derive(Clone, Copy, Debug, Default, Serialize)]
+struct Synthesised {
+    /// Subpixel by subpixel.
+    into_panel: u64,
+    /// As views.
+    into_tiles: u64,
+}
+
+impl Synthesised {
+    fn is_none(&self) -> bool {
+        self.into_panel == 0 && self.into_tiles == 0
+    }
+}
+
 /// GL names that are the layer's and not deleted.
 #[derive(Clone, Copy, Debug, Default, Serialize)]
 struct Names {
@@ -48,6 +64,8 @@ struct Names {
 struct Json<'a> {
     frames: u64,
     frames_drawn_once: u64,
+    #[serde(skip_serializing_if = "Synthesised::is_none")]
+    frames_synthesised: Synthesised,
     frame_ms: FrameTimes,
     draws: BTreeMap<&'static str, u64>,
     classes: BTreeMap<&'static str, u64>,
@@ -119,6 +137,14 @@ impl Report {
     /// A frame is the same in all views, and was drawn in one.
     pub fn alike(&mut self) {
         self.alike += 1;
+    }
+
+    /// Views were made of a frame's scene: as they are, or straight into the panel's picture.
+    pub fn synthesised(&mut self, into_panel: bool) {
+        match into_panel {
+            true => self.synthesised.into_panel += 1,
+            false => self.synthesised.into_tiles += 1,
+        }
     }
 
     /// Frames shown so far.
@@ -198,6 +224,7 @@ impl Report {
         let json = Json {
             frames: self.frames,
             frames_drawn_once: self.alike,
+            frames_synthesised: self.synthesised,
             frame_ms: FrameTimes {
                 median: at(0.5),
                 p95: at(0.95),

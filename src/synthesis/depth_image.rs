@@ -26,6 +26,14 @@ impl Shift {
 #[error("a picture of {0} x {1} pixels has {2} colours and {3} depths")]
 pub struct DepthImageError(u32, u32, usize, usize);
 
+/// 1/w where nothing was drawn: behind everything.
+const NOTHING: f32 = -1.0;
+
+/// Whether nothing was drawn there.
+pub(super) fn is_nothing(inverse: f32) -> bool {
+    inverse < 0.0
+}
+
 /// A picture with depths, row 0 on top.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DepthImage {
@@ -35,7 +43,7 @@ pub struct DepthImage {
 }
 
 impl DepthImage {
-    /// Of width x height colours and as many values of 1/w. What is no number, or behind the camera, is infinitely far.
+    /// Of width x height colours and as many values of 1/w. What is no number, or behind the camera, was not drawn.
     pub fn new(
         size: [u32; 2],
         colours: Vec<[u8; 3]>,
@@ -47,7 +55,8 @@ impl DepthImage {
             return Err(DepthImageError(w, h, colours.len(), inverses.len()));
         }
         let inverses = inverses.into_iter();
-        let inverses = inverses.map(|v| if v.is_finite() { v.max(0.0) } else { 0.0 });
+        let drawn = |v: f32| v.is_finite() && v >= 0.0;
+        let inverses = inverses.map(|v| if drawn(v) { v } else { NOTHING });
         Ok(DepthImage {
             size,
             colours,

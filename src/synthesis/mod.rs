@@ -1,4 +1,5 @@
-//! Views that are not drawn but made of pictures with depth: what each step has to come to, on the CPU and exactly.
+//! Views that are not drawn but made of pictures with depth: what each step has to come to, on the CPU and exactly, and the passes
+//! by which the driver makes them (`gpu`).
 //!
 //! `depth_image` is the plain picture with depths, `warp` makes a view of it. `discontinuity` finds where it would tear, `distortion` bends
 //! the rays of the camera there so that they reach behind what is in front, and `occlusion` projects with such rays, builds the reference image and
@@ -11,6 +12,7 @@
 mod depth_image;
 mod discontinuity;
 mod distortion;
+mod gpu;
 mod occlusion;
 #[cfg(test)]
 mod tests;
@@ -19,5 +21,6 @@ mod warp;
 pub use depth_image::{DepthImage, DepthImageError, Shift};
 pub use discontinuity::{Edge, Edges};
 pub use distortion::{Distortion, Distortions, Splats};
+pub use gpu::Passes;
 pub use occlusion::{Reference, Triangle, Vertex};
 pub use warp::{View, warp};

@@ -2,8 +2,9 @@
 //!
 //! Neighbours of one surface stay joined; where the surface ends it ends half a pixel beyond its last sample. What is nearest is
 //! seen. Where nothing is, there is a hole: it gets the colour of the farther one of its two ends, since what is uncovered belongs to what is
-//! behind.
+//! behind. What nothing was drawn on is behind everything, and the same in all views.
 
+use super::depth_image::is_nothing;
 use super::{DepthImage, Shift};
 use image::{Rgb, RgbImage};
 
@@ -59,11 +60,21 @@ fn warp_row(image: &DepthImage, y: u32, shift: &Shift) -> Vec<Seen> {
         .map(|(x, &v): (u32, &f32)| f64::from(x) + 0.5 + shift.pixels(f64::from(v), width as u32))
         .collect();
     let limit = TEAR / shift.pixels_per_inverse(width as u32);
-    let joined: Vec<bool> = (0..width.saturating_sub(1))
-        .map(|x| excess(inverses, x) <= limit)
-        .collect();
+    let drawn = |x: usize| inverses.get(x).is_some_and(|v| !is_nothing(*v));
+    // The step from a pixel to the next is small in the view, or no other than the one before it, seen from where the rays come.
+    let towards = if shift.separation < 0.0 { -1 } else { 1 };
+    let joined = |x: usize| {
+        let steps = [Some(x), x.checked_add_signed(towards)].map(|x| step(inverses, x?));
+        let own = steps[0].unwrap_or(f64::INFINITY);
+        let other = steps[1].map_or(own, |before| own - before);
+        drawn(x) && drawn(x + 1) && own.abs().min(other.abs()) <= limit
+    };
+    let joined: Vec<bool> = (0..width.saturating_sub(1)).map(joined).collect();
     let mut row: Vec<Seen> = vec![None; width];
     for x in 0..width {
+        if !drawn(x) {
+            continue;
+        }
         let sample = (f64::from(inverses[x]), colours[x]);
         let after = joined.get(x).copied().unwrap_or(false);
         let before = x > 0 && joined[x - 1];
@@ -78,16 +89,24 @@ fn warp_row(image: &DepthImage, y: u32, shift: &Shift) -> Vec<Seen> {
             false => cover(&mut row, [at[x], at[x] + 0.5], [sample; 2]),
         }
     }
+    for (x, seen) in row.iter_mut().enumerate() {
+        if seen.is_none() && !drawn(x) {
+            *seen = Some((f64::from(inverses[x]), colours[x]));
+        }
+    }
     row
+}
+
+/// Of 1/w from a pixel to the next.
+fn step(inverses: &[f32], from: usize) -> Option<f64> {
+    let pair = (inverses.get(from)?, inverses.get(from + 1)?);
+    Some(f64::from(*pair.1) - f64::from(*pair.0))
 }
 
 /// By how much the step of 1/w from a pixel to the next is another than those before and after it: nothing on planes and at creases, the
 /// height of a step between two surfaces.
 pub(super) fn excess(inverses: &[f32], x: usize) -> f64 {
-    let step = |from: usize| {
-        let pair = (inverses.get(from)?, inverses.get(from + 1)?);
-        Some(f64::from(*pair.1) - f64::from(*pair.0))
-    };
+    let step = |from: usize| step(inverses, from);
     let Some(own) = step(x) else {
         return f64::INFINITY;
     };

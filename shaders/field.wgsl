@@ -1,0 +1,158 @@
+// A picture with depths, and what another camera beside its own sees of it: its rows are walked along the ray of a pixel, from near to
+// far, until the ray meets the surface. What src/synthesis/warp.rs makes by drawing the surface.
+//
+// Heights are pixels by which a sample stands before what is infinitely far, for a camera one place further: they go with 1/w, and so
+// with the depths of the depth buffer. With the lever t, in places, a sample at x of height h is seen at x + t · (u.field.z − h).
+
+@group(0) @binding(2) var depth_texture: texture_2d_array<f32>;
+// The greatest and the least height of all that the rays of a block of a row can meet. (Where that is found out: the greatest of each
+// row.)
+@group(0) @binding(3) var range_texture: texture_2d_array<f32>;
+// The same of the blocks themselves.
+@group(0) @binding(4) var peaks_texture: texture_2d_array<f32>;
+
+// Samples of a row in one texel of both.
+const BLOCK = 16;
+// Where nothing was drawn, and it is not infinitely far: lower than everything.
+const NOTHING = -1.0e6;
+// Of what lies before the first sample of a row: higher than everything.
+const OUTSIDE = 4.0e6;
+
+fn depth_at(x: i32, row: i32) -> f32 {
+    return textureLoad(depth_texture, vec2<i32>(x, row), 0, 0).r;
+}
+
+fn height_of(depth: f32) -> f32 {
+    // Depths of 24 bits come back with the error of one step.
+    if abs(depth - u.field.w) < 1e-7 {
+        return u.lever.z;
+    }
+    return max(u.field.x * depth + u.field.y, 0.0);
+}
+
+fn height(x: i32, row: i32) -> f32 {
+    return height_of(depth_at(x, row));
+}
+
+// What a ray meets: between two samples, or nothing, and then what lies behind what hides it.
+struct Seen {
+    low: i32,
+    high: i32,
+    weight: f32,
+    // Nothing is known of what is there.
+    hole: bool,
+}
+
+// The first sample of a row, in a direction, whose middle lies at or beyond a place.
+fn first_beyond(place: f32, along: i32) -> i32 {
+    let middle = clamp(place, -1.0e6, 1.0e6) - 0.5;
+    return i32(select(ceil(middle), floor(middle), along < 0));
+}
+
+// The greatest and the least height of all that can be seen in a column.
+fn range_of(x: u32, row: i32) -> vec2<f32> {
+    return textureLoad(range_texture, vec2<i32>(i32(x) / BLOCK, row), 0, 0).rg;
+}
+
+// What a camera with a lever sees at x, in pixels from the left of its picture, in a row of the textures. There is one way out, and little
+// that is fetched in branches: llvmpipe takes all of them.
+fn seek(x: f32, row: i32, t: f32, range: vec2<f32>) -> Seen {
+    let width = i32(u.tile.x);
+    let own = clamp(i32(floor(x)), 0, width - 1);
+    let far = u.field.z;
+    var seen = Seen(own, own, 0.0, false);
+    // All that can be seen is nothing, or the camera is the picture's own.
+    if range.x < 0.0 || abs(t) < 1e-6 {
+        return seen;
+    }
+    // Half a pixel of the view; the ray loses 1/|t| from sample to sample.
+    let edge = 0.5 / abs(t);
+    let along = select(1, -1, t > 0.0);
+    let first = select(0, width - 1, along < 0);
+    // From where the ray is above everything that it can meet to where it is below all of that.
+    var k = first_beyond(x + t * (range.x + edge - far), along);
+    k = select(max(k, first), min(k, first), along < 0);
+    var last = first_beyond(x + t * (max(range.y, 0.0) - far), along) + along;
+    last = clamp(last, 0, width - 1);
+    // What ends closest, seen from there, behind something that hides the rest of it.
+    var behind = own;
+    var behind_away = OUTSIDE;
+    var before = OUTSIDE;
+    var slope = 0.0;
+    var found = false;
+    var fresh = true;
+    while !found && (last - k) * along >= 0 {
+        // Over what lies below the ray, block by block.
+        let start = k;
+        var skips = true;
+        while skips {
+            let peak = textureLoad(peaks_texture, vec2<i32>(k / BLOCK, row), 0, 0).r;
+            let in_block = k & (BLOCK - 1);
+            let next = select(k - in_block + BLOCK, k - in_block - 1, along < 0);
+            let low = first_beyond(x + t * (peak + edge - far), along);
+            let to = select(min(low, next), max(low, next), along < 0);
+            let further = (to - k) * along > 0;
+            k = select(k, to, further);
+            skips = further && to == next && (last - k) * along >= 0;
+        }
+        let one = height(clamp(k - along, 0, width - 1), row);
+        let two = height(clamp(k - 2 * along, 0, width - 1), row);
+        if fresh || k != start {
+            before = select(one, OUTSIDE, k == first);
+            slope = select(one - two, 0.0, k == first);
+        }
+        fresh = false;
+        // From sample to sample, to the end of a block.
+        var walks = (last - k) * along >= 0;
+        while walks {
+            let here = height(k, row);
+            let ray = (f32(k) + 0.5 - x) / t + far;
+            let above = ray + 2.0 * edge - before;
+            let below = ray - here;
+            // Of one surface: the step is small in the view, or no other than the one before it.
+            let step = here - before;
+            let begins = before == OUTSIDE;
+            let joined = !begins && min(here, before) >= 0.0 && min(abs(step), abs(step - slope)) <= edge;
+            let between = joined && above > 0.0 && below <= 0.0;
+            // Else each surface ends half a pixel beyond its last sample.
+            let ends = !joined && before >= 0.0 && above >= 0.0 && above <= edge;
+            let starts = !joined && here >= 0.0 && below <= 0.0 && below >= -edge;
+            found = between || ends || starts;
+            if found {
+                let at = select(k, k - along, between || ends);
+                seen = Seen(at, select(at, k, between), select(0.0, above / (above - below), between), false);
+            }
+            // Nothing is where it is, everything else where the view has it.
+            let away = select(above, abs(f32(k - along) + 0.5 - x) / abs(t), before < 0.0);
+            if !begins && above > 0.0 && below < 0.0 && away < behind_away {
+                behind = k - along;
+                behind_away = away;
+            }
+            slope = select(step, 0.0, begins);
+            before = here;
+            k += along;
+            let in_block = k & (BLOCK - 1);
+            walks = !found && (last - k) * along >= 0 && in_block != select(0, BLOCK - 1, along < 0);
+        }
+    }
+    // Half a pixel of the last one, at the end of the picture.
+    let end = k - along;
+    let above = (f32(end) + 0.5 - x) / t + far - before;
+    let ends = (k < 0 || k >= width) && before >= 0.0 && above >= 0.0 && above <= edge;
+    if !found {
+        // Nothing behind is farther than everything, and the same in all views.
+        let nothing = u.lever.z < 0.0 && height(own, row) < 0.0;
+        let last_one = ends || behind_away == OUTSIDE;
+        let at = select(select(behind, clamp(end, 0, width - 1), last_one), own, nothing);
+        seen = Seen(at, at, 0.0, !ends && !nothing);
+    }
+    return seen;
+}
+
+fn sample_at(x: i32, row: i32) -> vec3<f32> {
+    return textureLoad(views_texture, vec2<i32>(x, row), 0, 0).rgb;
+}
+
+fn colour_of(seen: Seen, row: i32) -> vec3<f32> {
+    return mix(sample_at(seen.low, row), sample_at(seen.high, row), seen.weight);
+}

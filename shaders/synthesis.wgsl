@@ -1,0 +1,89 @@
+// What field.wgsl needs to know of a picture with depths, and views made of it.
+
+// The texel that is drawn: these textures have their rows where the views have theirs.
+fn texel_at(position: vec4<f32>) -> vec2<i32> {
+    let at = vec2<u32>(position.xy);
+    return vec2<i32>(vec2<u32>(at.x, texel_row(at.y, u.tile.y)));
+}
+
+// Of a block: the greatest and the least height.
+@fragment
+fn peaks(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
+    let block = texel_at(position);
+    let end = min((block.x + 1) * BLOCK, i32(u.tile.x));
+    var peak = NOTHING;
+    var least = -NOTHING;
+    for (var x = block.x * BLOCK; x < end; x++) {
+        let here = height(x, block.y);
+        peak = max(peak, here);
+        least = min(least, here);
+    }
+    return vec4<f32>(peak, least, 0.0, 0.0);
+}
+
+fn block(x: i32, row: i32) -> vec2<f32> {
+    return textureLoad(peaks_texture, vec2<i32>(x, row), 0, 0).rg;
+}
+
+// Of a row: the greatest height.
+@fragment
+fn tops(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
+    let row = texel_at(position).y;
+    let last = (i32(u.tile.x) - 1) / BLOCK;
+    var top = 0.0;
+    for (var x = 0; x <= last; x++) {
+        top = max(top, block(x, row).x);
+    }
+    return vec4<f32>(top, 0.0, 0.0, 0.0);
+}
+
+// Blocks that lie wholly between this one and what a camera with the longest lever sees beside it at a height: the higher of what is
+// infinitely far and this moves farther.
+fn reach(height: f32) -> f32 {
+    return u.aim.w * max(u.field.z, height - u.field.z) / f32(BLOCK) + 1.0;
+}
+
+// Of all that the rays of a block can meet: the greatest and the least height.
+@fragment
+fn range(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
+    let at = texel_at(position);
+    let last = (i32(u.tile.x) - 1) / BLOCK;
+    let top = textureLoad(range_texture, vec2<i32>(0, at.y), 0, 0).r;
+    let farthest = i32(ceil(min(reach(top), 1.0e4)));
+    var both = block(at.x, at.y);
+    for (var x = max(at.x - farthest, 0); x <= min(at.x + farthest, last); x++) {
+        let other = block(x, at.y);
+        if f32(abs(x - at.x)) <= reach(other.x) {
+            both = vec2<f32>(max(both.x, other.x), min(both.y, other.y));
+        }
+    }
+    return vec4<f32>(both, 0.0, 0.0);
+}
+
+// Part of the step from a sample to the next.
+const BENT = 0.25;
+
+struct Made {
+    @location(0) colour: vec4<f32>,
+    @builtin(frag_depth) depth: f32,
+}
+
+// A view into its tile, with depths for what is drawn after it: a little farther than they are, so that another pass over the same
+// surface lies before it.
+@fragment
+fn view(@builtin(position) position: vec4<f32>) -> Made {
+    let at = vec2<u32>(position.xy);
+    let row = i32(texel_row(min(at.y, u.tile.y - 1u), u.tile.y));
+    let x = position.x - u.aim.y;
+    let seen = seek(x, row, u.aim.x, range_of(u32(x), row));
+    let low = depth_at(seen.low, row);
+    let high = depth_at(seen.high, row);
+    // Where the surface is bent it is not where the straight line between two samples is.
+    let away = u.lever.w + sign(u.lever.w) * BENT * abs(high - low);
+    let moved = clamp(mix(low, high, seen.weight) + away, 0.0, 1.0);
+    let depth = select(moved, low, abs(low - u.field.w) < 1e-7);
+    if seen.hole && u.aim.z > 0.0 {
+        return Made(vec4<f32>(1.0, 0.0, 1.0, 1.0), depth);
+    }
+    return Made(vec4<f32>(colour_of(seen, row), 1.0), depth);
+}

@@ -1,0 +1,339 @@
+//! `--strategy depth-image`: the scene goes to the program's own view alone, and the others are made of it and its depths.
+//!
+//! From a clear of the depths on, what is drawn in perspective, opaque, by one projection, is in the own view only. Before anything else (the
+//! HUD, glass, another clear, a copy of the frame) the views are made into their tiles, depths as well, and all that follows is drawn in each of
+//! them. Where nothing else follows, the panel's picture is made straight from the own view.
+
+use super::{Layer, keep_bindings};
+use crate::atlas::FieldTextures;
+use crate::config::{CaptureWhat, Class, DepthState, Filter, Output, Strategy, Viewport};
+use crate::gl::{Gl, consts as c};
+use crate::interleave::Heights;
+use crate::plan::{Classed, Kind, Plan, Ramp, Reason, Shear};
+use crate::present::Saved;
+use crate::state::{BACK, Touch};
+use crate::synthesis::Passes;
+
+/// Steps of the depth buffer by which views' depths lie behind what they are computed to be.
+const MARGIN: f64 = 4.0;
+
+/// What has been drawn to the own view since its depths were cleared.
+#[derive(Clone, Copy, Debug, Default)]
+struct Scene {
+    /// What it is projected by.
+    look: Option<Look>,
+    /// Something stands infinitely far behind it.
+    sky: bool,
+    /// Something else than a clear has been drawn.
+    begun: bool,
+    /// The depth of what nothing is drawn on.
+    clear: f32,
+}
+
+/// How depths become disparities.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Look {
+    ramp: Ramp,
+    shear: Shear,
+    viewport: [i32; 4],
+}
+
+/// Views that are made, not drawn.
+#[derive(Debug, Default)]
+pub(super) struct Synthesis {
+    /// Made when the strategy is asked for; none where the driver cannot.
+    passes: Option<Passes>,
+    /// Only the own view is drawn.
+    scene: Option<Scene>,
+    /// The views of this frame are made.
+    done: bool,
+    /// While a panel's picture is made straight from the own view.
+    pub(super) field: Option<(FieldTextures, Heights)>,
+}
+
+impl Synthesis {
+    /// Where the user has asked for it; and what hinders it.
+    pub(super) fn new(gl: &Gl, wanted: bool, glsl: u32) -> (Synthesis, Option<String>) {
+        let passes = wanted.then(|| Passes::new(gl, glsl)).transpose();
+        let (passes, note) = match passes {
+            Ok(passes) => (passes, None),
+            Err(e) => (None, Some(format!("all views are drawn: {e}"))),
+        };
+        let synthesis = Synthesis {
+            passes,
+            ..Synthesis::default()
+        };
+        (synthesis, note)
+    }
+
+    /// The names of its programs.
+    pub(super) fn programs(&self) -> impl Iterator<Item = u32> {
+        self.passes.iter().flat_map(Passes::programs)
+    }
+
+    /// Whether only the own view is drawn.
+    pub(super) fn is_on(&self) -> bool {
+        self.scene.is_some()
+    }
+}
+
+impl Layer {
+    /// Before a draw that is planned: it goes to the own view alone, or the views are made.
+    pub(super) fn keep_own(&mut self, gl: &Gl, kind: Kind, plan: &Plan, classed: &Classed) {
+        if self.synthesis.passes.is_none() || !self.state.draws_to_window() {
+            return;
+        }
+        if let Kind::Clear { depths, whole } = kind {
+            return self.clear_own(gl, depths, whole);
+        }
+        let Some(mut scene) = self.synthesis.scene else {
+            return;
+        };
+        match self.stays(gl, kind, plan, classed, &mut scene) {
+            Ok(()) => {
+                scene.begun = true;
+                self.synthesis.scene = Some(scene);
+            }
+            Err(what) => {
+                self.fallbacks.add(Reason::Parted(what));
+                self.make_views(gl);
+            }
+        }
+    }
+
+    /// A clear begins a scene, or ends it.
+    fn clear_own(&mut self, gl: &Gl, depths: bool, whole: u32) {
+        if let Some(scene) = self.synthesis.scene
+            && depths
+            && scene.begun
+        {
+            self.fallbacks
+                .add(Reason::Parted("another clear of the depths"));
+            return self.make_views(gl);
+        }
+        let all = whole & c::DEPTH_BUFFER_BIT != 0
+            && self.clears_all(gl)
+            && gl.get_integer(c::DEPTH_WRITEMASK) != 0;
+        if !all || self.synthesis.done || !self.may_synthesise() {
+            return;
+        }
+        self.part(gl);
+        self.synthesis.scene = Some(Scene {
+            clear: gl.get_floats::<1>(c::DEPTH_CLEAR_VALUE)[0],
+            ..Scene::default()
+        });
+        self.atlas.tiles.shown = self.shown();
+    }
+
+    /// Whether the scissor leaves all of the window.
+    fn clears_all(&self, gl: &Gl) -> bool {
+        let window = [self.state.window.width, self.state.window.height].map(i64::from);
+        let [x, y, width, height] = gl.get_integers::<4>(c::SCISSOR_BOX).map(i64::from);
+        !self.state.scissor_test
+            || (x <= 0 && y <= 0 && x + width >= window[0] && y + height >= window[1])
+    }
+
+    fn may_synthesise(&self) -> bool {
+        self.config.strategy == Strategy::DepthImage
+            && self.config.views > 1
+            && self.config.prove.is_none()
+            && self.atlas.depth != 0
+            && self.atlas.tiles.grid.is_full()
+            && !self.atlas.has_front()
+            && self.accumulated.buffer.is_none()
+            && !self.has_copies()
+            && !self.live.flat
+    }
+
+    /// Whether a draw belongs to the scene of the own view; else what it is instead.
+    fn stays(
+        &mut self,
+        gl: &Gl,
+        kind: Kind,
+        plan: &Plan,
+        classed: &Classed,
+        scene: &mut Scene,
+    ) -> Result<(), &'static str> {
+        self.state.look(gl, Touch::RANGE | Touch::DEPTH);
+        let depth = self.state.look.depth;
+        if gl.is_enabled(c::STENCIL_TEST) {
+            return Err("draws with a stencil test");
+        }
+        if self.state.compatibility && gl.is_enabled(c::POLYGON_STIPPLE) {
+            return Err("draws with a stipple of the screen's");
+        }
+        if matches!(kind, Kind::Accum | Kind::Pixels) || !self.sampled.is_empty() {
+            return Err("pictures and pixels");
+        }
+        if self.state.viewport_kind() != Viewport::Main {
+            return Err("a picture in the picture");
+        }
+        match plan.class {
+            Class::Sky if depth == DepthState::On => Err("a sky with depths"),
+            Class::Sky => {
+                scene.sky = true;
+                Ok(())
+            }
+            Class::Flat if scene.look.is_some() => Err("what is flat"),
+            Class::Flat if plan.shear.is_some() || depth == DepthState::On => {
+                Err("what is flat and stands elsewhere than on the panel")
+            }
+            Class::Flat | Class::OffScreen => Ok(()),
+            Class::Scene => {
+                let shear = plan.shear.filter(|_| classed.focal.is_none());
+                let shear = shear.ok_or("a part of the scene with zero parallax of its own")?;
+                let blends = gl.is_enabled(c::BLEND) && !self.state.look.equal;
+                if depth == DepthState::Off || blends {
+                    return Err("what is transparent");
+                }
+                let [matrix, _] = self.projections();
+                let look = &self.state.look;
+                let ramp = Ramp::of(&matrix, look.depths, look.zero_to_one);
+                let ramp = ramp.ok_or("a projection without depths")?;
+                let new = Look {
+                    ramp,
+                    shear,
+                    viewport: self.state.viewport,
+                };
+                let known = scene.look.get_or_insert(new);
+                let same = known.ramp.is_like(&ramp)
+                    && known.viewport == new.viewport
+                    && known.shear.conv == shear.conv
+                    && known.shear.separation(1.0) == shear.separation(1.0);
+                match same {
+                    true => Ok(()),
+                    false => Err("another projection"),
+                }
+            }
+        }
+    }
+
+    /// The views that are shown get what the own one shows, from where they stand; all of them are drawn from now on.
+    pub(super) fn make_views(&mut self, gl: &Gl) {
+        let Some(scene) = self.synthesis.scene.take() else {
+            return;
+        };
+        self.synthesis.done = true;
+        self.atlas.tiles.shown = self.shown();
+        self.queries.pause(gl);
+        self.queries.lift_condition(gl);
+        let saved = Saved::take(gl, self.state.compatibility);
+        self.reading(gl, BACK, |layer| match scene.look {
+            Some(look) if layer.has_field(gl) => layer.make_of(gl, &scene, &look),
+            _ => layer.atlas.share_own(gl),
+        });
+        saved.restore(gl);
+        self.rebind(gl);
+        self.queries.put_condition(gl);
+        self.queries.resume(gl);
+    }
+
+    /// The state is as [`Saved::take`] leaves it; changes the framebuffers that are bound.
+    fn make_of(&mut self, gl: &Gl, scene: &Scene, look: &Look) {
+        let heights = self.heights(scene, look);
+        self.atlas.take_field(gl);
+        let Some(passes) = &self.synthesis.passes else {
+            return;
+        };
+        if !passes.measure(gl, &mut self.atlas, &heights, true) {
+            return self.atlas.share_own(gl);
+        }
+        let (mask, func) = (
+            gl.get_integer(c::DEPTH_WRITEMASK) as u8,
+            gl.get_integer(c::DEPTH_FUNC) as u32,
+        );
+        gl.enable(c::DEPTH_TEST);
+        gl.depth_mask(1);
+        gl.depth_func(c::ALWAYS);
+        let srgb = self.state.window.srgb;
+        if srgb {
+            gl.enable_srgb(true);
+        }
+        passes.views(gl, &mut self.atlas, &heights);
+        self.report.synthesised(false);
+        if srgb {
+            gl.enable_srgb(false);
+        }
+        gl.depth_func(func);
+        gl.depth_mask(mask);
+        gl.disable(c::DEPTH_TEST);
+    }
+
+    /// Makes the textures where they are not there.
+    fn has_field(&mut self, gl: &Gl) -> bool {
+        if self.atlas.field(false).is_some() {
+            return true;
+        }
+        let (names, window) = (&mut self.names, &self.state.window);
+        let made = keep_bindings(gl, || self.atlas.make_field(gl, names, window));
+        if !made {
+            self.synthesis.passes = None;
+            self.report
+                .note("all views are drawn: the driver draws to no textures of floats".into());
+        }
+        made
+    }
+
+    fn heights(&self, scene: &Scene, look: &Look) -> Heights {
+        let [_, _, width, _] = look.viewport.map(f64::from);
+        // Pixels by which a camera one place further sees what is infinitely far to the side.
+        let far = look.shear.separation(1.0) * width / 2.0;
+        let [slope, offset] = look.ramp.line();
+        let size = far.abs() * look.shear.conv;
+        let tiles = &self.atlas.tiles;
+        let own = self.rig.place(tiles.own());
+        let levers = [self.rig.place(0) - own, 1.0].map(|place| place * far.signum());
+        let last = f64::from(tiles.views - 1);
+        let longest = levers[0].abs().max((levers[0] + last * levers[1]).abs());
+        let longest = longest.max(1e-3);
+        let scale = size * slope;
+        let step = 0.5f64.powi(self.state.window.bits[4].min(24) as i32);
+        Heights {
+            scale: scale as f32,
+            offset: (size * offset) as f32,
+            far: far.abs() as f32,
+            clear: scene.clear,
+            sky: scene.sky,
+            levers: levers.map(|lever| lever as f32),
+            longest: longest as f32,
+            margin: (-scale.signum() * MARGIN * step) as f32,
+            aim: (0, 0),
+            marked: self.config.marks_holes,
+        }
+    }
+
+    /// At the end of a frame: what is not made yet is made, or is not needed: the panel's picture is that of the own view. The
+    /// state is as [`Saved::take`] leaves it; changes the framebuffers that are bound.
+    pub(super) fn end_scene(&mut self, gl: &Gl) {
+        let Some(scene) = self.synthesis.scene else {
+            return;
+        };
+        let captured = self.config.capture.as_ref().map(|capture| capture.what);
+        let straight = self.output() == Output::Panel
+            && self.config.filter == Filter::Nearest
+            && captured.is_none_or(|what| what == CaptureWhat::Output)
+            && !self.undrawn;
+        match scene.look {
+            Some(look) if straight && self.has_field(gl) => {
+                let heights = self.heights(&scene, &look);
+                self.atlas
+                    .resolve(gl, true, c::COLOR_BUFFER_BIT | c::DEPTH_BUFFER_BIT);
+                let textures = self.atlas.field(false);
+                if let (Some(passes), Some(textures)) = (&self.synthesis.passes, textures)
+                    && passes.measure(gl, &mut self.atlas, &heights, false)
+                {
+                    self.synthesis.field = Some((textures, heights));
+                    self.report.synthesised(true);
+                }
+            }
+            _ => self.make_views(gl),
+        }
+    }
+
+    /// After it.
+    pub(super) fn leave_scene(&mut self) {
+        self.synthesis.scene = None;
+        self.synthesis.field = None;
+        self.synthesis.done = false;
+    }
+}

@@ -1,0 +1,116 @@
+//! Views of a depth image by the driver: what [`super::warp`] says, pixel by pixel backwards.
+//!
+//! A ray of the other camera is a straight line over the heights of a row (see `shaders/field.wgsl`), so what it sees is the first sample that it
+//! meets. How high and how low blocks of a row are leads it over what it cannot meet, and
+//! straight to what is a plane.
+
+use crate::atlas::{Atlas, FieldTarget, Tiles};
+use crate::config::Filter;
+use crate::gl::{Gl, consts as c};
+use crate::interleave::shader::{
+    DEPTH_UNIT, PEAKS_UNIT, Pass, RANGE_UNIT, Synthesis, Uniforms, VIEWS_UNIT,
+};
+use crate::interleave::{Heights, Layout, Program};
+
+/// The passes of one context.
+#[derive(Debug)]
+pub struct Passes {
+    vertex_array: u32,
+    peaks: Program,
+    tops: Program,
+    range: Program,
+    view: Program,
+}
+
+impl Passes {
+    /// For a context whose shading language has this version × 100. The error is naga's or the driver's.
+    pub fn new(gl: &Gl, glsl: u32) -> Result<Passes, String> {
+        let program = |pass| Program::new(gl, glsl, Pass::Synthesis(pass));
+        Ok(Passes {
+            peaks: program(Synthesis::Peaks)?,
+            tops: program(Synthesis::Tops)?,
+            range: program(Synthesis::Range)?,
+            view: program(Synthesis::View)?,
+            vertex_array: gl.gen_vertex_array(),
+        })
+    }
+
+    /// The names of its programs.
+    pub fn programs(&self) -> impl Iterator<Item = u32> {
+        [&self.peaks, &self.tops, &self.range, &self.view]
+            .into_iter()
+            .map(Program::name)
+    }
+
+    /// Learns how high the own view is, of the tile itself or, with `copied`, of the copy; false where there is none. State must be as
+    /// `present::Saved::take` leaves it; changes the framebuffers that are bound.
+    pub fn measure(&self, gl: &Gl, atlas: &mut Atlas, heights: &Heights, copied: bool) -> bool {
+        let Some(textures) = atlas.field(copied) else {
+            return false;
+        };
+        let words = uniforms(&atlas.tiles, atlas.flipped, *heights).words();
+        for (unit, texture) in [
+            (VIEWS_UNIT, textures.colour),
+            (DEPTH_UNIT, textures.depth),
+            (PEAKS_UNIT, textures.peaks),
+            (RANGE_UNIT, textures.tops),
+        ] {
+            gl.active_texture(c::TEXTURE0 + unit);
+            gl.bind_texture(c::TEXTURE_2D_ARRAY, texture);
+        }
+        gl.bind_vertex_array(self.vertex_array);
+        let height = atlas.tiles.height as i32;
+        for (program, target) in [
+            (&self.peaks, FieldTarget::Peaks),
+            (&self.tops, FieldTarget::Tops),
+            (&self.range, FieldTarget::Range),
+        ] {
+            let width = atlas.enter_field(gl, target);
+            gl.viewport(0, 0, width, height);
+            program.bind(gl, &words);
+            gl.draw_arrays(c::TRIANGLES, 0, 3);
+        }
+        gl.active_texture(c::TEXTURE0 + RANGE_UNIT);
+        gl.bind_texture(c::TEXTURE_2D_ARRAY, textures.range);
+        true
+    }
+
+    /// Makes the views that are shown of the copy of the own one, which has been measured: colours, and depths for what is drawn
+    /// after them. The depth test must pass and write everything; changes the framebuffers that are bound.
+    pub fn views(&self, gl: &Gl, atlas: &mut Atlas, heights: &Heights) {
+        let (tiles, own) = (atlas.tiles, atlas.tiles.own());
+        for view in tiles.order().filter(|&view| view != own) {
+            let left = atlas.enter(gl, view);
+            gl.viewport(left, 0, tiles.width as i32, tiles.height as i32);
+            let heights = Heights {
+                aim: (view, left as u32),
+                ..*heights
+            };
+            let words = uniforms(&tiles, atlas.flipped, heights).words();
+            self.view.bind(gl, &words);
+            gl.draw_arrays(c::TRIANGLES, 0, 3);
+        }
+    }
+}
+
+fn uniforms(tiles: &Tiles, top_down: bool, heights: Heights) -> Uniforms {
+    let tile = [tiles.width, tiles.height];
+    Uniforms {
+        tile,
+        stride: tiles.stride,
+        picture: tile,
+        columns: tiles.columns,
+        views: tiles.views,
+        layout: Layout::View(0),
+        rows_top_down: top_down,
+        linear: false,
+        filter: Filter::Nearest,
+        period: [1; 2],
+        column_bits: 0,
+        black: 0,
+        matrices: Default::default(),
+        depth: [0.0; 2],
+        grid: tiles.grid,
+        heights,
+    }
+}

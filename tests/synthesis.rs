@@ -1,0 +1,248 @@
+//! Views that are made of depths (`--strategy depth-image`): they are those of the CPU reference, the panel's picture is that of the
+//! views, the program's own view is untouched, and what no depth tells of is drawn in each view.
+#![forbid(unsafe_code)]
+
+mod support;
+
+use image::{GenericImageView, Rgb, RgbImage};
+use manyview::metric::{Comparison, pixels_over};
+use manyview::synthesis::{DepthImage, Shift, warp};
+use serde_json::Value;
+use std::path::Path;
+use support::{demo, manyview, rgb, screen, succeed};
+
+const VIEWS: u32 = 5;
+const OWN: u32 = 2;
+const MAGENTA: [u8; 3] = [255, 0, 255];
+
+/// One frame of a demo as the layer shows it, and the report.
+fn shown(demonstration: &[&str], what: &str, options: &[&str], out: &Path) -> Value {
+    let report = out.with_extension("json");
+    let (name, arguments) = demonstration.split_first().expect("a demo");
+    let mut command = manyview();
+    command.args(["capture", "--frame", "2", "--what", what]);
+    command.arg("--out").arg(out).arg("--report").arg(&report);
+    command
+        .args(options)
+        .arg("--")
+        .arg(demo(name))
+        .args(arguments);
+    succeed(screen().give(command.args(["--frames", "3", "--size", "300x220"])));
+    let text = std::fs::read_to_string(&report).expect("a report");
+    serde_json::from_str(&text).expect("JSON")
+}
+
+/// The views, the leftmost camera's first.
+fn views(demonstration: &[&str], options: &[&str]) -> (Vec<RgbImage>, Value) {
+    let folder = tempfile::tempdir().expect("a folder");
+    let out = folder.path().join("atlas.png");
+    let options = [&["--views", "5"], options].concat();
+    let report = shown(demonstration, "atlas", &options, &out);
+    let all = rgb(&out);
+    let width = all.width() / VIEWS;
+    let view = |i| all.view(i * width, 0, width, all.height()).to_image();
+    ((0..VIEWS).map(view).collect(), report)
+}
+
+fn made(report: &Value) -> [u64; 2] {
+    ["into_panel", "into_tiles"].map(|way| {
+        let made = &report["frames_synthesised"][way];
+        made.as_u64().unwrap_or(0)
+    })
+}
+
+/// Why views were made within the frames.
+fn reasons(report: &Value) -> Vec<String> {
+    let all = report["fallbacks"].as_object().expect("an object");
+    all.keys().cloned().collect()
+}
+
+fn psnr(expected: &RgbImage, actual: &RgbImage) -> f64 {
+    let compared = Comparison::new(expected, actual, None);
+    compared.expect("pictures of one size").psnr
+}
+
+/// The own view with its depths; `near` and `far` are the demo's planes.
+fn depth_image(demonstration: &[&str], own: &RgbImage, [near, far]: [f64; 2]) -> DepthImage {
+    let folder = tempfile::tempdir().expect("a folder");
+    let out = folder.path().join("depth.png");
+    shown(demonstration, "depth", &["--views", "5"], &out);
+    let depths = image::open(&out).expect("a picture").into_luma16();
+    let inverse = |depth: u16| match depth {
+        // Nothing was drawn there.
+        u16::MAX => -1.0,
+        depth => {
+            let depth = f64::from(depth) / f64::from(u16::MAX);
+            (1.0 / near + depth * (1.0 / far - 1.0 / near)) as f32
+        }
+    };
+    let (width, height) = own.dimensions();
+    let colours = own.pixels().map(|pixel| pixel.0).collect();
+    let inverses = depths.pixels().map(|pixel| inverse(pixel.0[0])).collect();
+    DepthImage::new([width, height], colours, inverses).expect("sizes that fit")
+}
+
+#[test]
+fn views_are_those_of_the_reference() {
+    let scenes: [(&[&str], _, _); 2] = [
+        (&["gears"], [2.0, 40.0], ["0.02", "9"]),
+        (&["field"], [0.5, 60.0], ["0.03", "4"]),
+    ];
+    for (scene, planes, [separation, convergence]) in scenes {
+        for atlas in ["side-by-side", "layers"] {
+            let options = |holes| {
+                let cameras = ["--separation", separation, "--convergence", convergence];
+                let way = [
+                    "--strategy",
+                    "depth-image",
+                    "--atlas",
+                    atlas,
+                    "--holes",
+                    holes,
+                ];
+                [&cameras[..], &way[..]].concat()
+            };
+            let (all, report) = views(scene, &options("fill"));
+            assert!(made(&report)[1] > 0, "{report}");
+            let (marked, _) = views(scene, &options("mark"));
+            let cameras = ["--separation", separation, "--convergence", convergence];
+            let exact = [&cameras[..], &["--strategy", "replay"]].concat();
+            let (exact, _) = views(scene, &exact);
+            let image = depth_image(scene, &all[OWN as usize], planes);
+            for view in (0..VIEWS).filter(|&view| view != OWN) {
+                let shift = Shift {
+                    separation: (f64::from(view) - 2.0) * separation.parse::<f64>().expect("one"),
+                    convergence: convergence.parse().expect("a number"),
+                };
+                let expected = warp(&image, &shift);
+                let at = view as usize;
+                let pixels = f64::from(all[at].width() * all[at].height());
+                let differs = |(a, b): (&Rgb<u8>, &Rgb<u8>)| {
+                    a.0.iter().zip(b.0).any(|(a, b)| a.abs_diff(b) > 8)
+                };
+                let both = expected.picture.pixels().zip(all[at].pixels());
+                let differs: Vec<bool> = both.map(differs).collect();
+                let wrong = differs.iter().zip(&expected.holes);
+                let wrong = wrong.filter(|(differs, hole)| **differs && !**hole).count() as f64;
+                // How far a picture is from what is drawn, in holes.
+                let error = |picture: &RgbImage| {
+                    let pairs = exact[at]
+                        .pixels()
+                        .zip(picture.pixels())
+                        .zip(&expected.holes);
+                    let of = |((a, b), hole): ((&Rgb<u8>, &Rgb<u8>), &bool)| match hole {
+                        true => {
+                            a.0.iter()
+                                .zip(b.0)
+                                .map(|(a, b)| u64::from(a.abs_diff(b)))
+                                .sum()
+                        }
+                        false => 0u64,
+                    };
+                    pairs.map(of).sum::<u64>()
+                };
+                let [filled, reference] = [&all[at], &expected.picture].map(error);
+                let hole = |x: usize| expected.holes[x];
+                let told = marked[at].pixels().enumerate();
+                let odd = told
+                    .filter(|(x, pixel)| hole(*x) != (pixel.0 == MAGENTA))
+                    .count();
+                let holes = expected.hole_share() * pixels;
+                println!(
+                    "{scene:?} {atlas} view {view}: {wrong} pixels wrong, holes {filled} and {reference} from what is drawn, {odd} of {holes} holes"
+                );
+                // Single pixels where a ray passes an edge within the depths' 16 bits.
+                assert!(
+                    wrong <= 0.0005 * pixels,
+                    "{scene:?} {atlas} view {view}: {wrong}"
+                );
+                assert!(10 * filled <= 11 * reference, "{filled}, {reference}");
+                assert!(
+                    holes > 50.0 && odd as f64 <= 0.02 * holes + 10.0,
+                    "{odd} of {holes}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn a_panel_s_picture_is_that_of_its_views() {
+    for (display, count) in [("slanted8", "8"), ("lenticular-5", "5")] {
+        let folder = tempfile::tempdir().expect("a folder");
+        let picture = |what: &str, name: &str, more: &[&str]| {
+            let out = folder.path().join(name);
+            let common = ["--display", display, "--strategy", "depth-image"];
+            let cameras = ["--separation", "0.02", "--convergence", "4"];
+            let options = [&common[..], &cameras[..], more].concat();
+            let report = shown(&["field"], what, &options, &out);
+            (out, report)
+        };
+        let (straight, report) = picture("output", "straight.png", &[]);
+        assert_eq!(made(&report)[1], 0, "{report}");
+        assert!(made(&report)[0] > 0, "{report}");
+        let quilt = ["--output", "quilt"];
+        picture("output", "quilt_%q.png", &quilt);
+        let quilt = std::fs::read_dir(folder.path())
+            .expect("a folder")
+            .flatten();
+        let quilt = quilt.map(|entry| entry.path());
+        let mut quilts = quilt.filter(|path| path.display().to_string().contains("_qs"));
+        let quilt = quilts.next().expect("a quilt");
+        let woven = folder.path().join("woven.png");
+        let mut weave = manyview();
+        weave.args(["weave", "--display", display, "--views", count]);
+        weave.args(["--size", "300x220"]).arg("--in").arg(&quilt);
+        succeed(weave.arg("--out").arg(&woven));
+        let (straight, woven) = (rgb(&straight), rgb(&woven));
+        let wrong = pixels_over(&woven, &straight, 0);
+        assert!(wrong <= 66, "{display}: {wrong} pixels differ");
+    }
+}
+
+/// Scenes with something that depths do not tell of, what ends them, and how close the worst view is to what is drawn, in dB.
+const HARD: [(&[&str], &str, f64); 9] = [
+    (&["gears"], "", 31.0),
+    (&["teapot"], "", 35.0),
+    (&["room"], "what is transparent", 34.0),
+    (&["points"], "draws with a stipple of the screen's", 25.0),
+    (&["clip"], "draws with a stencil test", 36.0),
+    (&["mirror"], "draws with a stencil test", 50.0),
+    (&["sky"], "a sky with depths", 34.0),
+    (&["crowd"], "what is transparent", 24.0),
+    (&["shade"], "what is transparent", 37.0),
+];
+
+#[test]
+fn what_depths_do_not_tell_of_is_drawn_in_each_view() {
+    for (scene, reason, least) in HARD {
+        let (exact, _) = views(scene, &["--strategy", "replay"]);
+        let (all, report) = views(scene, &["--strategy", "depth-image"]);
+        assert!(
+            all[OWN as usize] == exact[OWN as usize],
+            "{scene:?}: the own view is another"
+        );
+        let found = reasons(&report);
+        let told = format!("views are made before {reason}");
+        match reason {
+            "" => assert!(found.is_empty(), "{scene:?}: {found:?}"),
+            _ => assert!(found.contains(&told), "{scene:?}: {found:?}"),
+        }
+        assert_eq!(report["gl_errors"], 0, "{scene:?}");
+        let worst = exact.iter().zip(&all).map(|(e, a)| psnr(e, a));
+        let worst = worst.fold(f64::INFINITY, f64::min);
+        println!("{scene:?}: {worst:.1} dB");
+        assert!(worst >= least, "{scene:?}: {worst} dB");
+    }
+}
+
+#[test]
+fn programs_with_pictures_of_their_own_are_drawn_in_each_view() {
+    for scene in [&["passes", "--depth-blit"][..], &["blur"], &["menu"]] {
+        let (exact, _) = views(scene, &["--strategy", "replay"]);
+        let (all, _) = views(scene, &["--strategy", "depth-image"]);
+        for (view, (exact, all)) in exact.iter().zip(&all).enumerate() {
+            assert!(exact == all, "{scene:?}: view {view}");
+        }
+    }
+}
