@@ -201,8 +201,9 @@ fn a_panel_s_picture_is_that_of_its_views() {
 }
 
 /// Scenes with something that depths do not tell of, what ends them, and how close the worst view is to what is drawn, in dB.
-const HARD: [(&[&str], &str, f64); 9] = [
+const HARD: [(&[&str], &str, f64); 11] = [
     (&["gears"], "", 31.0),
+    (&["gears", "--samples", "4"], "", 35.0),
     (&["teapot"], "", 35.0),
     (&["room"], "what is transparent", 34.0),
     (&["points"], "draws with a stipple of the screen's", 25.0),
@@ -210,6 +211,11 @@ const HARD: [(&[&str], &str, f64); 9] = [
     (&["mirror"], "draws with a stencil test", 50.0),
     (&["sky"], "a sky with depths", 34.0),
     (&["crowd"], "what is transparent", 24.0),
+    (
+        &["shade", "--api", "egl", "--profile", "es2"],
+        "what is transparent",
+        37.0,
+    ),
     (&["shade"], "what is transparent", 37.0),
 ];
 
@@ -245,4 +251,89 @@ fn programs_with_pictures_of_their_own_are_drawn_in_each_view() {
             assert!(exact == all, "{scene:?}: view {view}");
         }
     }
+}
+
+/// Scenes of `hard` that do not hold the bound, and why.
+const APART: [(&str, &str); 5] = [
+    (
+        "answers",
+        "two surfaces in one plane, which fight for it in each view in another way",
+    ),
+    (
+        "gaps",
+        "in a gap a pixel wide the wall has the colour of half a pixel beside it, which a bar hides: 142 pixels",
+    ),
+    ("layered", "the same"),
+    (
+        "normals",
+        "a rim that is a pixel wide is of another colour in the next pixel: 46 of 66,000 pixels, 33 allowed",
+    ),
+    (
+        "far-from-origin",
+        "vertices at 1,000,000 are rounded otherwise in each view",
+    ),
+];
+/// What is allowed of a view's pixels, in parts of all, outside holes: single pixels at silhouettes.
+const OUTSIDE: f64 = 0.0005;
+
+/// Outside holes nothing is seen that is not there, or beside it; where depths do not tell, everything is as it is drawn.
+#[test]
+fn hard_scenes_are_right_outside_of_holes() {
+    let mut list = support::bare(demo("hard"));
+    let list = support::lines(list.args(["--list", "--api", "egl"]));
+    let scenes: Vec<&str> = list
+        .lines()
+        .filter_map(|line| line.split(' ').next())
+        .collect();
+    assert!(scenes.len() > 40, "{list}");
+    let cameras = ["--eye-spacing", "0.3", "--focal-depth", "8"];
+    for name in scenes {
+        let scene = ["hard", "--case", name];
+        let by = |options: &[&str]| views(&scene, &[&cameras[..], options].concat());
+        let (exact, _) = by(&["--strategy", "replay"]);
+        let (all, report) = by(&["--strategy", "depth-image"]);
+        let (marked, _) = by(&["--strategy", "depth-image", "--holes", "mark"]);
+        assert!(
+            exact[OWN as usize] == all[OWN as usize],
+            "{name}: the own view is another"
+        );
+        assert_eq!(report["gl_errors"], 0, "{name}");
+        let mut worst = 0;
+        for view in (0..VIEWS as usize).filter(|&view| view != OWN as usize) {
+            worst = worst.max(odd(&exact[view], &all[view], &marked[view]));
+        }
+        let [_, tiles] = made(&report);
+        println!(
+            "{name}: {worst} pixels, {tiles} frames made, {:?}",
+            reasons(&report)
+        );
+        let pixels = f64::from(exact[0].width() * exact[0].height());
+        match APART.iter().find(|(apart, _)| *apart == name) {
+            Some((_, why)) => assert!(worst as f64 > OUTSIDE * pixels, "{name}: {why}"),
+            None => assert!(worst as f64 <= OUTSIDE * pixels, "{name}: {worst}"),
+        }
+    }
+}
+
+/// Pixels that are no holes, which are marked or have something before them, and more than 8 steps beyond all that is within a pixel of
+/// them.
+fn odd(exact: &RgbImage, made: &RgbImage, marked: &RgbImage) -> usize {
+    let (width, height) = exact.dimensions();
+    let beyond = |x: u32, y: u32| {
+        let around = (y.saturating_sub(1)..height.min(y + 2))
+            .flat_map(|y| (x.saturating_sub(1)..width.min(x + 2)).map(move |x| (x, y)));
+        let (mut low, mut high) = ([u8::MAX; 3], [0; 3]);
+        for (x, y) in around {
+            let pixel = exact.get_pixel(x, y).0;
+            low = std::array::from_fn(|i| low[i].min(pixel[i]));
+            high = std::array::from_fn(|i| high[i].max(pixel[i]));
+        }
+        let is = made.get_pixel(x, y).0;
+        (0..3).any(|i| {
+            i32::from(is[i]) < i32::from(low[i]) - 8 || i32::from(is[i]) > i32::from(high[i]) + 8
+        })
+    };
+    let all = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
+    all.filter(|&(x, y)| marked.get_pixel(x, y) == made.get_pixel(x, y) && beyond(x, y))
+        .count()
 }

@@ -15,7 +15,7 @@ static const struct hard_case *chosen;
 
 void demo_setup(void)
 {
-    const struct hard_case *const all[] = {places_cases, depths_cases, surfaces_cases, answers_cases};
+    const struct hard_case *const all[] = {places_cases, depths_cases, surfaces_cases, answers_cases, hidden_cases};
     for (unsigned i = 0; i < sizeof all / sizeof *all; i++) {
         for (const struct hard_case *c = all[i]; c->name; c++) {
             if (list)

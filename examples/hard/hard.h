@@ -11,7 +11,7 @@ struct hard_case {
     void (*setup)(void); /* null if there is nothing to prepare */
     void (*draw)(int frame);
 };
-extern const struct hard_case places_cases[], depths_cases[], surfaces_cases[], answers_cases[];
+extern const struct hard_case places_cases[], depths_cases[], surfaces_cases[], answers_cases[], hidden_cases[];
 
 /* ---- vertices, collected and drawn by glDrawArrays, or by glBegin between send_immediate(1) and send_immediate(0) ---- */
 void send_immediate(int immediate);

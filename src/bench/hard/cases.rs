@@ -243,6 +243,18 @@ pub const CASES: &[Case] = &[
         GATE_SOURCE,
     ),
     scene(
+        "gaps",
+        "bars before a wall, thin gaps, edges of the picture",
+        &[GATE, NOTHING_WRONG],
+        GATE_SOURCE,
+    ),
+    scene(
+        "layered",
+        "lights that are added, depths cleared in the frame, a flat display",
+        &[GATE, NOTHING_WRONG],
+        GATE_SOURCE,
+    ),
+    scene(
         "equal-arrays",
         "two passes with GL_EQUAL, both from arrays",
         &[NOTHING_MISSED],
