@@ -337,3 +337,41 @@ fn odd(exact: &RgbImage, made: &RgbImage, marked: &RgbImage) -> usize {
     all.filter(|&(x, y)| marked.get_pixel(x, y) == made.get_pixel(x, y) && beyond(x, y))
         .count()
 }
+
+/// What was shown straight from the own view has no other views; what is drawn over it has them all the same.
+#[test]
+fn a_program_that_does_not_clear_draws_on() {
+    let program = support::compiled("onward", support::Compiled::Program, &["-lEGL", "-lGL"]);
+    let folder = tempfile::tempdir().expect("a folder");
+    let expected = support::lines(&mut support::bare(&program));
+    assert_eq!(expected.matches("error 0x0").count(), 8, "{expected}");
+    let report = folder.path().join("report.json");
+    for frame in ["1", "2", "3", "4", "5", "6", "7", "8"] {
+        let picture = |strategy: &str| {
+            let out = folder.path().join(format!("{strategy}-{frame}.png"));
+            let options = [
+                ("DISPLAY", "lenticular-5"),
+                ("STRATEGY", strategy),
+                ("SEPARATION", "0.08"),
+                ("REPORT", report.to_str().expect("UTF-8")),
+                ("CONVERGENCE", "6"),
+                ("CAPTURE_OUT", out.to_str().expect("UTF-8")),
+                ("CAPTURE_FRAMES", frame),
+            ];
+            assert_eq!(
+                support::lines(&mut support::layered(&program, &options)),
+                expected
+            );
+            rgb(&out)
+        };
+        let (exact, panel) = (picture("replay"), picture("depth-image"));
+        let told = std::fs::read_to_string(&report).expect("a report");
+        let report: Value = serde_json::from_str(&told).expect("JSON");
+        // Two frames begin a scene, two go on with it, two end it; after that nothing is made of depths.
+        assert_eq!(made(&report), [4, 2], "{report}");
+        // Columns at the edges of four squares, in four of five views.
+        let wrong = pixels_over(&exact, &panel, 8);
+        println!("frame {frame}: {wrong}");
+        assert!(wrong <= 60, "frame {frame}: {wrong} of 3072 pixels");
+    }
+}

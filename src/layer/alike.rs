@@ -99,6 +99,10 @@ impl Layer {
     /// The other views get what the program's own one has, and are drawn again.
     pub(super) fn part(&mut self, gl: &Gl) {
         self.make_views(gl);
+        self.wake(gl);
+    }
+
+    fn wake(&mut self, gl: &Gl) {
         if !std::mem::take(&mut self.alike.rests) {
             return;
         }
@@ -119,7 +123,7 @@ impl Layer {
         if rests {
             self.alike.rests = true;
         } else {
-            self.part(gl);
+            self.wake(gl);
         }
     }
 

@@ -338,6 +338,7 @@ impl Layer {
         }
         self.drop_proof(gl);
         self.alike = alike::Alike::default();
+        self.forget_scene();
         self.state.window.width = width;
         self.state.window.height = height;
         let grid = self.grid();

@@ -9,7 +9,7 @@ use crate::atlas::FieldTextures;
 use crate::config::{CaptureWhat, Class, DepthState, Filter, Output, Strategy, Viewport};
 use crate::gl::{Gl, consts as c};
 use crate::interleave::Heights;
-use crate::plan::{Classed, Kind, Plan, Ramp, Reason, Shear};
+use crate::plan::{Classed, Kind, Method, Plan, Ramp, Reason, Shear};
 use crate::present::Saved;
 use crate::state::{BACK, Touch};
 use crate::synthesis::Passes;
@@ -28,6 +28,8 @@ struct Scene {
     begun: bool,
     /// The depth of what nothing is drawn on.
     clear: f32,
+    /// It has been shown, and no other view has it.
+    shown: bool,
 }
 
 /// How depths become disparities.
@@ -80,11 +82,16 @@ impl Synthesis {
 impl Layer {
     /// Before a draw that is planned: it goes to the own view alone, or the views are made.
     pub(super) fn keep_own(&mut self, gl: &Gl, kind: Kind, plan: &Plan, classed: &Classed) {
-        if self.synthesis.passes.is_none() || !self.state.draws_to_window() {
+        let drawn = plan.method != Method::Once && self.state.draws_to_window();
+        if self.synthesis.passes.is_none() || !drawn {
             return;
         }
         if let Kind::Clear { depths, whole } = kind {
-            return self.clear_own(gl, depths, whole);
+            // Of stencils nothing is made.
+            if depths || whole != c::STENCIL_BUFFER_BIT {
+                self.clear_own(gl, whole);
+            }
+            return;
         }
         let Some(mut scene) = self.synthesis.scene else {
             return;
@@ -102,21 +109,22 @@ impl Layer {
     }
 
     /// A clear begins a scene, or ends it.
-    fn clear_own(&mut self, gl: &Gl, depths: bool, whole: u32) {
-        if let Some(scene) = self.synthesis.scene
-            && depths
-            && scene.begun
-        {
-            self.fallbacks
-                .add(Reason::Parted("another clear of the depths"));
-            return self.make_views(gl);
-        }
+    fn clear_own(&mut self, gl: &Gl, whole: u32) {
         let all = whole & c::DEPTH_BUFFER_BIT != 0
             && self.clears_all(gl)
             && gl.get_integer(c::DEPTH_WRITEMASK) != 0;
+        if let Some(scene) = self.synthesis.scene
+            && scene.begun
+            && !(all && scene.shown)
+        {
+            self.fallbacks.add(Reason::Parted("another clear"));
+            return self.make_views(gl);
+        }
         if !all || self.synthesis.done || !self.may_synthesise() {
             return;
         }
+        // What was shown last is no more.
+        self.synthesis.scene = None;
         self.part(gl);
         self.synthesis.scene = Some(Scene {
             clear: gl.get_floats::<1>(c::DEPTH_CLEAR_VALUE)[0],
@@ -330,10 +338,18 @@ impl Layer {
         }
     }
 
-    /// After it.
+    /// After it. A scene that no other view has goes on until it is cleared.
     pub(super) fn leave_scene(&mut self) {
-        self.synthesis.scene = None;
-        self.synthesis.field = None;
+        let straight = self.synthesis.field.take().is_some();
+        self.synthesis.scene = self.synthesis.scene.filter(|_| straight);
+        if let Some(scene) = &mut self.synthesis.scene {
+            scene.shown = true;
+        }
         self.synthesis.done = false;
+    }
+
+    /// The tiles are others.
+    pub(super) fn forget_scene(&mut self) {
+        self.synthesis.scene = None;
     }
 }
