@@ -22,9 +22,13 @@ fn depth_at(x: i32, row: i32) -> f32 {
     return textureLoad(depth_texture, vec2<i32>(x, row), 0, 0).r;
 }
 
+// Whether nothing was drawn there. Depths of 24 bits come back with the error of one step.
+fn is_clear(depth: f32) -> bool {
+    return abs(depth - u.field.w) < 1e-7;
+}
+
 fn height_of(depth: f32) -> f32 {
-    // Depths of 24 bits come back with the error of one step.
-    if abs(depth - u.field.w) < 1e-7 {
+    if is_clear(depth) {
         return u.lever.z;
     }
     return max(u.field.x * depth + u.field.y, 0.0);
@@ -154,5 +158,6 @@ fn sample_at(x: i32, row: i32) -> vec3<f32> {
 }
 
 fn colour_of(seen: Seen, row: i32) -> vec3<f32> {
-    return mix(sample_at(seen.low, row), sample_at(seen.high, row), seen.weight);
+    let colour = mix(sample_at(seen.low, row), sample_at(seen.high, row), seen.weight);
+    return select(colour, vec3<f32>(1.0, 0.0, 1.0), seen.hole && u.aim.z > 0.0);
 }

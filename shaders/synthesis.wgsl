@@ -81,9 +81,6 @@ fn view(@builtin(position) position: vec4<f32>) -> Made {
     // Where the surface is bent it is not where the straight line between two samples is.
     let away = u.lever.w + sign(u.lever.w) * BENT * abs(high - low);
     let moved = clamp(mix(low, high, seen.weight) + away, 0.0, 1.0);
-    let depth = select(moved, low, abs(low - u.field.w) < 1e-7);
-    if seen.hole && u.aim.z > 0.0 {
-        return Made(vec4<f32>(1.0, 0.0, 1.0, 1.0), depth);
-    }
+    let depth = select(moved, low, is_clear(low));
     return Made(vec4<f32>(colour_of(seen, row), 1.0), depth);
 }

@@ -3,9 +3,7 @@
 
 fn through(view: u32, at: vec2<u32>, row: i32, range: vec2<f32>) -> vec3<f32> {
     let seen = seek(f32(at.x) + 0.5, row, u.lever.x + f32(view) * u.lever.y, range);
-    let mark = seen.hole && u.aim.z > 0.0;
-    let colour = select(colour_of(seen, row), vec3<f32>(1.0, 0.0, 1.0), mark);
-    return select(colour, vec3<f32>(0.0), view >= u.views);
+    return select(colour_of(seen, row), vec3<f32>(0.0), view >= u.views);
 }
 
 // A mask of whole pixels: one view for all three colours.

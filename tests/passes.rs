@@ -4,7 +4,7 @@
 
 mod support;
 
-use support::views::{VIEWS, Views, extents};
+use support::views::{REPLAYED, VIEWS, Views, extents};
 use support::{Compiled, bare, compiled, demo, layered, lines, screen, succeed};
 
 #[test]
@@ -15,13 +15,7 @@ fn a_program_knows_of_its_framebuffers_what_it_knows_without_the_layer() {
     for (atlas, driver) in [("side-by-side", None), ("layers", None), ("layers", old)] {
         let expected = lines(bare(&program).envs(driver));
         assert!(expected.contains("shown: bound 0 0"), "{expected}");
-        let views = Views {
-            atlas,
-            strategy: "replay",
-            separation: 0.4,
-            convergence: 4.0,
-            frame: 1,
-        };
+        let views = Views { atlas, ..REPLAYED };
         let (told, all) = views.shown(layered(&program, &[]).envs(driver));
         for (told, expected) in told.lines().zip(expected.lines()) {
             assert_eq!(told, expected, "{atlas}");
@@ -70,10 +64,8 @@ fn what_is_computed_of_a_scene_is_computed_for_each_view() {
         for frame in [1, 2] {
             let views = Views {
                 atlas,
-                strategy: "replay",
-                separation: 0.4,
-                convergence: 4.0,
                 frame,
+                ..REPLAYED
             };
             let (told, all) = views.shown(&mut layered(&program, &[]));
             assert_eq!(told, expected, "{atlas}");
@@ -179,11 +171,10 @@ fn an_explanation_names_passes_and_keeps_shaders_and_rules_change_them() {
 fn every_way_to_draw_reaches_the_framebuffers_of_all_views() {
     let program = compiled("aside", Compiled::Program, &["-lEGL", "-lGL"]);
     let views = Views {
-        atlas: "side-by-side",
-        strategy: "replay",
         separation: 0.3,
         convergence: 6.0,
         frame: 2,
+        ..REPLAYED
     };
     let all = |way: &str| views.shown(layered(&program, &[]).arg(way)).1;
     let first = all("");

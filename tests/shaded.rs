@@ -4,7 +4,7 @@
 
 mod support;
 
-use support::views::{Views, extents};
+use support::views::{REPLAYED, Views, extents};
 use support::{Compiled, bare, compiled, layered, lines};
 
 #[test]
@@ -19,13 +19,7 @@ fn a_program_knows_of_its_shaders_what_it_knows_without_the_layer() {
     assert!(expected.contains("pixel 0 255 0"), "{expected}");
     assert!(expected.contains("deleted: 1 0, there: 0 1"), "{expected}");
     for atlas in ["side-by-side", "layers"] {
-        let views = Views {
-            atlas,
-            strategy: "replay",
-            separation: 0.4,
-            convergence: 4.0,
-            frame: 1,
-        };
+        let views = Views { atlas, ..REPLAYED };
         let (told, all) = views.shown(&mut layered(&program, &[]));
         assert_eq!(told, expected, "{atlas}");
         let [left, own, right] = extents(&all, [0, 255, 0]);

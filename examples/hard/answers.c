@@ -2,15 +2,6 @@
 #include "hard.h"
 #include <stdio.h>
 
-static void frustum(void)
-{
-    glMatrixMode(GL_PROJECTION);
-    glLoadIdentity();
-    glFrustum(-0.8, 0.8, -0.6, 0.6, 1, 100);
-    demo_projection_done();
-    glMatrixMode(GL_MODELVIEW);
-}
-
 static void things(void)
 {
     static const unsigned a[2] = {0xd04040, 0xe06060}, b[2] = {0x40d040, 0x60e060};
@@ -37,7 +28,7 @@ static void draw_answers(int frame)
     PFNGLGETQUERYOBJECTUIVPROC get = (PFNGLGETQUERYOBJECTUIVPROC)demo_proc("glGetQueryObjectuiv");
     GLuint query, samples, sum = 0;
     (void)frame;
-    frustum();
+    usual_frustum(1, 100);
     glEnable(GL_DEPTH_TEST);
     gen(1, &query);
     begin(GL_SAMPLES_PASSED, query);
@@ -95,7 +86,7 @@ static void draw_ids(int frame)
         unsigned rgb = id_colour((unsigned)k);
         shade[k][0] = (GLubyte)(rgb >> 16), shade[k][1] = (GLubyte)(rgb >> 8), shade[k][2] = (GLubyte)rgb, shade[k][3] = 255;
     }
-    frustum();
+    usual_frustum(1, 100);
     glShadeModel(GL_FLAT);
     glPushClientAttrib(GL_CLIENT_VERTEX_ARRAY_BIT);
     glEnableClientState(GL_VERTEX_ARRAY);
@@ -176,7 +167,7 @@ static void draw_instances(int frame)
     static const GLfloat fan[6][3] = {{0, 0, -7}, {0.9f, 0.1f, -7}, {0.8f, 0.9f, -7}, {0.4f, 1.1f, -7}, {0, 0.8f, -7}, {-0.1f, 0.3f, -7}};
     static const GLfloat places[6][2] = {{-4, -3}, {-1, -3}, {2, -3}, {-4, 0.4f}, {-1, 0.4f}, {2, 0.4f}};
     (void)frame;
-    frustum();
+    usual_frustum(1, 100);
     use(program);
     glPushClientAttrib(GL_CLIENT_VERTEX_ARRAY_BIT);
     glEnableClientState(GL_VERTEX_ARRAY);

@@ -2,15 +2,6 @@
 #include "hard.h"
 #include <math.h>
 
-static void frustum(double z_near, double z_far)
-{
-    glMatrixMode(GL_PROJECTION);
-    glLoadIdentity();
-    glFrustum(-0.8 * z_near, 0.8 * z_near, -0.6 * z_near, 0.6 * z_near, z_near, z_far);
-    demo_projection_done();
-    glMatrixMode(GL_MODELVIEW);
-}
-
 /* Triangles from before the camera through its plane to far behind it. The sides of the first two nearly run along the sides of the
  * picture, where a cut is least certain. */
 static void through_camera(double ratio)
@@ -18,7 +9,7 @@ static void through_camera(double ratio)
     static const unsigned rgb[4] = {0xff4040, 0x40ff40, 0x4040ff, 0xffff40};
     static const double foot[4][2] = {{-0.79, -0.55}, {0.64, -0.5}, {0.1, 0.05}, {-0.3, 0.05}};
     static const double way[4][2] = {{0.8, 0.9}, {-0.8, 1}, {-0.3, -0.2}, {0.35, -0.25}};
-    frustum(0.1, 1000);
+    usual_frustum(0.1, 1000);
     for (int k = 0; k < 4; k++) {
         double d = 2 + k, x = foot[k][0] * d, y = foot[k][1] * d, far = ratio * d;
         start(GL_TRIANGLES);
@@ -51,7 +42,7 @@ static void draw_decals(int frame)
 {
     (void)frame;
     static const unsigned wall_rgb[2] = {0x806040, 0x907050}, decal_rgb[2] = {0x40c0ff, 0xffc040};
-    frustum(1, 100);
+    usual_frustum(1, 100);
     glEnable(GL_DEPTH_TEST);
     patch(wall, 6, 4, wall_rgb);
     glEnable(GL_POLYGON_OFFSET_FILL);
@@ -71,7 +62,7 @@ static void draw_offset_gauge(int frame)
 {
     (void)frame;
     const double run = 40; /* units of the factor over the wedge's height */
-    frustum(1, 2000);
+    usual_frustum(1, 2000);
     glEnable(GL_DEPTH_TEST);
     start(GL_TRIANGLES); /* nothing to be seen of it: the cameras are known */
     at(5000, 0, -9), at(5001, 0, -9), at(5000, 1, -9);
@@ -162,7 +153,7 @@ static void draw_zero_to_one(int frame)
 static void draw_depth_range(int frame)
 {
     (void)frame;
-    frustum(0.5, 1e6);
+    usual_frustum(0.5, 1e6);
     glClearDepth(0);
     glClear(GL_DEPTH_BUFFER_BIT);
     glDepthFunc(GL_GREATER);
@@ -193,7 +184,7 @@ static void setup_passes(void)
 
 static void before_passes(void)
 {
-    frustum(1, 100);
+    usual_frustum(1, 100);
     glRotated(3, 1, 2, 3);
     glEnable(GL_DEPTH_TEST);
     patch(slope, 5, 4, red);
@@ -271,7 +262,7 @@ static void draw_clip_planes(int frame)
     (void)frame;
     static const unsigned tiles[2] = {0xe0c060, 0x3060a0};
     const double sheet[4][3] = {{-20, -12, -4}, {20, -12, -12}, {-20, 12, -12}, {20, 12, -30}};
-    frustum(1, 100);
+    usual_frustum(1, 100);
     glEnable(GL_DEPTH_TEST);
     for (int k = 0; k < 6; k++) {
         double turn = k * M_PI / 3 + 0.2;

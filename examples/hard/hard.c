@@ -43,6 +43,15 @@ void demo_frame(int frame)
     fflush(stdout);
 }
 
+void usual_frustum(double z_near, double z_far)
+{
+    glMatrixMode(GL_PROJECTION);
+    glLoadIdentity();
+    glFrustum(-0.8 * z_near, 0.8 * z_near, -0.6 * z_near, 0.6 * z_near, z_near, z_far);
+    demo_projection_done();
+    glMatrixMode(GL_MODELVIEW);
+}
+
 /* ---- vertices ---- */
 
 struct vertex { GLfloat position[4], normal[3], texture[2]; GLubyte colour[4]; };

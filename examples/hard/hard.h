@@ -13,6 +13,9 @@ struct hard_case {
 };
 extern const struct hard_case places_cases[], depths_cases[], surfaces_cases[], answers_cases[], hidden_cases[];
 
+/* The camera of most scenes: a picture 1.6 wide and 1.2 high at depth 1. */
+void usual_frustum(double z_near, double z_far);
+
 /* ---- vertices, collected and drawn by glDrawArrays, or by glBegin between send_immediate(1) and send_immediate(0) ---- */
 void send_immediate(int immediate);
 void start(GLenum mode);

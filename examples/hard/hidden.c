@@ -1,15 +1,6 @@
 /* Cases of what one view sees and another does not: hard for views that are made of one view and its depths. */
 #include "hard.h"
 
-static void frustum(void)
-{
-    glMatrixMode(GL_PROJECTION);
-    glLoadIdentity();
-    glFrustum(-0.8, 0.8, -0.6, 0.6, 1, 100);
-    demo_projection_done();
-    glMatrixMode(GL_MODELVIEW);
-}
-
 static void box(double left, double right, double low, double high, double z, unsigned light, unsigned dark)
 {
     const double corner[4][3] = {{left, low, -z}, {right, low, -z}, {left, high, -z}, {right, high, -z}};
@@ -34,7 +25,7 @@ static void bars(void)
 static void draw_gaps(int frame)
 {
     (void)frame;
-    frustum();
+    usual_frustum(1, 100);
     glEnable(GL_DEPTH_TEST);
     bars();
     glDisable(GL_DEPTH_TEST);
@@ -44,7 +35,7 @@ static void draw_gaps(int frame)
 static void draw_layered(int frame)
 {
     (void)frame;
-    frustum();
+    usual_frustum(1, 100);
     glEnable(GL_DEPTH_TEST);
     bars();
     glEnable(GL_BLEND);

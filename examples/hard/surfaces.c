@@ -3,20 +3,11 @@
 #include <math.h>
 #include <stdlib.h>
 
-static void frustum(void)
-{
-    glMatrixMode(GL_PROJECTION);
-    glLoadIdentity();
-    glFrustum(-0.8, 0.8, -0.6, 0.6, 1, 100);
-    demo_projection_done();
-    glMatrixMode(GL_MODELVIEW);
-}
-
 /* Wide and smooth points and lines on the sides of the picture: what hangs over belongs to nobody. */
 static void draw_wide(int frame)
 {
     (void)frame;
-    frustum();
+    usual_frustum(1, 100);
     glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
     for (int smooth = 0; smooth < 2; smooth++) {
         (smooth ? glEnable : glDisable)(GL_BLEND);
@@ -52,7 +43,7 @@ static void flat(GLenum convention)
     static const GLenum modes[] = {GL_TRIANGLES, GL_TRIANGLE_STRIP, GL_TRIANGLE_FAN, GL_QUADS, GL_QUAD_STRIP, GL_POLYGON};
     PFNGLPROVOKINGVERTEXPROC provoking = (PFNGLPROVOKINGVERTEXPROC)demo_proc("glProvokingVertex");
     provoking(convention);
-    frustum();
+    usual_frustum(1, 100);
     glShadeModel(GL_FLAT);
     for (int m = 0; m < 6; m++) {
         int round = modes[m] == GL_POLYGON || modes[m] == GL_TRIANGLE_FAN || modes[m] == GL_QUADS;
@@ -137,7 +128,7 @@ static void draw_lighting(int frame)
     (void)frame;
     static const GLfloat haze[4] = {0.3f, 0.35f, 0.4f, 1};
     static const GLdouble half[4] = {0.3, 0.2, 1, 0.4};
-    frustum();
+    usual_frustum(1, 100);
     light();
     glLightModeli(GL_LIGHT_MODEL_TWO_SIDE, 1);
     glLightModeli(GL_LIGHT_MODEL_LOCAL_VIEWER, 1);
@@ -168,7 +159,7 @@ static void draw_normals(int frame)
 {
     (void)frame;
     static const double scale[4][3] = {{1e-4, 3, 2}, {-1.5, 0.3, 1}, {100, 100, 100}, {0.9, 0.01, -2}};
-    frustum();
+    usual_frustum(1, 100);
     light();
     for (int k = 0; k < 4; k++) {
         glPushMatrix();
@@ -193,7 +184,7 @@ static void draw_slivers(int frame)
     (void)frame;
     static const unsigned two[2] = {0xffd090, 0x203060};
     const double sheet[4][3] = {{-3, -2.4, -4}, {3.3, -2.2, -7}, {-3.1, 0, -5}, {3, 0.3, -9}};
-    frustum();
+    usual_frustum(1, 100);
     glEnable(GL_DEPTH_TEST);
     patch(sheet, 150, 70, two);
     start(GL_TRIANGLES);
@@ -222,7 +213,7 @@ static void draw_texture(int frame)
 {
     (void)frame;
     static const double corner[4][3] = {{-4, -3, -5}, {5, -2, -9}, {-4, 3, -5}, {5, 3, -9}};
-    frustum();
+    usual_frustum(1, 100);
     glEnable(GL_TEXTURE_2D);
     glBindTexture(GL_TEXTURE_2D, checker);
     start(GL_TRIANGLE_FAN);
@@ -264,7 +255,7 @@ static void draw_levels(int frame)
     (void)frame;
     static const double floor[4][3] = {{-60, -2, -2}, {60, -2, -2}, {-60, -2, -80}, {60, -2, -80}};
     static const unsigned white[2] = {0xffffff, 0xffffff};
-    frustum();
+    usual_frustum(1, 100);
     glEnable(GL_TEXTURE_2D);
     glBindTexture(GL_TEXTURE_2D, levels);
     glMatrixMode(GL_TEXTURE);

@@ -7,7 +7,9 @@ use manyview_core::layer::Layer;
 pub(crate) use manyview_core::gl::Object;
 
 pub(crate) use context::real;
-use manyview_core::gl::consts::{DEPTH_TEST, FRAMEBUFFER_SRGB, SCISSOR_TEST, TEXTURE_2D};
+use manyview_core::gl::consts::{
+    BLEND, DEPTH_TEST, FRAMEBUFFER_SRGB, POLYGON_STIPPLE, SCISSOR_TEST, STENCIL_TEST, TEXTURE_2D,
+};
 use manyview_core::state::Run;
 pub(crate) use manyview_core::state::{Command, Touch};
 
@@ -24,7 +26,8 @@ pub(crate) enum Kind {
 pub(crate) fn touch(groups: Touch) {
     if context::peek(|l| l.touch(groups)) == Some(false) {
         // What the views depend on is set once; the rest may stay with the drawing.
-        let inside = Touch::FIXED | Touch::MATERIAL | Touch::DEPTH | Touch::RANGE | Touch::TEXTURE;
+        let look = Touch::DEPTH | Touch::RANGE | Touch::TEXTURE | Touch::COVER;
+        let inside = Touch::FIXED | Touch::MATERIAL | look;
         let run = if groups.without(inside) == Touch::NONE {
             Run::Open
         } else {
@@ -161,6 +164,7 @@ pub(crate) fn cap(cap: u32, on: bool) {
         SCISSOR_TEST => Touch::RECTS,
         DEPTH_TEST => Touch::FIXED | Touch::DEPTH,
         TEXTURE_2D => Touch::FIXED | Touch::TEXTURE,
+        BLEND | STENCIL_TEST | POLYGON_STIPPLE => Touch::FIXED | Touch::COVER,
         _ => Touch::FIXED,
     });
 }

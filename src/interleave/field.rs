@@ -17,8 +17,6 @@ pub struct Heights {
     pub sky: bool,
     /// Lever of view 0, and from each view to the next; of the view that the picture is of, it is 0.
     pub levers: [f32; 2],
-    /// The longest of any view.
-    pub longest: f32,
     /// What is added to depths of views that are drawn on, so that they are farther, in units of the depth buffer.
     pub margin: f32,
     /// The view that is made, and the left edge of its tile in pixels.
@@ -32,20 +30,21 @@ const NOTHING: f32 = -1.0e6;
 
 impl Heights {
     /// The lever of a view.
-    pub fn lever(&self, view: u32) -> f32 {
+    fn lever(&self, view: u32) -> f32 {
         self.levers[0] + view as f32 * self.levers[1]
     }
 
     /// `field`, `lever` and `aim` of `shaders/common.wgsl`.
-    pub(super) fn rows(&self) -> [[f32; 4]; 3] {
+    pub(super) fn rows(&self, views: u32) -> [[f32; 4]; 3] {
         let [first, step] = self.levers;
         let clear = if self.sky { 0.0 } else { NOTHING };
         let (view, left) = self.aim;
+        let ends = [0, views.max(1) - 1].map(|view| self.lever(view).abs());
         let marked = f32::from(u8::from(self.marked));
         [
             [self.scale, self.offset, self.far, self.clear],
             [first, step, clear, self.margin],
-            [self.lever(view), left as f32, marked, self.longest],
+            [self.lever(view), left as f32, marked, ends[0].max(ends[1])],
         ]
     }
 }

@@ -352,7 +352,7 @@ impl Uniforms {
         for (word, value) in words.iter_mut().skip(48).zip(lenses) {
             *word = (value as f32).to_bits();
         }
-        let heights = self.heights.rows();
+        let heights = self.heights.rows(views);
         for (word, value) in words.iter_mut().skip(56).zip(heights.as_flattened()) {
             *word = value.to_bits();
         }

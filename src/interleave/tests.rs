@@ -270,7 +270,6 @@ fn uniforms_are_found_by_name() {
             clear: 24.0,
             sky: true,
             levers: [25.0, 26.0],
-            longest: 29.0,
             margin: 27.0,
             aim: (2, 28),
             marked: true,
@@ -321,7 +320,7 @@ fn uniforms_are_found_by_name() {
     let rows = [
         [21.0f32, 22.0, 23.0, 24.0],
         [25.0, 26.0, 0.0, 27.0],
-        [77.0, 28.0, 1.0, 29.0],
+        [77.0, 28.0, 1.0, 259.0],
     ];
     for (at, (name, row)) in ["field", "lever", "aim"].into_iter().zip(rows).enumerate() {
         assert_eq!(of[23 + at], (name, &row.map(f32::to_bits)[..]));

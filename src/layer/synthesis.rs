@@ -6,7 +6,7 @@
 
 use super::{Layer, keep_bindings};
 use crate::atlas::FieldTextures;
-use crate::config::{CaptureWhat, Class, DepthState, Filter, Output, Strategy, Viewport};
+use crate::config::{CaptureWhat, Class, DepthState, Filter, Output, Viewport};
 use crate::gl::{Gl, consts as c};
 use crate::interleave::Heights;
 use crate::plan::{Classed, Kind, Method, Plan, Ramp, Reason, Shear};
@@ -142,9 +142,7 @@ impl Layer {
     }
 
     fn may_synthesise(&self) -> bool {
-        self.config.strategy == Strategy::DepthImage
-            && self.config.views > 1
-            && self.config.prove.is_none()
+        self.config.prove.is_none()
             && self.atlas.depth != 0
             && self.atlas.tiles.grid.is_full()
             && !self.atlas.has_front()
@@ -162,12 +160,13 @@ impl Layer {
         classed: &Classed,
         scene: &mut Scene,
     ) -> Result<(), &'static str> {
-        self.state.look(gl, Touch::RANGE | Touch::DEPTH);
+        let groups = Touch::RANGE | Touch::DEPTH | Touch::COVER;
+        self.state.look(gl, groups);
         let depth = self.state.look.depth;
-        if gl.is_enabled(c::STENCIL_TEST) {
+        if self.state.look.stencil {
             return Err("draws with a stencil test");
         }
-        if self.state.compatibility && gl.is_enabled(c::POLYGON_STIPPLE) {
+        if self.state.look.stipple {
             return Err("draws with a stipple of the screen's");
         }
         if matches!(kind, Kind::Accum | Kind::Pixels) || !self.sampled.is_empty() {
@@ -178,6 +177,9 @@ impl Layer {
         }
         match plan.class {
             Class::Sky if depth == DepthState::On => Err("a sky with depths"),
+            Class::Sky if depth == DepthState::Off && scene.look.is_some() => {
+                Err("a sky over the scene")
+            }
             Class::Sky => {
                 scene.sky = true;
                 Ok(())
@@ -190,12 +192,15 @@ impl Layer {
             Class::Scene => {
                 let shear = plan.shear.filter(|_| classed.focal.is_none());
                 let shear = shear.ok_or("a part of the scene with zero parallax of its own")?;
-                let blends = gl.is_enabled(c::BLEND) && !self.state.look.equal;
-                if depth == DepthState::Off || blends {
-                    return Err("what is transparent");
-                }
                 let [matrix, _] = self.projections();
                 let look = &self.state.look;
+                // Another pass over what is there has its depths.
+                if look.blends && !look.equal {
+                    return Err("what is transparent");
+                }
+                if depth != DepthState::On && !look.equal {
+                    return Err("what has no depths");
+                }
                 let ramp = Ramp::of(&matrix, look.depths, look.zero_to_one);
                 let ramp = ramp.ok_or("a projection without depths")?;
                 let new = Look {
@@ -269,8 +274,8 @@ impl Layer {
 
     /// Makes the textures where they are not there.
     fn has_field(&mut self, gl: &Gl) -> bool {
-        if self.atlas.field(false).is_some() {
-            return true;
+        if self.synthesis.passes.is_none() || self.atlas.field(false).is_some() {
+            return self.synthesis.passes.is_some();
         }
         let (names, window) = (&mut self.names, &self.state.window);
         let made = keep_bindings(gl, || self.atlas.make_field(gl, names, window));
@@ -291,9 +296,6 @@ impl Layer {
         let tiles = &self.atlas.tiles;
         let own = self.rig.place(tiles.own());
         let levers = [self.rig.place(0) - own, 1.0].map(|place| place * far.signum());
-        let last = f64::from(tiles.views - 1);
-        let longest = levers[0].abs().max((levers[0] + last * levers[1]).abs());
-        let longest = longest.max(1e-3);
         let scale = size * slope;
         let step = 0.5f64.powi(self.state.window.bits[4].min(24) as i32);
         Heights {
@@ -303,7 +305,6 @@ impl Layer {
             clear: scene.clear,
             sky: scene.sky,
             levers: levers.map(|lever| lever as f32),
-            longest: longest as f32,
             margin: (-scale.signum() * MARGIN * step) as f32,
             aim: (0, 0),
             marked: self.config.marks_holes,

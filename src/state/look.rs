@@ -17,6 +17,12 @@ pub struct Look {
     pub depths: [f32; 2],
     /// Normalised depths begin at 0, by glClipControl.
     pub zero_to_one: bool,
+    /// Blending is on.
+    pub blends: bool,
+    /// The stencil test is on.
+    pub stencil: bool,
+    /// The polygon stipple is on.
+    pub stipple: bool,
     /// The 2D texture that the active unit samples; 0 for none.
     pub texture: u32,
     /// GL_MODELVIEW_MATRIX.
@@ -31,6 +37,9 @@ impl Default for Look {
             range: DepthRange::Whole,
             depths: [0.0, 1.0],
             zero_to_one: false,
+            blends: false,
+            stencil: false,
+            stipple: false,
             texture: 0,
             modelview: glam::Mat4::IDENTITY.to_cols_array(),
         }
@@ -58,6 +67,11 @@ impl State {
             self.look.range = depth_range(self.look.depths);
             self.look.zero_to_one =
                 self.clip_control && gl.get_integer(c::CLIP_DEPTH_MODE) as u32 == c::ZERO_TO_ONE;
+        }
+        if stale(Touch::COVER) {
+            self.look.blends = gl.is_enabled(c::BLEND);
+            self.look.stencil = gl.is_enabled(c::STENCIL_TEST);
+            self.look.stipple = self.compatibility && gl.is_enabled(c::POLYGON_STIPPLE);
         }
         if stale(Touch::TEXTURE) {
             // Programs sample without it being enabled.

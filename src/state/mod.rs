@@ -53,6 +53,8 @@ impl Touch {
     pub const RASTER: Touch = Touch(128);
     /// The raster position, by glWindowPos.
     pub const WINDOW_POS: Touch = Touch(256);
+    /// Blending, stencil test and polygon stipple.
+    pub const COVER: Touch = Touch(1 << 14);
     /// Everything.
     pub const ALL: Touch = Touch(0xffff_fffe);
     /// Nothing.

@@ -19,6 +19,15 @@ pub(crate) struct Views<'a> {
     pub(crate) frame: u32,
 }
 
+/// Of the first frame, as most tests have it.
+pub(crate) const REPLAYED: Views = Views {
+    atlas: "side-by-side",
+    strategy: "replay",
+    separation: 0.4,
+    convergence: 4.0,
+    frame: 1,
+};
+
 impl Views<'_> {
     /// What a program without a screen prints, and its atlas: the views side by side. The command is one of
     /// [`layered`](super::layered).
