@@ -57,6 +57,8 @@ struct Uniforms {
     lever: vec4<f32>,
     // Of one view: its lever, the left edge of its tile; 1: holes are marked; the longest lever of any view.
     aim: vec4<f32>,
+    // Of an occlusion camera: how far it reaches behind at most (see bends.wgsl).
+    bend: vec4<f32>,
 }
 
 var<immediate> u: Uniforms;

@@ -18,6 +18,12 @@ const NOTHING = -1.0e6;
 // Of what lies before the first sample of a row: higher than everything.
 const OUTSIDE = 4.0e6;
 
+// The texel that is drawn: these textures have their rows where the views have theirs.
+fn texel_at(position: vec4<f32>) -> vec2<i32> {
+    let at = vec2<u32>(position.xy);
+    return vec2<i32>(vec2<u32>(at.x, texel_row(at.y, u.tile.y)));
+}
+
 fn depth_at(x: i32, row: i32) -> f32 {
     return textureLoad(depth_texture, vec2<i32>(x, row), 0, 0).r;
 }
@@ -45,6 +51,10 @@ struct Seen {
     weight: f32,
     // Nothing is known of what is there.
     hole: bool,
+    // It is of what is hidden in the picture: see plain.wgsl and bent.wgsl.
+    behind: bool,
+    // Of a hole: the last sample before what hides the rest; below 0 where the picture ends.
+    last: i32,
 }
 
 // The first sample of a row, in a direction, whose middle lies at or beyond a place.
@@ -64,7 +74,7 @@ fn seek(x: f32, row: i32, t: f32, range: vec2<f32>) -> Seen {
     let width = i32(u.tile.x);
     let own = clamp(i32(floor(x)), 0, width - 1);
     let far = u.field.z;
-    var seen = Seen(own, own, 0.0, false);
+    var seen = Seen(own, own, 0.0, false, false, -1);
     // All that can be seen is nothing, or the camera is the picture's own.
     if range.x < 0.0 || abs(t) < 1e-6 {
         return seen;
@@ -124,7 +134,7 @@ fn seek(x: f32, row: i32, t: f32, range: vec2<f32>) -> Seen {
             found = between || ends || starts;
             if found {
                 let at = select(k, k - along, between || ends);
-                seen = Seen(at, select(at, k, between), select(0.0, above / (above - below), between), false);
+                seen = Seen(at, select(at, k, between), select(0.0, above / (above - below), between), false, false, -1);
             }
             // Nothing is where it is, everything else where the view has it.
             let away = select(above, abs(f32(k - along) + 0.5 - x) / abs(t), before < 0.0);
@@ -148,16 +158,13 @@ fn seek(x: f32, row: i32, t: f32, range: vec2<f32>) -> Seen {
         let nothing = u.lever.z < 0.0 && height(own, row) < 0.0;
         let last_one = ends || behind_away == OUTSIDE;
         let at = select(select(behind, clamp(end, 0, width - 1), last_one), own, nothing);
-        seen = Seen(at, at, 0.0, !ends && !nothing);
+        seen = Seen(at, at, 0.0, !ends && !nothing, false, select(behind, -1, last_one));
     }
     return seen;
 }
 
-fn sample_at(x: i32, row: i32) -> vec3<f32> {
-    return textureLoad(views_texture, vec2<i32>(x, row), 0, 0).rgb;
-}
-
 fn colour_of(seen: Seen, row: i32) -> vec3<f32> {
-    let colour = mix(sample_at(seen.low, row), sample_at(seen.high, row), seen.weight);
-    return select(colour, vec3<f32>(1.0, 0.0, 1.0), seen.hole && u.aim.z > 0.0);
+    let low = sample_at(seen.low, row, seen.behind);
+    let high = sample_at(seen.high, row, seen.behind);
+    return select(mix(low, high, seen.weight), vec3<f32>(1.0, 0.0, 1.0), seen.hole && u.aim.z > 0.0);
 }

@@ -1,10 +1,4 @@
-// What field.wgsl needs to know of a picture with depths, and views made of it.
-
-// The texel that is drawn: these textures have their rows where the views have theirs.
-fn texel_at(position: vec4<f32>) -> vec2<i32> {
-    let at = vec2<u32>(position.xy);
-    return vec2<i32>(vec2<u32>(at.x, texel_row(at.y, u.tile.y)));
-}
+// How high the rows of a picture with depths are, for field.wgsl.
 
 // Of a block: the greatest and the least height.
 @fragment
@@ -58,29 +52,4 @@ fn range(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
         }
     }
     return vec4<f32>(both, 0.0, 0.0);
-}
-
-// Part of the step from a sample to the next.
-const BENT = 0.25;
-
-struct Made {
-    @location(0) colour: vec4<f32>,
-    @builtin(frag_depth) depth: f32,
-}
-
-// A view into its tile, with depths for what is drawn after it: a little farther than they are, so that another pass over the same
-// surface lies before it.
-@fragment
-fn view(@builtin(position) position: vec4<f32>) -> Made {
-    let at = vec2<u32>(position.xy);
-    let row = i32(texel_row(min(at.y, u.tile.y - 1u), u.tile.y));
-    let x = position.x - u.aim.y;
-    let seen = seek(x, row, u.aim.x, range_of(u32(x), row));
-    let low = depth_at(seen.low, row);
-    let high = depth_at(seen.high, row);
-    // Where the surface is bent it is not where the straight line between two samples is.
-    let away = u.lever.w + sign(u.lever.w) * BENT * abs(high - low);
-    let moved = clamp(mix(low, high, seen.weight) + away, 0.0, 1.0);
-    let depth = select(moved, low, is_clear(low));
-    return Made(vec4<f32>(colour_of(seen, row), 1.0), depth);
 }

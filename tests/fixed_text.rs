@@ -46,6 +46,10 @@ fn text(key: &FixedKey) -> String {
         text.push_str("\n---- geometry ----\n\n");
         text.push_str(&geometry);
     }
+    for stage in shaders.tessellation.into_iter().flatten() {
+        text.push_str("\n---- tessellation ----\n\n");
+        text.push_str(&stage);
+    }
     text
 }
 
@@ -150,6 +154,22 @@ fn attenuated_points_by_invocations() {
         ..FixedKey::default()
     };
     insta::assert_snapshot!(text(&key));
+}
+
+#[test]
+fn flat_quads_for_bent_rays() {
+    let key = FixedKey {
+        target: target(Amplifier::Tessellation, Tiles::Bent, Primitive::Quads, 3),
+        flat: true,
+        fog: FogSource::DepthMagnitude,
+        ..FixedKey::default()
+    };
+    let stage = FragmentKey {
+        fog: FogMode::Linear,
+        ..FragmentKey::default()
+    };
+    let fragment = fragment(&stage.after(&key));
+    insta::assert_snapshot!(format!("{}\n---- fragment ----\n\n{fragment}", text(&key)));
 }
 
 /// A fragment stage, for a snapshot.

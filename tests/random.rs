@@ -272,6 +272,13 @@ fn random_calls_by_depth_images() {
 }
 
 #[test]
+fn random_calls_by_an_occlusion_camera() {
+    compare(Api::Egl, "side-by-side", "occlusion", 44_000..44_060);
+    compare(Api::Egl, "layers", "occlusion", 44_060..44_090);
+    compare(Api::OsMesa, "side-by-side", "occlusion", 44_090..44_110);
+}
+
+#[test]
 #[ignore = "minutes"]
 fn full_ten_thousand_random_sequences() {
     compare(Api::Egl, "side-by-side", "replay", 100_000..110_000);

@@ -7,7 +7,7 @@ use manyview_core::gl::{Ptr, slot};
 use manyview_core::state::Effect;
 
 /// Where each exported function jumps to, by slot: at first its resolver, then the driver's function or the hook.
-pub(crate) static ENTRY: [AtomicPtr<()>; 1434] = [
+pub(crate) static ENTRY: [AtomicPtr<()>; 1435] = [
     AtomicPtr::new(first_glVertex2d as *mut ()),
     AtomicPtr::new(first_glVertex2dv as *mut ()),
     AtomicPtr::new(first_glVertex2f as *mut ()),
@@ -1442,10 +1442,11 @@ pub(crate) static ENTRY: [AtomicPtr<()>; 1434] = [
     AtomicPtr::new(core::ptr::null_mut()),
     AtomicPtr::new(core::ptr::null_mut()),
     AtomicPtr::new(core::ptr::null_mut()),
+    AtomicPtr::new(core::ptr::null_mut()),
 ];
 
 /// The hook of each exported function, by slot.
-pub(crate) static HOOK: [Option<crate::Address>; 1434] = [
+pub(crate) static HOOK: [Option<crate::Address>; 1435] = [
     Some(crate::Address(hook_glVertex2d as *const ())),
     Some(crate::Address(hook_glVertex2dv as *const ())),
     Some(crate::Address(hook_glVertex2f as *const ())),
@@ -2833,6 +2834,7 @@ pub(crate) static HOOK: [Option<crate::Address>; 1434] = [
     Some(crate::Address(hook_OSMesaCreateContextAttribs as *const ())),
     Some(crate::Address(hook_OSMesaDestroyContext as *const ())),
     Some(crate::Address(hook_OSMesaGetProcAddress as *const ())),
+    None,
     None,
     None,
     None,

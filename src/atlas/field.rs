@@ -1,6 +1,6 @@
 //! A copy of the program's own view with its depths, and how high they are at most, for what makes views of it.
 
-use super::{Atlas, Names, Single, fetched};
+use super::{Atlas, BentTextures, Names, Single, fetched};
 use crate::gl::{Gl, consts as c};
 use crate::state::Window;
 
@@ -20,6 +20,8 @@ pub struct FieldTextures {
     pub tops: u32,
     /// The greatest and the least of all that the rays of a block can meet.
     pub range: u32,
+    /// The reference image of an occlusion camera.
+    pub bent: Option<BentTextures>,
 }
 
 /// Where they are drawn to.
@@ -104,6 +106,7 @@ impl Atlas {
             peaks: field.peaks.0,
             tops: field.tops.0,
             range: field.range.0,
+            bent: None,
         })
     }
 

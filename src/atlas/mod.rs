@@ -6,6 +6,7 @@ mod field;
 mod front;
 mod grid;
 mod names;
+mod reference;
 mod shown;
 mod single;
 mod spread;
@@ -18,6 +19,8 @@ pub use field::{FieldTarget, FieldTextures};
 use front::Front;
 pub use grid::Grid;
 pub use names::Names;
+use reference::Bent;
+pub use reference::{BendTarget, BentSurface, BentTextures};
 pub use shown::Shown;
 use single::Single;
 pub use surface::Surface;
@@ -48,6 +51,7 @@ pub struct Atlas {
     singles: Vec<Single>,
     depths: Option<Depths>,
     field: Option<Field>,
+    bent: Option<Bent>,
     bound_row: u32,
 }
 
@@ -266,6 +270,7 @@ impl Atlas {
             singles: Vec::new(),
             depths: None,
             field: None,
+            bent: None,
             bound_row: 0,
         };
         if status != c::FRAMEBUFFER_COMPLETE {
@@ -296,8 +301,9 @@ impl Atlas {
         let singles = self.singles.iter().map(Single::framebuffer);
         let depths = self.depths.iter().map(Depths::framebuffer);
         let field = self.field.iter().flat_map(Field::framebuffers);
+        let bent = self.bent.iter().flat_map(Bent::framebuffers);
         let views = self.targets().chain(resolve);
-        views.chain(singles).chain(depths).chain(field)
+        views.chain(singles).chain(depths).chain(field).chain(bent)
     }
 
     /// Whether a texture is the atlas's own.

@@ -76,6 +76,11 @@ pub const CONFIGURATIONS: &[Configuration] = &[
         "the scene once, the other views by its depths",
     ),
     row(
+        "occlusion",
+        &[(OptionId::Strategy, "occlusion")],
+        "the same, and what is hidden from an occlusion camera's reference image",
+    ),
+    row(
         "replay-layers",
         &[REPLAY, LAYERS],
         "replay, the views in layers of the atlas",

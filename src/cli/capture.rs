@@ -30,7 +30,7 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "A..B", allow_hyphen_values = true)]
     frames: Option<String>,
     /// What a picture holds [default: output]
-    #[arg(long, value_name = "output|atlas|view:I|depth")]
+    #[arg(long, value_name = "output|atlas|view:I|depth|reference")]
     what: Option<String>,
     /// Give up after this many seconds
     #[arg(long, value_name = "S", default_value_t = 120)]

@@ -36,7 +36,10 @@ pub(crate) struct LayerArguments {
     #[arg(long)]
     auto_depth: bool,
     /// How draws are repeated per view [default: auto]
-    #[arg(long, value_name = "auto|replay|instanced|geometry|depth-image")]
+    #[arg(
+        long,
+        value_name = "auto|replay|instanced|geometry|depth-image|occlusion"
+    )]
     strategy: Option<String>,
     /// Where the views lie in memory [default: side-by-side]
     #[arg(long, value_name = "side-by-side|layers")]
@@ -44,7 +47,7 @@ pub(crate) struct LayerArguments {
     /// Put the views of instanced and geometry side by side, and keep them apart so [default: views lie in layers]
     #[arg(long, value_name = "distances|discard|both|cut")]
     clip: Option<String>,
-    /// What views made by depth-image have where nothing is known: what is behind, or magenta [default: fill]
+    /// What views made by depth-image or occlusion have where nothing is known: what is behind, or magenta [default: fill]
     #[arg(long, value_name = "fill|mark")]
     holes: Option<String>,
     /// Size of a view over the size of the window, above 0 and at most 1 [default: 1]

@@ -126,4 +126,6 @@ pub enum CaptureWhat {
     View(u32),
     /// The depth of the program's own view, 16-bit grey.
     Depth,
+    /// What an occlusion camera sees: the reference image that hidden samples are taken from.
+    Reference,
 }

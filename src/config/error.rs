@@ -26,6 +26,14 @@ pub enum ConfigError {
         /// What it could be.
         choices: &'static str,
     },
+    /// There is no occlusion camera, or not yet.
+    #[error(
+        "{field} is 'reference', the picture of an occlusion camera; give the strategy occlusion with it, and a frame from 2 on"
+    )]
+    NoReference {
+        /// The option.
+        field: Field,
+    },
     /// A view that does not exist.
     #[error("{field} asks for view {view} of {views}; views count from 0, so the last is view:{last}", last = views - 1)]
     ViewOutOfRange {

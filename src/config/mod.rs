@@ -82,6 +82,13 @@ pub struct Config {
 }
 
 impl Config {
+    /// Whether views are made of the program's own instead of drawn; true: with an occlusion camera.
+    #[must_use]
+    pub fn synthesis(&self) -> Option<bool> {
+        let made = self.strategy.synthesises() && self.views > 1;
+        made.then_some(self.strategy == Strategy::Occlusion)
+    }
+
     /// Reads the `MANYVIEW_*` variables through `lookup`, the TOML file that they name, and the profile for this process's program.
     pub fn from_env(lookup: impl Fn(&str) -> Option<String>) -> Result<Self, ConfigError> {
         let mut settings = Settings::from_env(&lookup)?;
@@ -268,9 +275,17 @@ pub enum Strategy {
     Geometry,
     /// The scene once, and the other views by its depths.
     DepthImage,
+    /// The same, with what an occlusion camera sees behind what is in front.
+    Occlusion,
 }
 
 impl Strategy {
+    /// Views are made of the program's own, and not drawn.
+    #[must_use]
+    pub fn synthesises(self) -> bool {
+        matches!(self, Strategy::DepthImage | Strategy::Occlusion)
+    }
+
     /// By its name.
     #[must_use]
     pub fn named(name: &str) -> Option<Strategy> {

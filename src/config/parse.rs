@@ -31,7 +31,7 @@ impl Config {
                 settings,
                 OptionId::Strategy,
                 STRATEGIES,
-                "auto, replay, instanced, geometry and depth-image",
+                "auto, replay, instanced, geometry, depth-image and occlusion",
             )?
             .unwrap_or(Strategy::Auto),
             atlas: choice(
@@ -71,6 +71,7 @@ pub(super) const STRATEGIES: &[(&str, Strategy)] = &[
     ("instanced", Strategy::Instanced),
     ("geometry", Strategy::Geometry),
     ("depth-image", Strategy::DepthImage),
+    ("occlusion", Strategy::Occlusion),
 ];
 
 const HOLES: &[(&str, bool)] = &[("fill", false), ("mark", true)];
@@ -562,21 +563,31 @@ fn capture(settings: &Settings, views: u32) -> Result<Option<Capture>, ConfigErr
             value: value.to_owned(),
         })?,
     };
+    let bent = settings
+        .get(OptionId::Strategy)
+        .is_some_and(|s| s.value == "occlusion");
+    let held = capture_what(settings, views)?;
+    if let (CaptureWhat::Reference, Some((field, _))) = (held, what)
+        && (first < 2 || !bent)
+    {
+        return Err(ConfigError::NoReference { field });
+    }
     Ok(Some(Capture {
         out,
         first,
         last,
-        what: capture_what(settings, views)?,
+        what: held,
     }))
 }
 
 /// What a picture holds.
 pub(super) fn capture_what(settings: &Settings, views: u32) -> Result<CaptureWhat, ConfigError> {
-    const CHOICES: &str = "output, atlas, view:I and depth";
+    const CHOICES: &str = "output, atlas, view:I, depth and reference";
     Ok(match settings.field(OptionId::CaptureWhat) {
         None | Some((_, "output")) => CaptureWhat::Output,
         Some((_, "atlas")) => CaptureWhat::Atlas,
         Some((_, "depth")) => CaptureWhat::Depth,
+        Some((_, "reference")) => CaptureWhat::Reference,
         Some((field, value)) => CaptureWhat::View(one_view(&field, value, views, CHOICES)?),
     })
 }

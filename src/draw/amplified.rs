@@ -33,7 +33,7 @@ struct Uniforms {
 }
 
 #[derive(Debug)]
-struct Program {
+pub(super) struct Program {
     name: u32,
     patches: Patches,
     views: i32,
@@ -41,23 +41,27 @@ struct Program {
     clip: i32,
     tiles: i32,
     grid: i32,
+    pub(super) bends: i32,
+    pub(super) window: i32,
+    pub(super) bend: i32,
+    pub(super) levels: i32,
     /// What the uniforms hold.
     uploaded: Uniforms,
 }
 
 /// Canonical keys of a program: the vertex stage, and the fragment stage where that is generated as well.
-type Stages = (FixedKey, Option<FragmentKey>);
+pub(super) type Stages = (FixedKey, Option<FragmentKey>);
 
 /// The generated programs of one context.
 #[derive(Debug)]
 pub struct Programs {
     /// What the driver can do.
     pub limits: Limits,
-    driver: Driver,
+    pub(super) driver: Driver,
     clip: Clip,
     /// All uniforms are sent with each draw.
     resends: bool,
-    cache: HashMap<Stages, Option<Program>>,
+    pub(super) cache: HashMap<Stages, Option<Program>>,
     /// Programs compiled so far.
     pub compiled: u64,
 }
@@ -209,7 +213,12 @@ impl Programs {
         self.cache.values().flatten().map(|p| p.name)
     }
 
-    fn compile(&mut self, gl: &Gl, key: &FixedKey, stages: &Stages) -> Result<(), Reason> {
+    pub(super) fn compile(
+        &mut self,
+        gl: &Gl,
+        key: &FixedKey,
+        stages: &Stages,
+    ) -> Result<(), Reason> {
         match self.cache.get(stages) {
             Some(Some(_)) => return Ok(()),
             Some(None) => return Err(Reason::Compile),
@@ -225,6 +234,10 @@ impl Programs {
             if let Some(g) = &shaders.geometry {
                 stages.push(gl.compile(c::GEOMETRY_SHADER, g)?);
             }
+            if let Some([control, evaluation]) = &shaders.tessellation {
+                stages.push(gl.compile(c::TESS_CONTROL_SHADER, control)?);
+                stages.push(gl.compile(c::TESS_EVALUATION_SHADER, evaluation)?);
+            }
             if let Some(f) = &fragment {
                 stages.push(gl.compile(c::FRAGMENT_SHADER, f)?);
             }
@@ -238,6 +251,10 @@ impl Programs {
             clip: gl.uniform_location(name, c"mv_clip"),
             tiles: gl.uniform_location(name, c"mv_tile"),
             grid: gl.uniform_location(name, c"mv_grid"),
+            bends: gl.uniform_location(name, c"mv_bends"),
+            window: gl.uniform_location(name, c"mv_window"),
+            bend: gl.uniform_location(name, c"mv_bend"),
+            levels: gl.uniform_location(name, c"mv_levels"),
             uploaded: Uniforms::default(),
         });
         if let (Some(program), Some(key)) = (&program, &stages.1) {
@@ -406,7 +423,7 @@ fn primitive(mode: u32, flat: bool) -> Result<(Primitive, u32), Reason> {
 }
 
 /// State around an amplified draw.
-struct Around {
+pub(super) struct Around {
     /// Width of the program's viewport over the atlas's.
     scale: f32,
     /// What may be drawn, in NDC of the program's viewport: left, right, bottom, top.
@@ -424,7 +441,7 @@ struct Around {
 }
 
 impl Around {
-    fn enter(
+    pub(super) fn enter(
         gl: &Gl,
         state: &State,
         atlas: &Atlas,
@@ -532,7 +549,7 @@ impl Around {
         ((2.0 * (f64::from(x) + f64::from(vx)) + f64::from(vw)) / self.width - 1.0) as f32
     }
 
-    fn leave(self, gl: &Gl, state: &State, atlas: &mut Atlas, _fixed: &FixedState) {
+    pub(super) fn leave(self, gl: &Gl, state: &State, atlas: &mut Atlas, _fixed: &FixedState) {
         for (cap, was) in self.toggled {
             if was { gl.enable(cap) } else { gl.disable(cap) }
         }

@@ -1,7 +1,7 @@
 //! The fixed-function state of the driver, read into the key of a generated shader.
 
 use crate::fixed::{
-    ColorMaterial, Diagonal, Dialect, FixedKey, FogSource, LIGHTS, Light, Lighting, Limits,
+    ColorMaterial, Diagonal, Dialect, FixedKey, FogSource, LEVELS, LIGHTS, Light, Lighting, Limits,
     MaterialFace, MaterialMode, NormalScaling, PointSize, Provoking, Surroundings, TexGen,
     TextureUnit, UNITS, VertexLayer,
 };
@@ -47,14 +47,27 @@ pub struct Driver {
     pub programs: bool,
     fog_distance: bool,
     clip_planes: u32,
+    /// Corners that tessellation may make in one draw.
+    corners: u64,
 }
 
 impl Driver {
+    /// The highest level of tessellation for a draw of so many patches.
+    pub(super) fn level(&self, patches: u64) -> u32 {
+        let each = (self.corners / patches.max(1)).isqrt();
+        u32::try_from(each.saturating_sub(1)).map_or(LEVELS, |level| level.clamp(1, LEVELS))
+    }
+
     /// Asks the current context.
     pub fn ask(gl: &Gl) -> Driver {
         Driver {
             mesa: gl.get_string(c::VERSION).contains("Mesa"),
             programs: gl.has_extension("GL_ARB_vertex_program"),
+            // Measured on llvmpipe 22.3: its indices have 16 bits there, and beyond that they begin again.
+            corners: match gl.get_string(c::RENDERER).contains("llvmpipe") {
+                true => 0xffff,
+                false => u64::MAX,
+            },
             fog_distance: gl.has_extension("GL_NV_fog_distance"),
             // One bit of the key for each.
             clip_planes: match gl.is_es() {

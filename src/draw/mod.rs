@@ -2,6 +2,7 @@
 #![forbid(unsafe_code)]
 
 mod amplified;
+mod bent;
 mod current;
 mod fixed_state;
 mod fragment_state;
@@ -10,6 +11,7 @@ mod tuned;
 mod twin;
 
 pub use amplified::{Amplified, Programs};
+pub use bent::Rays;
 pub use current::Current;
 pub use fixed_state::{Driver, FixedState, limits};
 pub use replay::{Again, cut, enter_own, others, place, replay, unplace};

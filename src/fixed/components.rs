@@ -3,6 +3,7 @@
 use super::key::{Amplifier, FixedKey, Tiles};
 use super::limits::Limits;
 use super::reason::Unsupported;
+use super::tessellation;
 
 /// A value that the vertex stage computes per vertex, beside the position.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -125,7 +126,12 @@ fn output_components(key: &FixedKey) -> u32 {
         .filter(|&v| v != Varying::Vertex)
         .map(Varying::components)
         .sum::<u32>();
-    let layer = u32::from(key.target.tiles == Tiles::Layer);
+    // The layer, or by how much the vertex is moved.
+    let layer = match key.target.tiles {
+        Tiles::ClipLeftRight => 0,
+        Tiles::Layer => 1,
+        Tiles::Bent => 2,
+    };
     let primitive_id = u32::from(key.geometry());
     let limits = 2 * u32::from(key.target.discards());
     4 + varyings + key.target.clip_distances() + limits + layer + primitive_id
@@ -152,7 +158,7 @@ pub fn batch(key: &FixedKey, limits: &Limits) -> u32 {
     let per_run = (limits.geometry_output_vertices / vertices)
         .min(limits.geometry_total_output_components / (vertices * components).max(1));
     match key.target.amplifier {
-        Amplifier::Instanced => capacity,
+        Amplifier::Instanced | Amplifier::Tessellation => capacity,
         Amplifier::GeometryLoop => per_run.min(capacity),
         Amplifier::GeometryInvocations if per_run == 0 => 0,
         Amplifier::GeometryInvocations => limits.geometry_invocations.min(capacity),
@@ -179,6 +185,13 @@ pub(super) fn check(key: &FixedKey, limits: &Limits) -> Result<(), Unsupported> 
         return over(output_components(key), limits.vertex_output_components);
     }
     over(passed_components(key), limits.vertex_output_components)?;
+    if key.tessellates() {
+        let (needed, has) = (tessellation::VERSION, limits.glsl);
+        return match has < needed {
+            true => Err(Unsupported::ShadingLanguage { needed, has }),
+            false => over(output_components(key), limits.vertex_output_components),
+        };
+    }
     over(passed_components(key), limits.geometry_input_components)?;
     over(output_components(key), limits.geometry_output_components)?;
     if key.target.amplifier == Amplifier::GeometryInvocations && limits.geometry_invocations == 0 {

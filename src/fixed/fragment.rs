@@ -9,6 +9,7 @@
 //! ```
 //! Sections are those of the OpenGL 4.6 compatibility specification.
 
+use super::bent::MOVED;
 use super::environment;
 use super::fragment_key::{FogMode, FragmentKey, FragmentUnit, TextureTarget};
 use super::key::Dialect;
@@ -59,6 +60,11 @@ pub fn generate_fragment(key: &FragmentKey, limits: &Limits) -> Result<String, U
             "flat in vec2 {LIMITS}; // left and right of the view in window coordinates"
         ));
     }
+    if key.bent {
+        text.line(format!(
+            "in vec2 {MOVED}; // pixels, times w; 1: all of it is moved"
+        ));
+    }
     text.line("");
     text.open("void main() {");
     for (unit, state) in sampled(&key) {
@@ -86,7 +92,15 @@ pub fn generate_fragment(key: &FragmentKey, limits: &Limits) -> Result<String, U
         text.line("    discard;");
         text.line("}");
     }
-    text.line("gl_FragColor = color;");
+    if key.bent {
+        text.line(format!("if ({MOVED}.y < 0.999) discard;"));
+        text.line("gl_FragData[0] = color;");
+        text.line(format!(
+            "gl_FragData[1] = vec4({MOVED}.x * gl_FragCoord.w);"
+        ));
+    } else {
+        text.line("gl_FragColor = color;");
+    }
     text.close("}");
     Ok(text.finish())
 }

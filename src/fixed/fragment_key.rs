@@ -3,7 +3,7 @@
 //! As in [`FixedKey`](super::FixedKey), what is computed is in the key and the values are not: fog parameters and
 //! environment colours reach the shader through built-in uniforms, texture images through samplers.
 
-use super::key::{Dialect, FixedKey, FogSource, UNITS};
+use super::key::{Dialect, FixedKey, FogSource, Tiles, UNITS};
 
 /// Everything that decides the text of a generated fragment shader.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -19,6 +19,8 @@ pub struct FragmentKey {
     pub grid: bool,
     /// Fragments outside the limits of their view are discarded: [`Clip`](super::Clip) of the vertex stage.
     pub discard: bool,
+    /// By how much a sample is moved is written as well: [`Tiles::Bent`](super::Tiles::Bent) of the vertex stage.
+    pub bent: bool,
     /// How the driver reads the specification where drivers differ.
     pub dialect: Dialect,
 }
@@ -219,6 +221,7 @@ impl FragmentKey {
             self.fog = FogMode::None;
         }
         self.discard = vertex.target.discards();
+        self.bent = vertex.target.tiles == Tiles::Bent;
         self
     }
 

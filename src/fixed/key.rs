@@ -73,6 +73,8 @@ pub enum Amplifier {
     GeometryLoop,
     /// A geometry shader runs once per view (`layout(invocations = N)`).
     GeometryInvocations,
+    /// Tessellation cuts triangles and quads, drawn as patches, into small ones.
+    Tessellation,
 }
 
 /// Where the views lie in memory.
@@ -84,6 +86,8 @@ pub enum Tiles {
     ClipLeftRight,
     /// One layer of an array texture per view: `gl_Layer`, no clip distances, no map.
     Layer,
+    /// No views: the picture of an occlusion camera, whose rays are bent.
+    Bent,
 }
 
 impl Target {
@@ -365,7 +369,7 @@ impl FixedKey {
         if !dialect_matters {
             self.dialect = Dialect::Specification;
         }
-        if self.target.tiles == Tiles::Layer {
+        if self.target.tiles != Tiles::ClipLeftRight {
             self.target.clip = Clip::default();
         }
         match self.target.amplifier {
@@ -377,6 +381,10 @@ impl FixedKey {
                 };
                 self.target.primitive = Primitive::default();
                 self.target.views = 1;
+            }
+            Amplifier::Tessellation => {
+                self.target.views = 1;
+                self.point = PointSize::Unused;
             }
             Amplifier::GeometryLoop | Amplifier::GeometryInvocations => {
                 self.target.views = self.target.views.max(1);
@@ -392,11 +400,12 @@ impl FixedKey {
             self.target.primitive,
             Primitive::Quads | Primitive::QuadStrip
         );
-        if !quad {
+        let cut = quad || self.tessellates();
+        if !cut {
             self.target.diagonal = Diagonal::default();
             self.provoking = Provoking::default();
         }
-        if !quad && self.target.primitive != Primitive::Polygon {
+        if !cut && self.target.primitive != Primitive::Polygon {
             self.flat = false;
         }
         if !self.flat {
@@ -476,7 +485,12 @@ impl FixedKey {
         self.dialect == Dialect::Mesa && (lighting.dull || lighting.two_side && lit && back_product)
     }
 
-    /// The views come from a geometry shader.
+    /// Primitives are cut into small ones.
+    pub(super) fn tessellates(&self) -> bool {
+        self.target.amplifier == Amplifier::Tessellation
+    }
+
+    /// What is drawn comes from a stage behind the vertices.
     pub(super) fn geometry(&self) -> bool {
         self.target.amplifier != Amplifier::Instanced
     }

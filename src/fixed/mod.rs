@@ -8,8 +8,10 @@
 //! ```text
 //! FixedKey ── canonical ──► vertex ─┬─ lighting   section 12.2.1
 //!  (key)                            ├─ texgen     sections 12.1.1, 12.1.3
+//!                                  ├─ bent       the rays of an occlusion camera
 //!                                   └─ view       shift, tile, clip distances, layer
 //!                           geometry ── view      one primitive per view
+//!                           tessellation ── bent  small ones for bent rays
 //!
 //! FragmentKey ── canonical ──► fragment ── environment   sections 16.2 to 16.4
 //! ```
@@ -27,11 +29,14 @@
 //! | `vec4 mv_clip` | left, right, bottom, top of what may be drawn, in NDC of the program's viewport: −1, 1, −1, 1 if the viewport is inside the tile |
 //! | `int mv_first` | index in `mv_view` of the first view of this draw |
 //! | `vec4 mv_grid` | what one pixel of the window is in the tile, for textures: x and y of a step in x, then of a step in y, in tile pixels |
+//! | `sampler2DArray mv_bends`, `vec4 mv_window`, `vec4 mv_bend` | the map of an occlusion camera, where its texels lie, and heights: see `bent` |
+//! | `float mv_levels` | the highest level of tessellation |
 //! | `mv_texture0` … `mv_texture7` | the index of its texture unit |
 //!
 //! A uniform that a key does not need is absent (location −1).
 #![forbid(unsafe_code)]
 
+mod bent;
 mod components;
 mod environment;
 mod fragment;
@@ -42,12 +47,14 @@ mod lighting;
 mod limits;
 mod patches;
 mod reason;
+mod tessellation;
 mod texgen;
 mod text;
 mod vertex;
 mod view;
 
 pub use crate::config::Clip;
+pub use bent::{UNIFORM_BEND, UNIFORM_BENDS, UNIFORM_WINDOW};
 pub use components::batch;
 pub use fragment::{generate_fragment, sampler};
 pub use fragment_key::{
@@ -62,6 +69,7 @@ pub use key::{
 pub use limits::{Limits, VertexLayer};
 pub use patches::Patches;
 pub use reason::{Rasterised, Surroundings, Unsupported};
+pub use tessellation::{LEVELS, UNIFORM_LEVELS};
 
 /// Views that `mv_view` holds; more go in further draws with other contents.
 pub const VIEWS: u32 = 64;
@@ -88,6 +96,8 @@ pub struct Shaders {
     pub vertex: String,
     /// The geometry shader, if the amplifier is one.
     pub geometry: Option<String>,
+    /// The tessellation control and evaluation shaders, if they are what multiplies primitives.
+    pub tessellation: Option<[String; 2]>,
     /// State around the draw.
     pub patches: Patches,
 }
@@ -105,11 +115,17 @@ pub fn generate(key: &FixedKey, limits: &Limits) -> Result<Shaders, Unsupported>
     components::check(&key, limits)?;
     Ok(Shaders {
         vertex: vertex::write(&key, limits)?,
-        geometry: if key.geometry() {
+        geometry: if key.geometry() && !key.tessellates() {
             Some(geometry::write(&key, limits)?)
         } else {
             None
         },
+        tessellation: key.tessellates().then(|| {
+            [
+                tessellation::write_control(&key),
+                tessellation::write_evaluation(&key),
+            ]
+        }),
         patches: Patches::of(&key),
     })
 }

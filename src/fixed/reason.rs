@@ -224,7 +224,7 @@ impl Surroundings {
     /// The first reason found, in the order of [`Unsupported`].
     pub fn allow(&self, key: &FixedKey) -> Result<(), Unsupported> {
         let geometry = key.target.amplifier != Amplifier::Instanced;
-        let clipped = key.target.tiles != Tiles::Layer;
+        let clipped = key.target.tiles == Tiles::ClipLeftRight;
         let drawn = self.rasterised;
         // Sizes that vary are taken as large.
         let wide_points = key.point == PointSize::Attenuated

@@ -97,9 +97,10 @@ fn write_position(text: &mut Text, key: &FixedKey) {
         text.line("gl_Position = ftransform();");
         text.line("mv_out.vertex = gl_Vertex;");
     } else {
-        text.line(format!(
-            "mv_place({UNIFORM_FIRST} + gl_InstanceID, ftransform(), gl_Vertex);"
-        ));
+        text.line(match key.target.tiles {
+            Tiles::Bent => "mv_place(ftransform());".to_owned(),
+            _ => format!("mv_place({UNIFORM_FIRST} + gl_InstanceID, ftransform(), gl_Vertex);"),
+        });
     }
 }
 

@@ -11,6 +11,7 @@
 //! (x, y, w) is in clip space of the program's own viewport; (X, Y, w) in that of a viewport over the whole atlas. z and w
 //! do not change.
 
+use super::bent;
 use super::key::{FixedKey, Tiles};
 use super::text::Text;
 use super::{
@@ -20,6 +21,9 @@ use crate::config::Clip;
 
 /// Uniforms of the view.
 pub(super) fn write_uniforms(text: &mut Text, key: &FixedKey) {
+    if key.target.tiles == Tiles::Bent {
+        return text.line(bent::UNIFORMS);
+    }
     text.line(format!(
         "uniform vec4 {UNIFORM_VIEWS}[{VIEWS}]; // per view: row 0 of its projection times the modelview matrix"
     ));
@@ -59,6 +63,9 @@ pub(super) fn write_outputs(text: &mut Text, key: &FixedKey) {
     if key.target.discards() {
         text.line(format!("flat out vec2 {LIMITS};"));
     }
+    if key.target.tiles == Tiles::Bent {
+        text.line(format!("out vec2 {};", bent::MOVED));
+    }
 }
 
 /// `mv_place(view, p, vertex)`: position, clip distances of the tile and layer.
@@ -66,12 +73,16 @@ pub(super) fn write_outputs(text: &mut Text, key: &FixedKey) {
 /// x is summed as the driver sums the rows of `ftransform()`, so that a view has the very position that fixed function gives it
 /// with its own projection loaded (measured on llvmpipe 22.3: equal bits).
 pub(super) fn write_place(text: &mut Text, key: &FixedKey) {
+    if key.target.tiles == Tiles::Bent {
+        return bent::write_place(text);
+    }
     text.open("void mv_place(int view, vec4 p, vec4 vertex) {");
     text.line(format!("vec4 row = {UNIFORM_VIEWS}[view];"));
     text.line(format!("vec4 tile = {UNIFORM_TILES}[view];"));
     text.line("p.x = row.x * vertex.x + row.y * vertex.y + row.z * vertex.z + row.w * vertex.w;");
     match key.target.tiles {
         Tiles::Layer => text.line("gl_Layer = int(tile.z);"),
+        Tiles::Bent => {}
         Tiles::ClipLeftRight => {
             if key.target.discards() {
                 text.line(format!("{LIMITS} = tile.zw;"));

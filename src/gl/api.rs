@@ -65,6 +65,7 @@ plain! {
     end_conditional_render = glEndConditionalRender();
     call_list = glCallList(list: u32);
     get_error = glGetError() -> u32;
+    clear = glClear(mask: u32);
     flush = glFlush();
     finish = glFinish();
     bind_framebuffer = glBindFramebuffer(target: u32, name: u32);
@@ -87,6 +88,7 @@ plain! {
     use_program = glUseProgram(program: u32);
     bind_program_pipeline = glBindProgramPipeline(pipeline: u32);
     uniform_1i = glUniform1i(location: i32, v: i32);
+    uniform_1f = glUniform1f(location: i32, v: f32);
     uniform_1ui = glUniform1ui(location: i32, v: u32);
     uniform_2ui = glUniform2ui(location: i32, x: u32, y: u32);
     bind_buffer = glBindBuffer(target: u32, name: u32);
@@ -95,6 +97,7 @@ plain! {
     color_maski = glColorMaski(index: u32, r: u8, g: u8, b: u8, a: u8);
     color_mask = glColorMask(r: u8, g: u8, b: u8, a: u8);
     provoking_vertex = glProvokingVertex(convention: u32);
+    patch_parameteri = glPatchParameteri(name: u32, value: i32);
     polygon_mode = glPolygonMode(face: u32, mode: u32);
     draw_arrays = glDrawArrays(mode: u32, first: i32, count: i32);
     window_pos_2i = glWindowPos2i(x: i32, y: i32);

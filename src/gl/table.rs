@@ -4,7 +4,7 @@ use super::real::{Ptr, Real};
 use core::ffi::{CStr, c_ulong};
 
 /// Number of commands in the table.
-pub const COUNT: usize = 1434;
+pub const COUNT: usize = 1435;
 
 /// Index of each command in the table.
 pub mod slot {
@@ -1438,10 +1438,11 @@ pub mod slot {
     pub const glGenBuffers: usize = 1427;
     pub const glBindAttribLocation: usize = 1428;
     pub const glProgramParameteri: usize = 1429;
-    pub const glGenVertexArrays: usize = 1430;
-    pub const glBindVertexArray: usize = 1431;
-    pub const glGenSamplers: usize = 1432;
-    pub const glBindSampler: usize = 1433;
+    pub const glPatchParameteri: usize = 1430;
+    pub const glGenVertexArrays: usize = 1431;
+    pub const glBindVertexArray: usize = 1432;
+    pub const glGenSamplers: usize = 1433;
+    pub const glBindSampler: usize = 1434;
 }
 
 /// Name of each command.
@@ -2876,6 +2877,7 @@ pub static NAMES: [&CStr; COUNT] = [
     c"glGenBuffers",
     c"glBindAttribLocation",
     c"glProgramParameteri",
+    c"glPatchParameteri",
     c"glGenVertexArrays",
     c"glBindVertexArray",
     c"glGenSamplers",
@@ -4313,6 +4315,7 @@ real_functions! {
     glGenBuffers(n: i32, buffers: Ptr);
     glBindAttribLocation(program: u32, index: u32, name: Ptr);
     glProgramParameteri(program: u32, pname: u32, value: i32);
+    glPatchParameteri(pname: u32, value: i32);
     glGenVertexArrays(n: i32, arrays: Ptr);
     glBindVertexArray(array: u32);
     glGenSamplers(count: i32, samplers: Ptr);

@@ -65,7 +65,7 @@ pub fn measure(gl: &Gl, glsl: u32, limits: Limits, case: &Case) -> Result<Cost, 
     let shown = picture(one)?;
     let atlas = picture(tiles)?;
     let source = Plain::new(gl, names.texture(gl), size);
-    let mut interleaver = Interleaver::new(gl, &mut names, glsl, false);
+    let mut interleaver = Interleaver::new(gl, &mut names, glsl, None);
     let copy = Program::new(gl, glsl, Pass::Copy)?;
     // Memory that nothing was written to is not there, and costs nothing.
     let (w, h) = (width as i32, height as i32);

@@ -23,6 +23,8 @@ pub struct Heights {
     pub aim: (u32, u32),
     /// Holes are marked instead of filled.
     pub marked: bool,
+    /// Of an occlusion camera: the pixels that it reaches behind at most.
+    pub reach: f32,
 }
 
 /// Lower than everything; as `shaders/field.wgsl` has it.
@@ -34,8 +36,8 @@ impl Heights {
         self.levers[0] + view as f32 * self.levers[1]
     }
 
-    /// `field`, `lever` and `aim` of `shaders/common.wgsl`.
-    pub(super) fn rows(&self, views: u32) -> [[f32; 4]; 3] {
+    /// `field`, `lever`, `aim` and `bend` of `shaders/common.wgsl`.
+    pub(super) fn rows(&self, views: u32) -> [[f32; 4]; 4] {
         let [first, step] = self.levers;
         let clear = if self.sky { 0.0 } else { NOTHING };
         let (view, left) = self.aim;
@@ -45,6 +47,7 @@ impl Heights {
             [self.scale, self.offset, self.far, self.clear],
             [first, step, clear, self.margin],
             [self.lever(view), left as f32, marked, ends[0].max(ends[1])],
+            [self.reach, 0.0, 0.0, 0.0],
         ]
     }
 }

@@ -1,12 +1,12 @@
 //! The output passes in the program's context: on the GPU, or by the CPU reference where the context's GLSL is too old.
 
 use super::shader::{
-    DEPTH_UNIT, Lenses, MASK_UNIT, PEAKS_UNIT, Pass, RANGE_UNIT, Synthesis, Texels, Uniforms,
-    VIEWS_UNIT,
+    BENT_UNITS, DEPTH_UNIT, Lenses, MASK_UNIT, PEAKS_UNIT, Pass, RANGE_UNIT, Synthesis, Texels,
+    Uniforms, VIEWS_UNIT,
 };
 use super::sheet::{self, Sheet};
 use super::{Depth, Form, Heights, Layout, Program, reference, rgbd};
-use crate::atlas::{FieldTextures, Names, Shown, Tiles};
+use crate::atlas::{BentTextures, FieldTextures, Names, Shown, Tiles};
 use crate::config::{Config, Filter, Output};
 use crate::display::{Display, GUARD, Lens, Mask, Placement};
 use crate::gl::{Gl, consts as c};
@@ -92,6 +92,15 @@ fn place(tiles: &Tiles, view: u32) -> u32 {
     (slot / tiles.columns) << column_bits(tiles) | (slot % tiles.columns)
 }
 
+/// Binds a reference image.
+pub fn bind_bent(gl: &Gl, textures: Option<BentTextures>) {
+    let all = textures.map(|bent| [bent.map].into_iter().chain(bent.image));
+    for (texture, unit) in all.into_iter().flatten().zip(BENT_UNITS) {
+        gl.active_texture(c::TEXTURE0 + unit);
+        gl.bind_texture(c::TEXTURE_2D_ARRAY, texture);
+    }
+}
+
 /// A texture name that is taken from now on.
 fn reserve(gl: &Gl, names: &mut Names) -> u32 {
     let name = names.texture(gl);
@@ -102,9 +111,9 @@ fn reserve(gl: &Gl, names: &mut Names) -> u32 {
 }
 
 impl Interleaver {
-    /// Compiles the passes, `synthesis`: also the one from the own view alone. Where that fails the CPU takes over and
+    /// Compiles the passes, with `synthesis` also those from the own view, and the reference image if that is true. Where that fails the CPU takes over and
     /// [`Interleaver::note`] says why.
-    pub fn new(gl: &Gl, names: &mut Names, glsl: u32, synthesis: bool) -> Self {
+    pub fn new(gl: &Gl, names: &mut Names, glsl: u32, synthesis: Option<bool>) -> Self {
         let mut i = Interleaver {
             vertex_array: 0,
             programs: Vec::new(),
@@ -115,8 +124,11 @@ impl Interleaver {
             uploaded: None,
             cpu: None,
         };
-        let panel = |whole| Pass::Synthesis(Synthesis::Panel { whole });
-        let panels = [true, false].into_iter().filter(|_| synthesis).map(panel);
+        let panels = Synthesis::ALL.into_iter().filter(|pass| match pass {
+            Synthesis::Panel { bent, .. } => synthesis == Some(*bent),
+            _ => false,
+        });
+        let panels = panels.map(Pass::Synthesis);
         for pass in Pass::OUTPUTS.into_iter().chain(panels) {
             match Program::new(gl, glsl, pass) {
                 Ok(program) => i.programs.push((pass, program)),
@@ -216,6 +228,7 @@ impl Interleaver {
                 gl.active_texture(c::TEXTURE0 + unit);
                 gl.bind_texture(c::TEXTURE_2D_ARRAY, texture);
             }
+            bind_bent(gl, textures.bent);
         }
         gl.active_texture(c::TEXTURE0 + VIEWS_UNIT);
         gl.bind_texture(c::TEXTURE_2D_ARRAY, source.texture);
@@ -265,10 +278,11 @@ impl Interleaver {
     /// The pass that makes a picture; where it needs the mask, that is bound.
     fn pass(&mut self, gl: &Gl, of: Of, form: &Form, source: &Source, size: [u32; 2]) -> Pass {
         let tiles = &source.tiles;
-        if source.field.is_some()
+        if let Some((textures, _)) = source.field
             && let Some(Uploaded { whole, .. }) = self.upload(gl, of, None, None)
         {
-            return Pass::Synthesis(Synthesis::Panel { whole });
+            let bent = textures.bent.is_some();
+            return Pass::Synthesis(Synthesis::Panel { whole, bent });
         }
         let texels = tiles.grid.is_full() && [tiles.width, tiles.height] == size;
         let filter = match form {

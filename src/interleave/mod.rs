@@ -22,7 +22,7 @@ mod tests;
 pub use anaglyph::Matrix;
 pub use depth::{Depth, rgbd};
 pub use field::Heights;
-pub use gpu::{Glass, Interleaver, Source, glsl_version};
+pub use gpu::{Glass, Interleaver, Source, bind_bent, glsl_version};
 pub use layout::Layout;
 pub use program::Program;
 

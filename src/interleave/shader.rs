@@ -25,6 +25,10 @@ const ANAGLYPH: &str = include_str!("../../shaders/anaglyph.wgsl");
 const RGBD: &str = include_str!("../../shaders/rgbd.wgsl");
 const FIELD: &str = include_str!("../../shaders/field.wgsl");
 const SYNTHESIS: &str = include_str!("../../shaders/synthesis.wgsl");
+const VIEW: &str = include_str!("../../shaders/view.wgsl");
+const PLAIN: &str = include_str!("../../shaders/plain.wgsl");
+const BENT: &str = include_str!("../../shaders/bent.wgsl");
+const BENDS: &str = include_str!("../../shaders/bends.wgsl");
 const THROUGH: &str = include_str!("../../shaders/through.wgsl");
 const COPY: &str = include_str!("../../shaders/copy.wgsl");
 const ACCUMULATE: &str = include_str!("../../shaders/accumulate.wgsl");
@@ -41,6 +45,10 @@ pub const DEPTH_UNIT: u32 = 2;
 pub const RANGE_UNIT: u32 = 3;
 /// Texture unit of the same of blocks.
 pub const PEAKS_UNIT: u32 = 4;
+/// Texture units of the steps in depth of blocks, and of what is near them; see `shaders/bends.wgsl`.
+pub const STEPS_UNITS: [u32; 2] = [5, 6];
+/// Texture units of the reference image of an occlusion camera: its map, colours, depths, and by how much samples are moved.
+pub const BENT_UNITS: [u32; 4] = [5, 6, 7, 8];
 
 /// What a pass makes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -96,12 +104,23 @@ pub enum Synthesis {
     Tops,
     /// The greatest and the least of all that the rays of a block can meet.
     Range,
+    /// Where heights step down or up.
+    Steps,
+    /// Which blocks are near such steps.
+    Splats,
+    /// The distortion map of an occlusion camera.
+    Bends,
     /// One view, with depths.
-    View,
+    View {
+        /// What is hidden is looked for in the reference image of an occlusion camera.
+        bent: bool,
+    },
     /// The panel's picture, through a mask of views; of one view for each pixel, where the mask is `whole`.
     Panel {
         /// Red, green and blue show the same view.
         whole: bool,
+        /// As for a view.
+        bent: bool,
     },
 }
 
@@ -142,14 +161,24 @@ impl Pass {
 
 impl Synthesis {
     /// All of them.
-    pub const ALL: [Self; 6] = [
+    pub const ALL: [Self; 12] = [
         Self::Peaks,
         Self::Tops,
         Self::Range,
-        Self::View,
-        Self::Panel { whole: false },
-        Self::Panel { whole: true },
+        Self::Steps,
+        Self::Splats,
+        Self::Bends,
+        Self::View { bent: false },
+        Self::View { bent: true },
+        Self::panel(false, false),
+        Self::panel(false, true),
+        Self::panel(true, false),
+        Self::panel(true, true),
     ];
+
+    const fn panel(whole: bool, bent: bool) -> Self {
+        Self::Panel { whole, bent }
+    }
 }
 
 impl Step {
@@ -302,13 +331,13 @@ pub struct Uniforms {
 
 impl Uniforms {
     /// In the order and alignment of the WGSL struct.
-    pub fn words(&self) -> [u32; 68] {
+    pub fn words(&self) -> [u32; 72] {
         let [tile_x, tile_y] = self.tile;
         let [out_x, out_y] = self.picture;
         let (grid_x, grid_y) = self.layout.grid(self.views);
         let (columns, views) = (self.columns.max(1), self.views.max(1));
         let [period_x, period_y] = self.period.map(|p| p.max(1));
-        let mut words = [0; 68];
+        let mut words = [0; 72];
         let whole = [
             tile_x,
             tile_y,
@@ -488,9 +517,12 @@ fn entry(pass: Pass) -> &'static str {
         Pass::Synthesis(Synthesis::Peaks) => "peaks",
         Pass::Synthesis(Synthesis::Tops) => "tops",
         Pass::Synthesis(Synthesis::Range) => "range",
-        Pass::Synthesis(Synthesis::View) => "view",
-        Pass::Synthesis(Synthesis::Panel { whole: false }) => "panel_subpixels",
-        Pass::Synthesis(Synthesis::Panel { whole: true }) => "panel_pixels",
+        Pass::Synthesis(Synthesis::Steps) => "steps",
+        Pass::Synthesis(Synthesis::Splats) => "splats",
+        Pass::Synthesis(Synthesis::Bends) => "bends",
+        Pass::Synthesis(Synthesis::View { .. }) => "view",
+        Pass::Synthesis(Synthesis::Panel { whole: false, .. }) => "panel_subpixels",
+        Pass::Synthesis(Synthesis::Panel { whole: true, .. }) => "panel_pixels",
     }
 }
 
@@ -505,9 +537,22 @@ fn source(pass: Pass) -> String {
         Pass::Rgbd => [COVER, COMMON, ATLAS, RGBD].join("\n"),
         Pass::Copy => [COVER, COPY].join("\n"),
         Pass::Accumulate(_) => [COVER, ACCUMULATE].join("\n"),
-        Pass::Synthesis(Synthesis::Panel { .. }) => {
-            [COVER, COMMON, ATLAS, MASK, FIELD, THROUGH].join("\n")
+        Pass::Synthesis(Synthesis::Steps | Synthesis::Splats | Synthesis::Bends) => {
+            [COVER, COMMON, ATLAS, FIELD, PLAIN, BENDS].join("\n")
         }
-        Pass::Synthesis(_) => [COVER, COMMON, ATLAS, FIELD, SYNTHESIS].join("\n"),
+        Pass::Synthesis(Synthesis::Panel { bent, .. }) => {
+            [COVER, COMMON, ATLAS, MASK, FIELD, behind(bent), THROUGH].join("\n")
+        }
+        Pass::Synthesis(Synthesis::View { bent }) => {
+            [COVER, COMMON, ATLAS, FIELD, behind(bent), VIEW].join("\n")
+        }
+        Pass::Synthesis(Synthesis::Peaks | Synthesis::Tops | Synthesis::Range) => {
+            [COVER, COMMON, ATLAS, FIELD, PLAIN, SYNTHESIS].join("\n")
+        }
     }
+}
+
+/// What is known of what is hidden.
+fn behind(bent: bool) -> &'static str {
+    if bent { BENT } else { PLAIN }
 }

@@ -221,7 +221,7 @@ fn every_pass_translates_for_every_version() {
             for texture in &fragment.textures {
                 assert!(fragment.source.contains(&format!(" {};", texture.name)));
             }
-            assert_eq!(fragment.uniforms.len(), 26);
+            assert_eq!(fragment.uniforms.len(), 27);
             assert!(!fragment.source.contains("std140"), "no uniform block");
 
             let vertex = translate(pass, Stage::Vertex, version).unwrap();
@@ -273,6 +273,7 @@ fn uniforms_are_found_by_name() {
             margin: 27.0,
             aim: (2, 28),
             marked: true,
+            reach: 30.0,
         },
     };
     let version = GlslVersion::Desktop(330);
@@ -321,8 +322,13 @@ fn uniforms_are_found_by_name() {
         [21.0f32, 22.0, 23.0, 24.0],
         [25.0, 26.0, 0.0, 27.0],
         [77.0, 28.0, 1.0, 259.0],
+        [30.0, 0.0, 0.0, 0.0],
     ];
-    for (at, (name, row)) in ["field", "lever", "aim"].into_iter().zip(rows).enumerate() {
+    for (at, (name, row)) in ["field", "lever", "aim", "bend"]
+        .into_iter()
+        .zip(rows)
+        .enumerate()
+    {
         assert_eq!(of[23 + at], (name, &row.map(f32::to_bits)[..]));
     }
 }
@@ -469,8 +475,13 @@ fn every_pass_of_synthesis_translates_for_every_version() {
             Synthesis::Peaks => &[DEPTH_UNIT],
             Synthesis::Tops => &[PEAKS_UNIT],
             Synthesis::Range => &[RANGE_UNIT, PEAKS_UNIT],
-            Synthesis::View => &[VIEWS_UNIT, DEPTH_UNIT, RANGE_UNIT, PEAKS_UNIT],
-            Synthesis::Panel { .. } => &[VIEWS_UNIT, MASK_UNIT, DEPTH_UNIT, RANGE_UNIT, PEAKS_UNIT],
+            Synthesis::Steps => &[DEPTH_UNIT],
+            Synthesis::Splats => &[5],
+            Synthesis::Bends => &[2, 5, 6],
+            Synthesis::View { bent: false } => &[0, 2, 3, 4],
+            Synthesis::View { bent: true } => &[0, 2, 3, 4, 5, 6, 7, 8],
+            Synthesis::Panel { bent: false, .. } => &[0, 1, 2, 3, 4],
+            Synthesis::Panel { bent: true, .. } => &[0, 1, 2, 3, 4, 5, 6, 7, 8],
         };
         for version in GlslVersion::SUPPORTED {
             let got = translate(Pass::Synthesis(pass), Stage::Fragment, version).unwrap();

@@ -2,7 +2,7 @@
 //! what the panel shows. The others get what it has as soon as something is drawn that depends on the view.
 
 use super::{Layer, as_they_are};
-use crate::config::{CaptureWhat, Filter, Output, Saving, Strategy};
+use crate::config::{CaptureWhat, Filter, Output, Saving};
 use crate::gl::{Gl, consts as c};
 use crate::plan::{Kind, Method, Plan};
 use crate::state::BACK;
@@ -131,7 +131,7 @@ impl Layer {
         let captured = self.config.capture.as_ref().map(|capture| capture.what);
         self.alike.same == EVERYTHING
             && self.config.views > 1
-            && self.config.strategy != Strategy::DepthImage
+            && !self.config.strategy.synthesises()
             && !self.config.without.has(Saving::Alike)
             && self.support.shares
             && self.atlas.tiles.grid.is_full()

@@ -67,6 +67,21 @@ impl Primitives {
             Primitives::Arrays { mode, .. } | Primitives::Elements { mode, .. } => mode,
         }
     }
+
+    /// The number of vertices, and the draw in another mode.
+    fn drawn(self, gl: &Gl) -> (u64, impl FnMut(u32)) {
+        let (Primitives::Arrays { count, .. } | Primitives::Elements { count, .. }) = self;
+        let draw = move |mode| match self {
+            Primitives::Arrays { first, count, .. } => gl.draw_arrays(mode, first, count),
+            Primitives::Elements {
+                count,
+                kind,
+                indices,
+                ..
+            } => gl.draw_elements(mode, count, kind, indices),
+        };
+        (u64::from(count.max(0).unsigned_abs()), draw)
+    }
 }
 
 impl Layer {
@@ -90,6 +105,7 @@ impl Layer {
             Kind::Pixels => Again::Raster(plan.shear.take()),
             _ => Again::Same,
         };
+        self.draw_bent(gl, &plan, again, (0, false), &mut |_| call());
         self.replay(gl, &plan, again, &mut |_| call());
     }
 
@@ -105,7 +121,11 @@ impl Layer {
         let plan = self.plan(gl, kind);
         match plan.method {
             Method::Once => self.once(gl, call),
-            Method::Replay => self.replay(gl, &plan, Again::Same, &mut |_| call()),
+            Method::Replay => {
+                let (count, mut bent) = primitives.drawn(gl);
+                self.draw_bent(gl, &plan, Again::Same, (count, false), &mut bent);
+                self.replay(gl, &plan, Again::Same, &mut |_| call());
+            }
             Method::Instanced if plan.twin => {
                 let mut draw = |views: i32| match primitives {
                     Primitives::Arrays { mode, first, count } => {
@@ -153,14 +173,8 @@ impl Layer {
         }
     }
 
-    /// Prepares an amplified draw and counts it; `None`: it has to be replayed, and the reason is counted.
-    pub(super) fn amplify(
-        &mut self,
-        gl: &Gl,
-        plan: &Plan,
-        mode: u32,
-        material: bool,
-    ) -> Option<Amplified> {
+    /// Reads the state of fixed function, where it is not known.
+    pub(super) fn read_fixed(&mut self, gl: &Gl) {
         if self.state.touched.has(Touch::FIXED) || self.fixed.is_none() {
             self.fixed = Some(FixedState::read(gl, self.driver, self.state.window.samples));
         } else if self.state.touched.has(Touch::MATERIAL)
@@ -169,6 +183,17 @@ impl Layer {
             fixed.reread_material(gl);
         }
         self.state.touched = self.state.touched.without(Touch::FIXED | Touch::MATERIAL);
+    }
+
+    /// Prepares an amplified draw and counts it; `None`: it has to be replayed, and the reason is counted.
+    pub(super) fn amplify(
+        &mut self,
+        gl: &Gl,
+        plan: &Plan,
+        mode: u32,
+        material: bool,
+    ) -> Option<Amplified> {
+        self.read_fixed(gl);
         let fixed = self.fixed.as_ref()?;
         let how = Programs::allow(&self.state, &self.atlas).and_then(|()| {
             self.programs
@@ -267,7 +292,7 @@ impl Layer {
     /// all draws go the same way. A pass before that one, in the program's first frame, is not made again.
     fn keep_together(&mut self, gl: &Gl) {
         let alike = match self.means.strategy {
-            Strategy::Replay | Strategy::Auto | Strategy::DepthImage => true,
+            Strategy::Replay | Strategy::Auto | Strategy::DepthImage | Strategy::Occlusion => true,
             Strategy::Instanced => self.config.clip.is_none() && self.support.layers(),
             Strategy::Geometry => false,
         };

@@ -278,6 +278,9 @@ impl Layer {
             },
             CaptureWhat::Atlas => whole(&all, row),
             CaptureWhat::View(v) => capture::write(&tile(gl, &self.atlas, v), &path),
+            CaptureWhat::Reference => self
+                .reference_image(gl)
+                .and_then(|i| capture::write(&i, &path)),
             CaptureWhat::Depth => {
                 self.atlas.resolve(gl, true, c::DEPTH_BUFFER_BIT);
                 let t = &source.tiles;

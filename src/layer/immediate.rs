@@ -97,6 +97,11 @@ impl Layer {
             None => {
                 let all = self.atlas.tiles.shown;
                 self.atlas.tiles.shown = self.seeing(gl, mode, &plan, &recording);
+                let vertices = recording.calls() as u64;
+                let bent = (vertices, self.immediate.changes_material());
+                self.draw_bent(gl, &plan, again, bent, &mut |mode| {
+                    gl.replay(mode, &recording, ends);
+                });
                 let streamed = self.stream(gl, mode, &recording, again);
                 let sets = self.immediate.sets();
                 self.replay(gl, &plan, again, &mut |_| match streamed {

@@ -21,6 +21,7 @@ mod immediate;
 mod instances;
 mod left;
 mod lists;
+mod occlusion;
 mod passes;
 mod programs;
 mod prove;
@@ -228,10 +229,9 @@ impl Layer {
             geometry: support.geometry(),
             together: false,
         };
-        let made_of = config.strategy == Strategy::DepthImage && config.views > 1;
-        let (synthesis, note) = synthesis::Synthesis::new(gl, made_of, support.glsl);
+        let (synthesis, note) = synthesis::Synthesis::new(gl, config, support.glsl);
         note.into_iter().for_each(|note| report.note(note));
-        let interleaver = Interleaver::new(gl, &mut names, support.glsl, made_of);
+        let interleaver = Interleaver::new(gl, &mut names, support.glsl, config.synthesis());
         match interleaver.note() {
             Some(note) if support.es => return Err(LayerError::Passes(note)),
             Some(note) => report.note(note),

@@ -199,7 +199,7 @@ impl Layer {
     pub(super) fn lacks(&mut self, what: CaptureWhat) -> bool {
         let needed = match what {
             CaptureWhat::Output => self.seen(),
-            CaptureWhat::Depth => [].into_iter().collect(),
+            CaptureWhat::Depth | CaptureWhat::Reference => [].into_iter().collect(),
             CaptureWhat::View(view) => [view].into_iter().collect(),
             CaptureWhat::Atlas => Shown::ALL,
         };

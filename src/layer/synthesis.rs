@@ -4,9 +4,10 @@
 //! HUD, glass, another clear, a copy of the frame) the views are made into their tiles, depths as well, and all that follows is drawn in each of
 //! them. Where nothing else follows, the panel's picture is made straight from the own view.
 
+use super::occlusion::{Bent, REACH};
 use super::{Layer, keep_bindings};
 use crate::atlas::FieldTextures;
-use crate::config::{CaptureWhat, Class, DepthState, Filter, Output, Viewport};
+use crate::config::{CaptureWhat, Class, Config, DepthState, Filter, Output, Viewport};
 use crate::gl::{Gl, consts as c};
 use crate::interleave::Heights;
 use crate::plan::{Classed, Kind, Method, Plan, Ramp, Reason, Shear};
@@ -34,7 +35,7 @@ struct Scene {
 
 /// How depths become disparities.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Look {
+pub(super) struct Look {
     ramp: Ramp,
     shear: Shear,
     viewport: [i32; 4],
@@ -44,19 +45,23 @@ struct Look {
 #[derive(Debug, Default)]
 pub(super) struct Synthesis {
     /// Made when the strategy is asked for; none where the driver cannot.
-    passes: Option<Passes>,
+    pub(super) passes: Option<Passes>,
     /// Only the own view is drawn.
     scene: Option<Scene>,
     /// The views of this frame are made.
     done: bool,
+    pub(super) bent: Bent,
     /// While a panel's picture is made straight from the own view.
     pub(super) field: Option<(FieldTextures, Heights)>,
 }
 
 impl Synthesis {
     /// Where the user has asked for it; and what hinders it.
-    pub(super) fn new(gl: &Gl, wanted: bool, glsl: u32) -> (Synthesis, Option<String>) {
-        let passes = wanted.then(|| Passes::new(gl, glsl)).transpose();
+    pub(super) fn new(gl: &Gl, config: &Config, glsl: u32) -> (Synthesis, Option<String>) {
+        let passes = config
+            .synthesis()
+            .map(|bent| Passes::new(gl, glsl, bent))
+            .transpose();
         let (passes, note) = match passes {
             Ok(passes) => (passes, None),
             Err(e) => (None, Some(format!("all views are drawn: {e}"))),
@@ -99,6 +104,9 @@ impl Layer {
         match self.stays(gl, kind, plan, classed, &mut scene) {
             Ok(()) => {
                 scene.begun = true;
+                if let (Class::Scene, Some(look)) = (plan.class, &scene.look) {
+                    self.expect_bent(kind, look);
+                }
                 self.synthesis.scene = Some(scene);
             }
             Err(what) => {
@@ -131,6 +139,7 @@ impl Layer {
             ..Scene::default()
         });
         self.atlas.tiles.shown = self.shown();
+        self.begin_bent(gl);
     }
 
     /// Whether the scissor leaves all of the window.
@@ -245,12 +254,12 @@ impl Layer {
     fn make_of(&mut self, gl: &Gl, scene: &Scene, look: &Look) {
         let heights = self.heights(scene, look);
         self.atlas.take_field(gl);
+        let Some(textures) = self.measure(gl, &heights, true) else {
+            return self.atlas.share_own(gl);
+        };
         let Some(passes) = &self.synthesis.passes else {
             return;
         };
-        if !passes.measure(gl, &mut self.atlas, &heights, true) {
-            return self.atlas.share_own(gl);
-        }
         let (mask, func) = (
             gl.get_integer(c::DEPTH_WRITEMASK) as u8,
             gl.get_integer(c::DEPTH_FUNC) as u32,
@@ -262,7 +271,7 @@ impl Layer {
         if srgb {
             gl.enable_srgb(true);
         }
-        passes.views(gl, &mut self.atlas, &heights);
+        passes.views(gl, &mut self.atlas, &heights, &textures);
         self.report.synthesised(false);
         if srgb {
             gl.enable_srgb(false);
@@ -287,20 +296,37 @@ impl Layer {
         made
     }
 
+    /// Learns of the own view, or of its copy, what views of it need; and the map for the next frame.
+    fn measure(&mut self, gl: &Gl, heights: &Heights, copied: bool) -> Option<FieldTextures> {
+        let mut textures = self.atlas.field(copied)?;
+        let passes = self.synthesis.passes.as_ref()?;
+        passes.measure(gl, &mut self.atlas, heights, &textures);
+        self.map_bends(gl, heights);
+        textures.bent = self.atlas.bent().filter(|_| self.synthesis.bent.on);
+        Some(textures)
+    }
+
+    /// Pixels by which a camera one place further sees what is infinitely far to the side.
+    fn far(look: &Look) -> f64 {
+        look.shear.separation(1.0) * f64::from(look.viewport[2]) / 2.0
+    }
+
+    /// Heights over depths: slope and offset.
+    pub(super) fn height_line(&self, look: &Look) -> [f64; 2] {
+        let size = Self::far(look).abs() * look.shear.conv;
+        look.ramp.line().map(|v| size * v)
+    }
+
     fn heights(&self, scene: &Scene, look: &Look) -> Heights {
-        let [_, _, width, _] = look.viewport.map(f64::from);
-        // Pixels by which a camera one place further sees what is infinitely far to the side.
-        let far = look.shear.separation(1.0) * width / 2.0;
-        let [slope, offset] = look.ramp.line();
-        let size = far.abs() * look.shear.conv;
+        let far = Self::far(look);
+        let [scale, offset] = self.height_line(look);
         let tiles = &self.atlas.tiles;
         let own = self.rig.place(tiles.own());
         let levers = [self.rig.place(0) - own, 1.0].map(|place| place * far.signum());
-        let scale = size * slope;
         let step = 0.5f64.powi(self.state.window.bits[4].min(24) as i32);
         Heights {
             scale: scale as f32,
-            offset: (size * offset) as f32,
+            offset: offset as f32,
             far: far.abs() as f32,
             clear: scene.clear,
             sky: scene.sky,
@@ -308,6 +334,7 @@ impl Layer {
             margin: (-scale.signum() * MARGIN * step) as f32,
             aim: (0, 0),
             marked: self.config.marks_holes,
+            reach: REACH,
         }
     }
 
@@ -327,10 +354,7 @@ impl Layer {
                 let heights = self.heights(&scene, &look);
                 self.atlas
                     .resolve(gl, true, c::COLOR_BUFFER_BIT | c::DEPTH_BUFFER_BIT);
-                let textures = self.atlas.field(false);
-                if let (Some(passes), Some(textures)) = (&self.synthesis.passes, textures)
-                    && passes.measure(gl, &mut self.atlas, &heights, false)
-                {
+                if let Some(textures) = self.measure(gl, &heights, false) {
                     self.synthesis.field = Some((textures, heights));
                     self.report.synthesised(true);
                 }
@@ -352,5 +376,6 @@ impl Layer {
     /// The tiles are others.
     pub(super) fn forget_scene(&mut self) {
         self.synthesis.scene = None;
+        self.synthesis.bent = Bent::default();
     }
 }

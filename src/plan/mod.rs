@@ -180,7 +180,9 @@ fn magnified(state: &State) -> f64 {
 fn method(kind: Kind, state: &State, means: &Means) -> Result<Method, Option<Reason>> {
     let wish = match means.strategy {
         // `auto` is in force as one of the others, and what no view is made of is drawn in each.
-        Strategy::Replay | Strategy::Auto | Strategy::DepthImage => return Err(None),
+        Strategy::Replay | Strategy::Auto | Strategy::DepthImage | Strategy::Occlusion => {
+            return Err(None);
+        }
         Strategy::Geometry => Method::Geometry,
         Strategy::Instanced => Method::Instanced,
     };

@@ -44,7 +44,7 @@ const DESKTOP_3_2: Needs = Needs::Version((3, 2), (u32::MAX, 0));
 const PIXELS_OF_ES: Needs = Needs::Version((1, 0), (3, 0));
 
 /// Texture units that passes sample from.
-const UNITS: u32 = 5;
+const UNITS: u32 = 9;
 
 #[derive(Clone, Copy, PartialEq)]
 enum Needs {

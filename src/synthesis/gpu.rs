@@ -2,15 +2,16 @@
 //!
 //! A ray of the other camera is a straight line over the heights of a row (see `shaders/field.wgsl`), so what it sees is the first sample that it
 //! meets. How high and how low blocks of a row are leads it over what it cannot meet, and
-//! straight to what is a plane.
+//! straight to what is a plane. What is hidden it seeks in the reference image of an occlusion camera, where there is one (see
+//! `shaders/bent.wgsl`); that camera's map is made here as well, and has to be what [`super::Bending`] says.
 
-use crate::atlas::{Atlas, FieldTarget, Tiles};
+use crate::atlas::{Atlas, BendTarget, FieldTarget, FieldTextures, Tiles};
 use crate::config::Filter;
 use crate::gl::{Gl, consts as c};
 use crate::interleave::shader::{
-    DEPTH_UNIT, PEAKS_UNIT, Pass, RANGE_UNIT, Synthesis, Uniforms, VIEWS_UNIT,
+    DEPTH_UNIT, PEAKS_UNIT, Pass, RANGE_UNIT, STEPS_UNITS, Synthesis, Uniforms, VIEWS_UNIT,
 };
-use crate::interleave::{Heights, Layout, Program};
+use crate::interleave::{Heights, Layout, Program, bind_bent};
 
 /// The passes of one context.
 #[derive(Debug)]
@@ -20,34 +21,61 @@ pub struct Passes {
     tops: Program,
     range: Program,
     view: Program,
+    bent: Option<Bent>,
+}
+
+/// Those of an occlusion camera.
+#[derive(Debug)]
+struct Bent {
+    steps: Program,
+    splats: Program,
+    map: Program,
+    view: Program,
 }
 
 impl Passes {
-    /// For a context whose shading language has this version × 100. The error is naga's or the driver's.
-    pub fn new(gl: &Gl, glsl: u32) -> Result<Passes, String> {
+    /// For a context whose shading language has this version × 100; `bent`: with those of an occlusion camera. The error is naga's or
+    /// the driver's.
+    pub fn new(gl: &Gl, glsl: u32, bent: bool) -> Result<Passes, String> {
         let program = |pass| Program::new(gl, glsl, Pass::Synthesis(pass));
+        let camera = || {
+            Ok::<_, String>(Bent {
+                steps: program(Synthesis::Steps)?,
+                splats: program(Synthesis::Splats)?,
+                map: program(Synthesis::Bends)?,
+                view: program(Synthesis::View { bent: true })?,
+            })
+        };
         Ok(Passes {
             peaks: program(Synthesis::Peaks)?,
             tops: program(Synthesis::Tops)?,
             range: program(Synthesis::Range)?,
-            view: program(Synthesis::View)?,
+            view: program(Synthesis::View { bent: false })?,
+            bent: bent.then(camera).transpose()?,
             vertex_array: gl.gen_vertex_array(),
         })
     }
 
+    /// Whether an occlusion camera is among them.
+    pub fn bends(&self) -> bool {
+        self.bent.is_some()
+    }
+
     /// The names of its programs.
     pub fn programs(&self) -> impl Iterator<Item = u32> {
+        let bent = self
+            .bent
+            .iter()
+            .flat_map(|b| [&b.steps, &b.splats, &b.map, &b.view]);
         [&self.peaks, &self.tops, &self.range, &self.view]
             .into_iter()
+            .chain(bent)
             .map(Program::name)
     }
 
-    /// Learns how high the own view is, of the tile itself or, with `copied`, of the copy; false where there is none. State must be as
+    /// Learns how high the own view is, whose textures these are. State must be as
     /// `present::Saved::take` leaves it; changes the framebuffers that are bound.
-    pub fn measure(&self, gl: &Gl, atlas: &mut Atlas, heights: &Heights, copied: bool) -> bool {
-        let Some(textures) = atlas.field(copied) else {
-            return false;
-        };
+    pub fn measure(&self, gl: &Gl, atlas: &mut Atlas, heights: &Heights, textures: &FieldTextures) {
         let words = uniforms(&atlas.tiles, atlas.flipped, *heights).words();
         for (unit, texture) in [
             (VIEWS_UNIT, textures.colour),
@@ -72,13 +100,39 @@ impl Passes {
         }
         gl.active_texture(c::TEXTURE0 + RANGE_UNIT);
         gl.bind_texture(c::TEXTURE_2D_ARRAY, textures.range);
+    }
+
+    /// Makes the distortion map of the own view, which has been measured, for the next frame; false where there is none.
+    pub fn bend(&self, gl: &Gl, atlas: &mut Atlas, heights: &Heights) -> bool {
+        let (Some(bent), Some(textures)) = (&self.bent, atlas.bent()) else {
+            return false;
+        };
+        let words = uniforms(&atlas.tiles, atlas.flipped, *heights).words();
+        for (unit, texture) in STEPS_UNITS.into_iter().zip(textures.steps) {
+            gl.active_texture(c::TEXTURE0 + unit);
+            gl.bind_texture(c::TEXTURE_2D_ARRAY, texture);
+        }
+        let height = atlas.tiles.height as i32;
+        for (program, target) in [
+            (&bent.steps, BendTarget::Steps),
+            (&bent.splats, BendTarget::Splats),
+            (&bent.map, BendTarget::Map),
+        ] {
+            let width = atlas.enter_bends(gl, target);
+            gl.viewport(0, 0, width, height);
+            program.bind(gl, &words);
+            gl.draw_arrays(c::TRIANGLES, 0, 3);
+        }
         true
     }
 
     /// Makes the views that are shown of the copy of the own one, which has been measured: colours, and depths for what is drawn
     /// after them. The depth test must pass and write everything; changes the framebuffers that are bound.
-    pub fn views(&self, gl: &Gl, atlas: &mut Atlas, heights: &Heights) {
+    pub fn views(&self, gl: &Gl, atlas: &mut Atlas, heights: &Heights, textures: &FieldTextures) {
         let (tiles, own) = (atlas.tiles, atlas.tiles.own());
+        bind_bent(gl, textures.bent);
+        let bent = self.bent.as_ref().filter(|_| textures.bent.is_some());
+        let program = bent.map_or(&self.view, |bent| &bent.view);
         for view in tiles.order().filter(|&view| view != own) {
             let left = atlas.enter(gl, view);
             gl.viewport(left, 0, tiles.width as i32, tiles.height as i32);
@@ -87,7 +141,7 @@ impl Passes {
                 ..*heights
             };
             let words = uniforms(&tiles, atlas.flipped, heights).words();
-            self.view.bind(gl, &words);
+            program.bind(gl, &words);
             gl.draw_arrays(c::TRIANGLES, 0, 3);
         }
     }

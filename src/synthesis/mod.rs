@@ -14,6 +14,7 @@ mod discontinuity;
 mod distortion;
 mod gpu;
 mod occlusion;
+mod rows;
 #[cfg(test)]
 mod tests;
 mod warp;
@@ -23,4 +24,5 @@ pub use discontinuity::{Edge, Edges};
 pub use distortion::{Distortion, Distortions, Splats};
 pub use gpu::Passes;
 pub use occlusion::{Reference, Triangle, Vertex};
+pub use rows::{Bend, Bending};
 pub use warp::{View, warp};

@@ -2,6 +2,7 @@
 #![forbid(unsafe_code)]
 #![allow(dead_code, reason = "each test file uses its part")]
 
+pub(crate) mod near;
 pub(crate) mod views;
 
 use image::{ImageBuffer, RgbImage, Rgba};

@@ -75,7 +75,7 @@ unsafe fn ask(context: &Context) -> Probe {
             let names = support.strategies().into_iter().map(str::to_owned);
             probe.strategies = names.collect();
             probe.notes = support.notes();
-            let interleaver = Interleaver::new(&gl, &mut Default::default(), support.glsl, false);
+            let interleaver = Interleaver::new(&gl, &mut Default::default(), support.glsl, None);
             probe.notes.extend(interleaver.note());
         }
         Err(error) => probe.notes.push(error.to_string()),

@@ -169,7 +169,13 @@ pub fn beside(configuration: &Configuration) -> bool {
 /// The configurations of `manyview bench --hard` without `--strategy`: every exact strategy in every layout that it has.
 pub fn configurations() -> impl Iterator<Item = &'static Configuration> {
     // `auto` is one of the others, what is drawn at once lies in layers by itself, and bounds are those of exact strategies.
-    let twice = ["auto", "depth-image", "instanced-layers", "geometry-layers"];
+    let twice = [
+        "auto",
+        "depth-image",
+        "occlusion",
+        "instanced-layers",
+        "geometry-layers",
+    ];
     CONFIGURATIONS
         .iter()
         .filter(move |known| !twice.contains(&known.name))

@@ -1,0 +1,114 @@
+// The distortion map of an occlusion camera whose rays are bent along rows: src/synthesis/rows.rs says what it has to be.
+
+// Of the blocks of a row: a bit for each sample on whose left side heights step down, and step up.
+@group(0) @binding(5) var steps_texture: texture_2d_array<f32>;
+// Whether a sample of a block lies in a splat of one of them.
+@group(0) @binding(6) var splats_texture: texture_2d_array<f32>;
+
+// What nothing is drawn on is infinitely far.
+fn solid(x: i32, row: i32) -> f32 {
+    return max(height(x, row), 0.0);
+}
+
+@fragment
+fn steps(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
+    let block = texel_at(position);
+    let width = i32(u.tile.x);
+    let first = block.x * BLOCK;
+    let end = min(first + BLOCK, width);
+    // Heights of the two samples before, and here.
+    var two = solid(max(first - 2, 0), block.y);
+    var one = solid(max(first - 1, 0), block.y);
+    var here = solid(first, block.y);
+    var bits = vec2<f32>(0.0, 0.0);
+    var bit = 1.0;
+    for (var x = first; x < end; x++) {
+        let next = solid(min(x + 1, width - 1), block.y);
+        let own = here - one;
+        let before = select(abs(own - (one - two)), 1.0e9, x < 2);
+        let after = select(abs(own - (next - here)), 1.0e9, x + 1 >= width);
+        var excess = min(before, after);
+        excess = select(excess, abs(own), x < 2 && x + 1 >= width);
+        let torn = x > 0 && excess * u.aim.w > 1.0;
+        bits += select(vec2<f32>(0.0, 0.0), select(vec2<f32>(0.0, bit), vec2<f32>(bit, 0.0), own < 0.0), torn);
+        bit *= 2.0;
+        two = one;
+        one = here;
+        here = next;
+    }
+    return vec4<f32>(bits, 0.0, 0.0);
+}
+
+fn step_bits(block: i32, row: i32) -> vec2<u32> {
+    let last = (i32(u.tile.x) - 1) / BLOCK;
+    let bits = textureLoad(steps_texture, vec2<i32>(clamp(block, 0, last), row), 0, 0).rg;
+    return select(vec2<u32>(bits), vec2<u32>(0u, 0u), block < 0 || block > last);
+}
+
+// The first sample with a step of a kind on its left side, from a sample on in a direction, before an end; the end where there is none.
+fn first_step(start: i32, end: i32, along: i32, down: bool, up: bool, row: i32) -> i32 {
+    var x = start;
+    var found = false;
+    while !found && (end - x) * along > 0 {
+        let both = step_bits(x >> 4u, row);
+        let bits = select(0u, both.x, down) | select(0u, both.y, up);
+        if bits == 0u {
+            // To the next block.
+            x = select((x >> 4u) * BLOCK + BLOCK, (x >> 4u) * BLOCK - 1, along < 0);
+        } else {
+            found = ((bits >> u32(x & (BLOCK - 1))) & 1u) != 0u;
+            x = select(x + along, x, found);
+        }
+    }
+    return select(end, x, found);
+}
+
+// Of a block: whether there are steps as near as splats reach.
+@fragment
+fn splats(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
+    let at = texel_at(position);
+    let blocks = i32(ceil(u.bend.x / f32(BLOCK)));
+    var any = vec2<u32>(0u, 0u);
+    for (var x = at.x - blocks; x <= at.x + blocks; x++) {
+        any |= step_bits(x, at.y);
+    }
+    return vec4<f32>(f32(any.x | any.y), 0.0, 0.0, 0.0);
+}
+
+// What stands before the asymmetry's logarithm, above all distances.
+const LEVEL = 128.0;
+
+// Of two samples: how far to the right of their middle the discontinuity lies, with the asymmetry; the radius of the splat with its
+// direction; and the heights between which it bends. Nothing where the radius is 0.
+@fragment
+fn bends(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
+    let at = texel_at(position);
+    let row = at.y;
+    // Steps lie on the left sides of samples.
+    let middle = 2 * at.x + 1;
+    if textureLoad(splats_texture, vec2<i32>(2 * at.x / BLOCK, row), 0, 0).r == 0.0 {
+        return vec4<f32>(0.0, 0.0, 0.0, 0.0);
+    }
+    let reach = i32(ceil(u.bend.x));
+    let left = first_step(middle, middle - reach - 1, -1, true, true, row);
+    let right = first_step(middle + 1, middle + reach + 1, 1, true, true, row);
+    let nearest = select(left, right, right - middle < middle - left);
+    if abs(nearest - middle) > reach {
+        return vec4<f32>(0.0, 0.0, 0.0, 0.0);
+    }
+    let before = solid(nearest - 1, row);
+    let after = solid(nearest, row);
+    let down = before > after;
+    let near = max(before, after);
+    let far = min(before, after);
+    // To the nearest one that bends the other way, behind what is in front and on the side of the background.
+    let side = select(-1, 1, down);
+    let wide = i32(ceil(2.0 * u.bend.x)) + 1;
+    let hidden = first_step(nearest - side, nearest - side * wide, -side, !down, down, row);
+    let open = first_step(nearest + side, nearest + side * wide, side, !down, down, row);
+    let wanted = min(min(u.bend.x, u.aim.w * (near - far) + 1.0), 0.5 * f32(abs(hidden - nearest)));
+    let room = 0.5 * f32(abs(open - nearest));
+    let level = select(select(2.0, 1.0, wanted <= 2.0 * room), 0.0, wanted <= room);
+    let radius = min(wanted, room * exp2(level));
+    return vec4<f32>(f32(nearest - middle) + LEVEL * level, radius * f32(side), near, far);
+}

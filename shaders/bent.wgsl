@@ -1,0 +1,79 @@
+// What is hidden in a picture with depths is looked for in the reference image of an occlusion camera, whose rays reach behind what hides it.
+
+@group(0) @binding(6) var bent_texture: texture_2d_array<f32>;
+@group(0) @binding(7) var bent_depth_texture: texture_2d_array<f32>;
+// The distortion map, of bends.wgsl.
+@group(0) @binding(5) var map_texture: texture_2d_array<f32>;
+// Pixels to the right by which each sample lies beside its place.
+@group(0) @binding(8) var moved_texture: texture_2d_array<f32>;
+
+// What stands before the logarithm of a splat's asymmetry there.
+const LEVEL = 128.0;
+// Pixels by which what hides may have moved since the frame by whose depths the rays are bent.
+const SLACK = 4;
+
+fn sample_at(x: i32, row: i32, behind: bool) -> vec3<f32> {
+    var colour = textureLoad(views_texture, vec2<i32>(x, row), 0, 0).rgb;
+    if behind {
+        colour = textureLoad(bent_texture, vec2<i32>(x, row), 0, 0).rgb;
+    }
+    return colour;
+}
+
+fn bent_depth(x: i32, row: i32) -> f32 {
+    return textureLoad(bent_depth_texture, vec2<i32>(x, row), 0, 0).r;
+}
+
+fn sample_depth(x: i32, row: i32, behind: bool) -> f32 {
+    var depth = depth_at(x, row);
+    if behind {
+        depth = bent_depth(x, row);
+    }
+    return depth;
+}
+
+// From what hides the rest outwards, where hidden samples lie side by side up to it: the farthest behind it is the closest to it. The
+// outermost place where the ray meets their surface is what it meets first.
+fn look_behind(seen: Seen, x: f32, row: i32, t: f32) -> Seen {
+    let width = i32(u.tile.x);
+    let edge = 0.5 / max(abs(t), 1e-6);
+    let along = select(1, -1, t > 0.0);
+    let splat = textureLoad(map_texture, vec2<i32>(max(seen.last, 0) / 2, row), 0, 0);
+    // What is behind is as high as what is seen of it, or nearly so.
+    let low = mix(splat.w, splat.z, 0.25);
+    var best = seen;
+    var k = seen.last + along * SLACK;
+    // To the end of the splat.
+    let level = floor(splat.x / LEVEL + 0.5);
+    var left = i32(ceil(abs(splat.y) * exp2(-level))) + 2 * SLACK;
+    var open = seen.hole && seen.last >= 0 && splat.y != 0.0;
+    var known = false;
+    var before = vec3<f32>(0.0, 0.0, 0.0);
+    var slope = 0.0;
+    while open {
+        let at = clamp(k, 0, width - 1);
+        let depth = bent_depth(at, row);
+        let moved = textureLoad(moved_texture, vec2<i32>(at, row), 0, 0).r;
+        let there = f32(at) + 0.5 - moved;
+        let height = height_of(depth);
+        let above = (there - x) / t + u.field.z - height;
+        let drawn = !is_clear(depth);
+        // Samples lie closer to each other than the places they are of.
+        let step = height - before.y;
+        let apart = edge * max(abs(there - before.x), 1.0);
+        let joined = drawn && known && min(abs(step), abs(step - slope)) <= apart;
+        if joined && above > 0.0 && before.z <= 0.0 {
+            best = Seen(at, at + along, above / (above - before.z), false, true, -1);
+        } else if !best.behind && drawn && moved != 0.0 && above > 0.0 && height < low {
+            // As far as is known; the rest lies deeper.
+            best = Seen(at, at, 0.0, true, true, -1);
+        }
+        slope = select(0.0, step, known);
+        before = vec3<f32>(there, height, above);
+        known = drawn;
+        left -= 1;
+        open = left > 0 && at == k;
+        k -= along;
+    }
+    return best;
+}

@@ -1,0 +1,27 @@
+// A view of a picture with depths, into its tile.
+
+// Part of the step from a sample to the next.
+const BENT = 0.25;
+
+struct Made {
+    @location(0) colour: vec4<f32>,
+    @builtin(frag_depth) depth: f32,
+}
+
+// With depths for what is drawn after it: a little farther than they are, so that another pass over the same
+// surface lies before it.
+@fragment
+fn view(@builtin(position) position: vec4<f32>) -> Made {
+    let at = vec2<u32>(position.xy);
+    let row = i32(texel_row(min(at.y, u.tile.y - 1u), u.tile.y));
+    let x = position.x - u.aim.y;
+    let first = seek(x, row, u.aim.x, range_of(u32(x), row));
+    let seen = look_behind(first, x, row, u.aim.x);
+    let low = sample_depth(seen.low, row, seen.behind);
+    let high = sample_depth(seen.high, row, seen.behind);
+    // Where the surface is bent it is not where the straight line between two samples is.
+    let away = u.lever.w + sign(u.lever.w) * BENT * abs(high - low);
+    let moved = clamp(mix(low, high, seen.weight) + away, 0.0, 1.0);
+    let depth = select(moved, low, is_clear(low));
+    return Made(vec4<f32>(colour_of(seen, row), 1.0), depth);
+}

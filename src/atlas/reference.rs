@@ -1,0 +1,167 @@
+//! The reference image of an occlusion camera, beside the tiles: colours and depths as in a tile, and by how much each sample is moved.
+
+use super::{Atlas, Names, Single, Surface, Tiles, fetched};
+use crate::gl::{Gl, consts as c};
+use crate::state::Window;
+
+/// Samples of a row in one texel of the steps.
+const BLOCK: u32 = 16;
+
+/// Samples of a row in one texel of the map.
+const CELL: i32 = 2;
+
+/// The textures of a reference image and of its distortion map, array textures of one layer; see `shaders/bent.wgsl` and
+/// `shaders/bends.wgsl`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct BentTextures {
+    /// Colours, depths and by how much samples are moved.
+    pub image: [u32; 3],
+    /// Where depths step, and what is near that.
+    pub steps: [u32; 2],
+    /// The distortion map.
+    pub map: u32,
+}
+
+/// What is drawn to on the way to the map.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum BendTarget {
+    /// Where depths step.
+    Steps,
+    /// What is near that.
+    Splats,
+    /// [`BentTextures::map`]
+    Map,
+}
+
+/// Where they are drawn to.
+#[derive(Debug)]
+pub(super) struct Bent {
+    image: Single,
+    moved: u32,
+    /// Texture and framebuffer.
+    steps: (u32, u32),
+    splats: (u32, u32),
+    map: (u32, u32),
+}
+
+impl Bent {
+    pub(super) fn framebuffers(&self) -> impl Iterator<Item = u32> + use<> {
+        [
+            self.image.framebuffer(),
+            self.steps.1,
+            self.splats.1,
+            self.map.1,
+        ]
+        .into_iter()
+    }
+}
+
+impl Atlas {
+    /// Makes the reference image and its map. The caller saves and restores bindings as for [`Atlas::new`].
+    pub fn make_bent(&mut self, gl: &Gl, names: &mut Names, window: &Window) -> bool {
+        let size = [self.tiles.width, self.tiles.height].map(|side| side as i32);
+        let (flip, textures) = (self.flipped, &mut self.textures);
+        let image = Single::new(gl, names, window, size, flip, textures);
+        let mut complete = true;
+        let mut texture = |(internal, format): (u32, u32), width: i32| {
+            let name = names.texture(gl);
+            gl.bind_texture(c::TEXTURE_2D_ARRAY, name);
+            gl.tex_storage_3d(internal, width, size[1], 1, format, c::FLOAT);
+            fetched(gl);
+            gl.bind_texture(c::TEXTURE_2D_ARRAY, 0);
+            textures.push(name);
+            name
+        };
+        let moved = texture((c::R16F, c::RED), size[0]);
+        let blocks = self.tiles.width.div_ceil(BLOCK).max(1) as i32;
+        let steps = texture((c::RG32F, c::RG), blocks);
+        let splats = texture((c::RG32F, c::RG), blocks);
+        let map = texture((c::RGBA16F, c::RGBA), (size[0] + 1) / CELL);
+        let attach = |point, name| {
+            gl.framebuffer_texture_layer(c::FRAMEBUFFER, point, name, 0, 0);
+        };
+        gl.bind_framebuffer(c::FRAMEBUFFER, image.framebuffer());
+        attach(c::COLOR_ATTACHMENT0 + 1, moved);
+        gl.draw_buffers(&[c::COLOR_ATTACHMENT0, c::COLOR_ATTACHMENT0 + 1]);
+        complete &= gl.check_framebuffer_status(c::FRAMEBUFFER) == c::FRAMEBUFFER_COMPLETE;
+        let mut target = |name: u32| {
+            let framebuffer = gl.gen_framebuffer();
+            gl.bind_framebuffer(c::FRAMEBUFFER, framebuffer);
+            attach(c::COLOR_ATTACHMENT0, name);
+            if flip {
+                gl.flip_framebuffer(c::FRAMEBUFFER);
+            }
+            complete &= gl.check_framebuffer_status(c::FRAMEBUFFER) == c::FRAMEBUFFER_COMPLETE;
+            (name, framebuffer)
+        };
+        let steps = target(steps);
+        let splats = target(splats);
+        let map = target(map);
+        self.bent = Some(Bent {
+            image,
+            moved,
+            steps,
+            splats,
+            map,
+        });
+        complete
+    }
+
+    /// The textures of the reference image, where [`Atlas::make_bent`] has made it.
+    pub fn bent(&self) -> Option<BentTextures> {
+        let bent = self.bent.as_ref()?;
+        let [colour, depth] = bent.image.textures();
+        Some(BentTextures {
+            image: [colour, depth, bent.moved],
+            steps: [bent.steps.0, bent.splats.0],
+            map: bent.map.0,
+        })
+    }
+
+    /// Binds what a step towards the map is drawn to, and answers its width in texels.
+    pub fn enter_bends(&mut self, gl: &Gl, target: BendTarget) -> i32 {
+        let Some(bent) = &self.bent else { return 0 };
+        let blocks = self.tiles.width.div_ceil(BLOCK).max(1);
+        let (framebuffer, width) = match target {
+            BendTarget::Steps => (bent.steps.1, blocks),
+            BendTarget::Splats => (bent.splats.1, blocks),
+            BendTarget::Map => (bent.map.1, self.tiles.width.div_ceil(2)),
+        };
+        gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, framebuffer);
+        self.bound_row = u32::MAX;
+        width as i32
+    }
+
+    /// The framebuffer of the reference image.
+    pub fn bent_framebuffer(&self) -> Option<u32> {
+        Some(self.bent.as_ref()?.image.framebuffer())
+    }
+}
+
+/// The reference image as what a draw goes to: in the place of the program's own view, and of no other.
+#[derive(Debug)]
+pub struct BentSurface<'a>(pub &'a mut Atlas);
+
+impl Surface for BentSurface<'_> {
+    fn tiles(&self) -> Tiles {
+        let tiles = self.0.tiles;
+        Tiles {
+            shown: [].into_iter().collect(),
+            columns: 1,
+            rows: tiles.views,
+            ..tiles
+        }
+    }
+
+    fn enter(&mut self, gl: &Gl, _: u32) -> i32 {
+        self.bind_row(gl, 0);
+        0
+    }
+
+    fn bind_row(&mut self, gl: &Gl, _: u32) {
+        if let Some(framebuffer) = self.0.bent_framebuffer() {
+            gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, framebuffer);
+            self.0.bound_row = u32::MAX;
+        }
+    }
+}

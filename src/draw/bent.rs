@@ -1,0 +1,153 @@
+//! One draw for the reference image of an occlusion camera, with a generated program.
+
+use super::amplified::{Around, Programs};
+use super::fixed_state::FixedState;
+use super::fragment_state;
+use super::replay::{Again, replay};
+use super::tuned::Units;
+use crate::atlas::{Atlas, BentSurface};
+use crate::fixed::{Amplifier, Primitive, Tiles};
+use crate::gl::{Gl, consts as c};
+use crate::plan::{Reason, Rig, Shear};
+use crate::state::State;
+
+/// The texture unit of the map: the last one that all drivers with OpenGL 3.0 have.
+const UNIT: u32 = 31;
+
+/// What the rays are bent by.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rays {
+    /// The distortion map.
+    pub map: u32,
+    /// Heights as in the map: factor of z in NDC, and what is added.
+    pub heights: [f32; 2],
+}
+
+/// Pixels of a small triangle, on the average: half a square of those edges that triangles are cut to.
+const SMALL: u64 = 8;
+
+/// Whether the triangles of so many vertices are not small in the picture, on the whole, wherever they are.
+fn few(vertices: u64, atlas: &Atlas) -> bool {
+    let [width, height] = [atlas.tiles.width, atlas.tiles.height].map(u64::from);
+    vertices * SMALL < 3 * width * height
+}
+
+impl Rays {
+    /// `mv_window` and `mv_bend` of a picture; `sparse`: without what is not moved.
+    fn uniforms(&self, state: &State, atlas: &Atlas, sparse: bool) -> [[f32; 4]; 2] {
+        let [x, y, width, height] = state.viewport.map(|n| n as f32);
+        let (middle, up) = (y + height / 2.0, height / 2.0);
+        let rows = match atlas.flipped {
+            true => [-up, atlas.tiles.height as f32 - middle],
+            false => [up, middle],
+        };
+        let [factor, added] = self.heights;
+        [
+            [width / 2.0, rows[0], x + width / 2.0, rows[1]],
+            [factor, added, 2.0 / width, f32::from(u8::from(sparse))],
+        ]
+    }
+}
+
+/// The map in its unit.
+struct Bound {
+    active: u32,
+    was: u32,
+}
+
+impl Bound {
+    fn enter(gl: &Gl, map: u32) -> Bound {
+        let active = gl.get_integer(c::ACTIVE_TEXTURE) as u32;
+        gl.active_texture(c::TEXTURE0 + UNIT);
+        let was = gl.get_integer(c::TEXTURE_BINDING_2D_ARRAY) as u32;
+        gl.bind_texture(c::TEXTURE_2D_ARRAY, map);
+        gl.active_texture(active);
+        Bound { active, was }
+    }
+
+    fn leave(self, gl: &Gl) {
+        gl.active_texture(c::TEXTURE0 + UNIT);
+        gl.bind_texture(c::TEXTURE_2D_ARRAY, self.was);
+        gl.active_texture(self.active);
+    }
+}
+
+impl Programs {
+    /// Draws triangles of fixed function into the reference image; all state is as before. Where their `vertices` are few for the picture they are cut
+    /// into small ones. `call` makes the draw, in a mode.
+    ///
+    /// # Errors
+    /// Why there is no such program. Nothing was drawn.
+    #[allow(
+        clippy::too_many_arguments,
+        reason = "the parts of one draw; a struct of them would be built for this call alone"
+    )]
+    pub fn draw_bent(
+        &mut self,
+        gl: &Gl,
+        atlas: &mut Atlas,
+        state: &State,
+        rig: &Rig,
+        shear: Option<Shear>,
+        (fixed, material): (&FixedState, bool),
+        (mode, vertices): (u32, u64),
+        again: Again,
+        rays: &Rays,
+        call: &mut dyn FnMut(u32),
+    ) -> Result<(), Reason> {
+        let modelview = gl.get_floats::<16>(c::MODELVIEW_MATRIX);
+        let (mut key, around) = fixed.for_mode(mode, &modelview, material);
+        let few = few(vertices, atlas);
+        let patches = match (mode, few && self.limits.glsl >= 400) {
+            (c::TRIANGLES, true) => Some((Primitive::Triangles, 3)),
+            (c::QUADS, true) => Some((Primitive::Quads, 4)),
+            _ => None,
+        };
+        key.target.amplifier = Amplifier::Instanced;
+        if let Some((primitive, _)) = patches {
+            key.target.amplifier = Amplifier::Tessellation;
+            key.target.primitive = primitive;
+        }
+        key.target.tiles = Tiles::Bent;
+        around.allow(&key).map_err(Reason::Fixed)?;
+        let fragment = fragment_state::read(gl, self.driver, &key).map_err(Reason::Fixed)?;
+        let stages = (key.canonical(), Some(fragment.canonical()));
+        self.compile(gl, &key, &stages)?;
+        let Some(Some(program)) = self.cache.get(&stages) else {
+            return Err(Reason::Compile);
+        };
+        let map = Bound::enter(gl, rays.map);
+        let around = Around::enter(gl, state, atlas, &stages.0, program, Units::None, fixed);
+        let [window, bend] = rays.uniforms(state, atlas, !few);
+        gl.uniform_1i(program.bends, UNIT as i32);
+        gl.uniform_4fv(program.window, &[window]);
+        gl.uniform_4fv(program.bend, &[bend]);
+        let cut = patches.map(|(_, corners)| {
+            gl.uniform_1f(
+                program.levels,
+                self.driver.level(vertices / corners as u64) as f32,
+            );
+            let was = gl.get_integer(c::PATCH_VERTICES);
+            gl.patch_parameteri(c::PATCH_VERTICES, corners);
+            was
+        });
+        let mode = cut.map_or(mode, |_| c::PATCHES);
+        let mut surface = BentSurface(atlas);
+        replay(
+            gl,
+            &mut surface,
+            state,
+            rig,
+            shear,
+            again,
+            false,
+            &mut |_| call(mode),
+        );
+        if let Some(was) = cut {
+            gl.patch_parameteri(c::PATCH_VERTICES, was);
+        }
+        around.leave(gl, state, atlas, fixed);
+        map.leave(gl);
+        Ok(())
+    }
+}

@@ -1,0 +1,127 @@
+//! Tessellation shaders: triangles and quads are cut until no edge is longer in the picture than what rays bend differently for.
+//!
+//! Based on: Popescu et al., section V: an occlusion camera keeps no lines, so what it draws is subdivided. What is written for a corner
+//! in between is linear in clip space, as it is over the whole triangle. No level is above [`LEVELS`]: longer edges stay
+//! coarser, and samples where they belong.
+
+use super::bent::UNIFORM_WINDOW;
+use super::components::varyings;
+use super::key::{FixedKey, Primitive, Provoking};
+use super::text::Text;
+use super::{vertex, view};
+
+/// Edges in pixels.
+const LONGEST: u32 = 4;
+/// The highest level that every driver with tessellation has.
+pub const LEVELS: u32 = 64;
+/// `uniform float mv_levels`
+pub const UNIFORM_LEVELS: &str = "mv_levels";
+/// Least shading language version.
+pub(super) const VERSION: u32 = 400;
+
+fn corners(key: &FixedKey) -> usize {
+    match key.target.primitive {
+        Primitive::Quads => 4,
+        _ => 3,
+    }
+}
+
+/// Text of the tessellation control shader of a canonical key.
+pub(super) fn write_control(key: &FixedKey) -> String {
+    let mut text = Text::default();
+    text.line(format!("#version {VERSION} compatibility"));
+    text.line(format!("layout(vertices = {}) out;", corners(key)));
+    vertex::write_block(&mut text, key, "in", "mv_in[]");
+    vertex::write_block(&mut text, key, "out", "mv_out[]");
+    text.line(format!("uniform vec4 {UNIFORM_WINDOW};"));
+    text.line(format!(
+        "uniform float {UNIFORM_LEVELS}; // the highest level"
+    ));
+    text.line("");
+    text.open("float mv_level(int from, int to) {");
+    text.line("vec4 a = gl_in[from].gl_Position;");
+    text.line("vec4 b = gl_in[to].gl_Position;");
+    text.line("if (!(a.w > 0.0 && b.w > 0.0))");
+    text.line(format!("    return {UNIFORM_LEVELS};"));
+    text.line(format!(
+        "return clamp(length((a.xy / a.w - b.xy / b.w) * {UNIFORM_WINDOW}.xy) / {LONGEST}.0, 1.0, {UNIFORM_LEVELS});"
+    ));
+    text.close("}");
+    text.line("");
+    text.open("void main() {");
+    text.line("gl_out[gl_InvocationID].gl_Position = gl_in[gl_InvocationID].gl_Position;");
+    for varying in varyings(key) {
+        let member = varying.member();
+        text.line(format!(
+            "mv_out[gl_InvocationID].{member} = mv_in[gl_InvocationID].{member};"
+        ));
+    }
+    text.open("if (gl_InvocationID == 0) {");
+    // An outer level is that of the side opposite to its corner, or the left, lower, right and upper one.
+    let sides: &[[u8; 2]] = match corners(key) {
+        4 => &[[0, 3], [0, 1], [1, 2], [3, 2]],
+        _ => &[[1, 2], [2, 0], [0, 1]],
+    };
+    for (at, [from, to]) in sides.iter().enumerate() {
+        text.line(format!("gl_TessLevelOuter[{at}] = mv_level({from}, {to});"));
+    }
+    let inner: &[&str] = match corners(key) {
+        4 => &[
+            "max(gl_TessLevelOuter[1], gl_TessLevelOuter[3])",
+            "max(gl_TessLevelOuter[0], gl_TessLevelOuter[2])",
+        ],
+        _ => &["max(max(gl_TessLevelOuter[0], gl_TessLevelOuter[1]), gl_TessLevelOuter[2])"],
+    };
+    for (at, level) in inner.iter().enumerate() {
+        text.line(format!("gl_TessLevelInner[{at}] = {level};"));
+    }
+    text.close("}");
+    text.close("}");
+    text.finish()
+}
+
+/// The corner whose colours all of a flat primitive have.
+fn flat_source(key: &FixedKey) -> Option<usize> {
+    key.flat.then(|| match key.provoking {
+        Provoking::First => 0,
+        Provoking::Last => corners(key) - 1,
+    })
+}
+
+/// Text of the tessellation evaluation shader of a canonical key.
+pub(super) fn write_evaluation(key: &FixedKey) -> String {
+    let corners = corners(key);
+    let mut text = Text::default();
+    text.line(format!("#version {VERSION} compatibility"));
+    let domain = if corners == 4 { "quads" } else { "triangles" };
+    text.line(format!("layout({domain}, equal_spacing, ccw) in;"));
+    vertex::write_block(&mut text, key, "in", "mv_in[]");
+    view::write_uniforms(&mut text, key);
+    view::write_outputs(&mut text, key);
+    text.line("");
+    view::write_place(&mut text, key);
+    text.line("");
+    text.open("void main() {");
+    text.line(match corners {
+        4 => "vec4 at = vec4((1.0 - gl_TessCoord.x) * (1.0 - gl_TessCoord.y), gl_TessCoord.x * (1.0 - gl_TessCoord.y), gl_TessCoord.x * gl_TessCoord.y, (1.0 - gl_TessCoord.x) * gl_TessCoord.y);",
+        _ => "vec3 at = gl_TessCoord;",
+    });
+    let between = |of: &dyn Fn(usize) -> String| {
+        let parts = (0..corners).map(|i| format!("at[{i}] * {}", of(i)));
+        parts.collect::<Vec<_>>().join(" + ")
+    };
+    for varying in varyings(key) {
+        let Some(builtin) = varying.builtin(key) else {
+            continue;
+        };
+        let value = match flat_source(key) {
+            Some(source) if varying.is_color() => format!("mv_in[{source}].{}", varying.member()),
+            _ => between(&|i| format!("mv_in[{i}].{}", varying.member())),
+        };
+        text.line(format!("{builtin} = {value};"));
+    }
+    let position = between(&|i| format!("gl_in[{i}].gl_Position"));
+    text.line(format!("mv_place({position});"));
+    text.close("}");
+    text.finish()
+}
