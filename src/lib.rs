@@ -44,6 +44,8 @@ pub mod accumulation;
 
 pub mod synthesis;
 
+pub mod volume;
+
 pub mod present;
 
 pub mod layer;

@@ -247,7 +247,7 @@ pub fn anaglyph<P: Pixel<Subpixel = u8>>(
 }
 
 /// From sRGB to linear light (IEC 61966-2-1).
-fn linear(value: f32) -> f32 {
+pub(crate) fn linear(value: f32) -> f32 {
     if value <= 0.04045 {
         value / 12.92
     } else {
@@ -255,7 +255,8 @@ fn linear(value: f32) -> f32 {
     }
 }
 
-fn encoded(light: f32) -> f32 {
+/// And back.
+pub(crate) fn encoded(light: f32) -> f32 {
     if light <= 0.003_130_8 {
         light * 12.92
     } else {

@@ -3,6 +3,7 @@
 #![allow(dead_code, reason = "each test file uses its part")]
 
 pub(crate) mod near;
+pub(crate) mod surfaces;
 pub(crate) mod views;
 
 use image::{ImageBuffer, RgbImage, Rgba};

@@ -1,0 +1,114 @@
+//! From colours to light that is on or off.
+//!
+//! A pixel of the display has one bit for each channel, so a colour is the share of the voxels around it that are lit, and means of light are what the eye takes:
+//! shares are those of decoded sRGB. The threshold of a voxel depends on its place alone. Error diffusion hands what a pixel has too much to its neighbours
+//! in the picture, but in a slice a surface is a line, which has none to both sides; what it would hand on lies in other slices. Here a
+//! surface cuts through a grid of thresholds that has all of them in each of its lines: 256 neighbours along any of the three axes
+//! have each threshold once. The grid is a lattice, after Roberts' R3 sequence ("The Unreasonable Effectiveness of Quasirandom Sequences", 2018), its steps
+//! rounded to odd numbers. The channels' thresholds are a third apart, so that one of grey is not all black or all white.
+
+use super::fragments::by_number;
+use super::{RotatingScreen, Volume};
+use crate::interleave::reference::linear;
+use image::{Rgb, RgbImage};
+
+/// Thresholds from sector to sector, row to row, column to column and channel to channel, modulo 256.
+const STEPS: [u32; 4] = [209, 171, 141, 85];
+
+/// A voxel that shines.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Lit {
+    /// As in [`super::Voxel`].
+    pub at: u32,
+    /// Red is 1, green 2 and blue 4.
+    pub channels: u8,
+}
+
+/// What the display shows: the voxels of the slices, with one bit for each channel.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Slices {
+    pub(super) screen: RotatingScreen,
+    /// As in [`Volume`].
+    pub(super) half_planes: Vec<Vec<Lit>>,
+}
+
+impl Volume {
+    /// With one bit for each channel.
+    pub fn dithered(&self) -> Slices {
+        let columns = self.screen.columns();
+        let light: Vec<f32> = (0..=255_u8)
+            .map(|stored| linear(f32::from(stored) / 255.0))
+            .collect();
+        Slices {
+            screen: self.screen,
+            half_planes: by_number(self.screen.half_planes(), || {
+                let light = &light;
+                move |half_plane: u32| {
+                    let voxels = self.half_planes.get(half_plane as usize);
+                    let mut lit = Vec::with_capacity(voxels.map_or(0, Vec::len));
+                    for voxel in voxels.into_iter().flatten() {
+                        let place = [half_plane, voxel.at / columns, voxel.at % columns];
+                        let mut channels = 0;
+                        for (channel, &stored) in (0..).zip(&voxel.colour) {
+                            let light = light.get(usize::from(stored)).copied().unwrap_or(0.0);
+                            channels |= u8::from(light > threshold(place, channel)) << channel;
+                        }
+                        if channels != 0 {
+                            let at = voxel.at;
+                            lit.push(Lit { at, channels });
+                        }
+                    }
+                    lit
+                }
+            }),
+        }
+    }
+}
+
+/// Above 0 and below 1.
+#[inline(always)]
+fn threshold([half_plane, row, column]: [u32; 3], channel: u32) -> f32 {
+    let parts = [half_plane, row, column, channel];
+    let sum: u32 = parts
+        .iter()
+        .zip(STEPS)
+        .map(|(part, step)| part * step)
+        .sum();
+    ((sum % 256) as f32 + 0.5) / 256.0
+}
+
+impl Slices {
+    /// Of which display.
+    pub fn screen(&self) -> &RotatingScreen {
+        &self.screen
+    }
+
+    /// Each half plane's lit voxels, in order.
+    pub fn half_planes(&self) -> &[Vec<Lit>] {
+        &self.half_planes
+    }
+
+    /// A slice, as it is seen from the side from which its first half plane is on the right.
+    pub fn picture(&self, slice: u32) -> RgbImage {
+        let (pixels, columns) = (self.screen.pixels, self.screen.columns());
+        let mut picture = RgbImage::new(pixels, pixels);
+        let [right, left] = self.screen.sides(slice);
+        for (half_plane, mirrored) in [(right, false), (left, true)] {
+            for lit in self
+                .half_planes
+                .get(half_plane as usize)
+                .into_iter()
+                .flatten()
+            {
+                let (row, column) = (lit.at / columns, lit.at % columns);
+                let x = match mirrored {
+                    true => columns - 1 - column,
+                    false => columns + column,
+                };
+                let channel = |index: u8| 255 * (lit.channels >> index & 1);
+                picture.put_pixel(x, row, Rgb([channel(0), channel(1), channel(2)]));
+            }
+        }
+        picture
+    }
+}

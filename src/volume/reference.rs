@@ -1,0 +1,265 @@
+//! The reference image of a scene, by the mesh of its samples.
+//!
+//! Popescu et al., section VI: each sample is joined to its neighbours. Here the mesh is not made: a sample is placed in the grid of the voxels once,
+//! for all its neighbours, and four of them are one surface with straight sides there.
+
+use super::display::{Cells, Place};
+use super::fragments::{Fragments, collect, packed};
+use super::patch::{Shape, corner, fill, steps, steps_in_space};
+use super::triangles::draw_in_space;
+use super::{RotatingScreen, Vertex, Volume, VolumeError};
+
+/// With which of its neighbours a sample is of one surface.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Joined {
+    /// Neither the right nor the lower one.
+    Neither,
+    /// The right one.
+    Right,
+    /// The lower one.
+    Below,
+    /// Both.
+    Both,
+}
+
+impl Joined {
+    /// By neighbour.
+    pub fn of(right: bool, below: bool) -> Joined {
+        match (right, below) {
+            (false, false) => Joined::Neither,
+            (true, false) => Joined::Right,
+            (false, true) => Joined::Below,
+            (true, true) => Joined::Both,
+        }
+    }
+
+    fn right(self) -> bool {
+        matches!(self, Joined::Right | Joined::Both)
+    }
+
+    fn below(self) -> bool {
+        matches!(self, Joined::Below | Joined::Both)
+    }
+}
+
+/// What a pixel of a reference image has seen.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sample {
+    /// In display space, inches.
+    pub at: [f32; 3],
+    /// Red, green and blue, sRGB.
+    pub colour: [u8; 3],
+    /// To others.
+    pub joined: Joined,
+}
+
+/// A single-layer picture of what a viewer can see, from whatever camera: a depth image or that of an occlusion camera.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ReferenceImage {
+    size: [u32; 2],
+    samples: Vec<Option<Sample>>,
+}
+
+impl ReferenceImage {
+    /// Samples in rows from the top.
+    pub fn new(
+        size: [u32; 2],
+        samples: Vec<Option<Sample>>,
+    ) -> Result<ReferenceImage, VolumeError> {
+        let [width, height] = size;
+        if samples.len() as u64 != u64::from(width) * u64::from(height) {
+            return Err(VolumeError::Samples {
+                samples: samples.len(),
+                width,
+                height,
+            });
+        }
+        Ok(ReferenceImage { size, samples })
+    }
+
+    /// Columns and rows.
+    pub fn size(&self) -> [u32; 2] {
+        self.size
+    }
+
+    /// Rows from the top.
+    pub fn samples(&self) -> &[Option<Sample>] {
+        &self.samples
+    }
+
+    /// The triangles of the mesh, two for each four samples that are joined all around; [`Volume::of_reference`] draws the same, faster.
+    pub fn triangles(&self) -> Vec<super::Triangle> {
+        let width = self.size[0] as usize;
+        let rows = self.samples.chunks(width.max(1));
+        let pairs = rows.clone().zip(rows.skip(1));
+        let quads = pairs.flat_map(|(upper, lower)| {
+            (0..width.saturating_sub(1)).filter_map(move |x| quad(upper, lower, x))
+        });
+        quads
+            .flat_map(|[a, b, c, d]| [[a, b, d], [a, d, c]])
+            .map(|triangle| {
+                triangle.map(|sample| Vertex {
+                    at: sample.at,
+                    colour: sample.colour,
+                })
+            })
+            .collect()
+    }
+}
+
+/// A sample and those to the right of it, below it, and across, if they are joined all around.
+#[inline(always)]
+fn quad(upper: &[Option<Sample>], lower: &[Option<Sample>], x: usize) -> Option<[Sample; 4]> {
+    let corner = |row: &[Option<Sample>], x: usize| row.get(x).copied().flatten();
+    let (a, c) = (corner(upper, x)?, corner(lower, x)?);
+    if a.joined != Joined::Both || !c.joined.right() {
+        return None;
+    }
+    let (b, d) = (corner(upper, x + 1)?, corner(lower, x + 1)?);
+    b.joined.below().then_some([a, b, c, d])
+}
+
+impl Volume {
+    /// The voxels that the mesh of a reference image goes through, and those of samples that are joined to too few others for that.
+    pub fn of_reference(
+        screen: &RotatingScreen,
+        image: &ReferenceImage,
+    ) -> Result<Volume, VolumeError> {
+        screen.check()?;
+        let width = image.size[0] as usize;
+        let rows: Vec<usize> = (0..image.size[1] as usize).collect();
+        Ok(collect(screen, &rows, |rows, fragments| {
+            let row = |y: usize| {
+                let rest = image.samples.get(y * width..).unwrap_or_default();
+                rest.get(..width).unwrap_or_default()
+            };
+            let (Some(&first), cells) = (rows.first(), fragments.cells) else {
+                return;
+            };
+            let [mut upper, mut lower] = [Row::new(width), Row::new(width)];
+            lower.place(&cells, row(first));
+            if first > 0 {
+                upper.place(&cells, row(first - 1));
+                mark(row(first - 1), row(first), &mut upper, &mut lower);
+            }
+            for &y in rows {
+                std::mem::swap(&mut upper, &mut lower);
+                lower.place(&cells, row(y + 1));
+                draw_row(row(y), row(y + 1), &mut upper, &mut lower, fragments);
+            }
+        }))
+    }
+}
+
+/// One row of samples in the grid of the voxels.
+struct Row {
+    x: Vec<f32>,
+    y: Vec<f32>,
+    z: Vec<f32>,
+    places: Vec<Place>,
+    /// Samples that belong to a surface.
+    used: Vec<bool>,
+}
+
+impl Row {
+    fn new(width: usize) -> Row {
+        Row {
+            x: vec![0.0; width],
+            y: vec![0.0; width],
+            z: vec![0.0; width],
+            places: vec![Place::default(); width],
+            used: vec![false; width],
+        }
+    }
+
+    fn place(&mut self, cells: &Cells, samples: &[Option<Sample>]) {
+        self.used.fill(false);
+        let points = self.x.iter_mut().zip(&mut self.y).zip(&mut self.z);
+        for (sample, ((x, y), z)) in samples.iter().zip(points) {
+            let at = sample.map_or([0.0; 3], |sample| sample.at);
+            [*x, *y, *z] = at.map(|part| part * cells.pixels_per_inch);
+        }
+        let points = self.x.iter().zip(&self.y).zip(&self.z);
+        for (place, ((&x, &y), &z)) in self.places.iter_mut().zip(points) {
+            *place = cells.place([x, y, z]);
+        }
+    }
+}
+
+/// Which samples of two rows the surfaces between them have.
+fn mark(above: &[Option<Sample>], below: &[Option<Sample>], upper: &mut Row, lower: &mut Row) {
+    for x in 0..above.len().saturating_sub(1) {
+        if quad(above, below, x).is_some() {
+            upper.used[x..x + 2].fill(true);
+            lower.used[x..x + 2].fill(true);
+        }
+    }
+}
+
+/// The surfaces between two rows, and what the upper one has beside surfaces.
+fn draw_row(
+    above: &[Option<Sample>],
+    below: &[Option<Sample>],
+    upper: &mut Row,
+    lower: &mut Row,
+    fragments: &mut Fragments,
+) {
+    mark(above, below, upper, lower);
+    for x in 0..above.len() {
+        if let Some(samples) = quad(above, below, x) {
+            let places = [
+                upper.places[x],
+                upper.places[x + 1],
+                lower.places[x],
+                lower.places[x + 1],
+            ];
+            draw_quad(&samples, places, fragments);
+        } else if let (false, Some(sample)) = (upper.used[x], above[x]) {
+            fragments.put(upper.places[x], packed(sample.colour));
+        }
+    }
+}
+
+#[inline(always)]
+fn draw_quad(samples: &[Sample; 4], places: [Place; 4], fragments: &mut Fragments) {
+    let cells = fragments.cells;
+    match Shape::of(&cells, places) {
+        Shape::Straight(places, _) => {
+            let corners = [0, 1, 2, 3].map(|i| {
+                let Place { turn, out, down } = places[i];
+                corner([turn, out, down], samples[i].colour)
+            });
+            let edges = edges(&places, steps);
+            fill(&corners, edges, fragments, |_, [turn, out, down]| Place {
+                turn,
+                out,
+                down,
+            });
+        }
+        Shape::Bent => draw_bent(samples, &places, fragments),
+        Shape::Cut => {
+            let [a, b, c, d] = samples.map(|sample| Vertex {
+                at: sample.at,
+                colour: sample.colour,
+            });
+            draw_in_space(&[a, b, d], fragments);
+            draw_in_space(&[a, d, c], fragments);
+        }
+    }
+}
+
+#[inline(never)]
+fn draw_bent(samples: &[Sample; 4], places: &[Place; 4], fragments: &mut Fragments) {
+    let cells = fragments.cells;
+    let corners = samples.map(|s| corner(s.at.map(|part| part * cells.pixels_per_inch), s.colour));
+    let edges = edges(places, |a, b| steps_in_space(&cells, a, b));
+    fill(&corners, edges, fragments, Cells::place);
+}
+
+/// The steps along the upper edge, the lower one, and the longer of the others.
+#[inline(always)]
+fn edges([a, b, c, d]: &[Place; 4], steps: impl Fn(Place, Place) -> f32) -> [f32; 3] {
+    let sides = (steps(*a, *c), steps(*b, *d));
+    let longer = if sides.0 > sides.1 { sides.0 } else { sides.1 };
+    [steps(*a, *b), steps(*c, *d), longer]
+}
