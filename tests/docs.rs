@@ -5,6 +5,7 @@ mod support;
 
 use manyview::config::{Config, OPTIONS, Profile, Settings};
 use manyview::display::{Display, Placement};
+use manyview::volume::{RotatingScreen, Volume};
 use std::path::{Path, PathBuf};
 use support::manyview;
 
@@ -115,6 +116,9 @@ fn the_commands_of_the_documents_are_accepted() {
     panel.save(folder.path().join("panel.png")).expect("saved");
     let quilt = folder.path().join("scene_qs4x2a1.png");
     panel.save(quilt).expect("saved");
+    let dark = Volume::of_triangles(&RotatingScreen::POPESCU, &[]).expect("a display");
+    let stack = dark.dithered().write(&folder.path().join("slices"));
+    stack.expect("written");
     support::library();
     let documents = [
         README,

@@ -14,6 +14,7 @@ mod mask;
 mod run;
 mod show;
 mod simulate;
+mod volume;
 mod weave;
 
 use clap::{Parser, Subcommand};
@@ -55,6 +56,8 @@ enum Action {
     Weave(weave::Arguments),
     /// Show what an eye in front of a panel sees of a picture, or a strip of eyes from left to right.
     Simulate(simulate::Arguments),
+    /// Slices for a volumetric display, a screen that turns about an axis.
+    Volume(volume::Arguments),
     /// Measure a panel's lens sheet from photos of a pattern that it shows.
     Calibrate(calibrate::Arguments),
     /// Measure the layer: frame times of scenes over those without it, and how far the picture is from the exact one.
@@ -76,6 +79,7 @@ pub(crate) fn main() -> ExitCode {
         Action::Mask(arguments) => mask::run(&arguments),
         Action::Weave(arguments) => weave::run(&arguments),
         Action::Simulate(arguments) => simulate::run(&arguments),
+        Action::Volume(arguments) => volume::run(&arguments),
         Action::Calibrate(arguments) => calibrate::run(&arguments),
         Action::Bench(arguments) => bench::run(&arguments),
         Action::Doctor(arguments) => doctor::run(&arguments),

@@ -8,6 +8,7 @@ use crate::control::ControlError;
 use crate::display::{DisplayError, MaskError, QuiltError};
 use crate::interleave::reference::ReferenceError;
 use crate::simulate::SimulateError;
+use crate::volume::VolumeError;
 use crate::window::WindowError;
 use std::path::PathBuf;
 
@@ -64,6 +65,9 @@ pub enum LaunchError {
     /// What an eye would see, but for this.
     #[error(transparent)]
     Simulate(#[from] SimulateError),
+    /// What a volumetric display cannot show, or what is no stack of its slices.
+    #[error(transparent)]
+    Volume(#[from] VolumeError),
     /// A panel that could not be measured.
     #[error(transparent)]
     Calibrate(#[from] CalibrateError),
@@ -186,6 +190,7 @@ impl LaunchError {
             | Self::Reference(_)
             | Self::Picture { .. }
             | Self::Simulate(_)
+            | Self::Volume(_)
             | Self::Calibrate(_) => 2,
             Self::Bench(error) => error.exit_status(),
             Self::Control(error) => error.exit_status(),
