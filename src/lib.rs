@@ -46,6 +46,9 @@ pub mod synthesis;
 
 pub mod volume;
 
+#[cfg(feature = "cli")]
+pub mod model;
+
 pub mod present;
 
 pub mod layer;

@@ -20,6 +20,15 @@ pub enum BenchError {
     /// A number of frames that is none.
     #[error("--frames is '{0}'; give a whole number from 1 to 10000")]
     Frames(String),
+    /// An option of programs where none is started.
+    #[error("{0} does not go with --preset popescu-table1, which starts no program; leave it out")]
+    NoProgram(&'static str),
+    /// Several sizes where one is measured.
+    #[error("--size has several sizes; --preset popescu-table1 measures one")]
+    OneSize,
+    /// Pictures of another kind.
+    #[error("--chart is '{}'; --preset popescu-table1 draws pictures, give a name that ends in .png", _0.display())]
+    SheetName(PathBuf),
     /// A chart of another kind.
     #[error("--chart is '{}'; give a name that ends in .png or .svg", _0.display())]
     ChartName(PathBuf),
@@ -99,7 +108,12 @@ impl BenchError {
     #[must_use]
     pub fn exit_status(&self) -> u8 {
         match self {
-            Self::Unknown { .. } | Self::Frames(_) | Self::ChartName(_) => 2,
+            Self::Unknown { .. }
+            | Self::Frames(_)
+            | Self::NoProgram(_)
+            | Self::OneSize
+            | Self::SheetName(_)
+            | Self::ChartName(_) => 2,
             Self::NoScene { .. } | Self::Chart(_) | Self::Write { .. } => 3,
             Self::Ended { .. }
             | Self::Silent { .. }

@@ -6,6 +6,7 @@
 
 pub mod chart;
 mod configuration;
+pub mod disocclusion;
 mod error;
 pub mod hard;
 mod outcome;

@@ -1,8 +1,9 @@
-//! Experiments of two papers, as closely as the scenes allow, and what the papers say came out.
+//! Experiments of three papers, as closely as the scenes allow, and what the papers say came out.
 //!
 //! Based on: J. Luo, K. Qin, Y. Zhou, M. Mao, R. Li, "GPU-based multi-view rendering for spatial-multiplex autostereoscopic
 //! displays" (2010), tables 1 and 2; F. de Sorbier, V. Nozick, H. Saito, "GPU-based multi-view rendering" (2010), figures 7 to
-//! 9. The bars and curves of the figures have no numbers: of those only what the text says of them is here.
+//! 9; V. Popescu, P. Rosen, D. Aliaga, "3D display rendering acceleration using occlusion camera reference images" (2006), table 1 and
+//! section VIII. The bars and curves of the figures have no numbers: of those only what the text says of them is here.
 
 /// One experiment.
 #[derive(Debug, PartialEq)]
@@ -13,7 +14,7 @@ pub struct Preset {
     pub about: &'static str,
     /// Pixels of one view, which is the window.
     pub size: (u32, u32),
-    /// Names of scenes.
+    /// Names of scenes; of models, if there are no configurations: then programs are not what is measured.
     pub scenes: &'static [&'static str],
     /// Numbers of views.
     pub views: &'static [&'static str],
@@ -41,6 +42,12 @@ pub struct Figure {
 }
 
 impl Preset {
+    /// Whether models are drawn, by [`super::disocclusion`], and not programs.
+    #[must_use]
+    pub fn draws_models(&self) -> bool {
+        self.configurations.is_empty()
+    }
+
     /// What the paper says of a row.
     #[must_use]
     pub fn figure(&self, scene: &str, views: u32, configuration: &str) -> Option<&'static Figure> {
@@ -190,18 +197,32 @@ pub const PRESETS: &[Preset] = &[
             said("mesh-40k-immediate", "4", "geometry-both", "similar"),
         ],
     },
+    Preset {
+        name: "popescu-table1",
+        about: "samples missing in views of a depth image and of an occlusion camera's reference image; models of the paper's sizes, on the CPU",
+        size: (720, 480),
+        scenes: &["knot", "statues", "coils", "bars", "portal", "crowd"],
+        views: &[],
+        configurations: &[],
+        figures: &[],
+    },
 ];
 
 #[cfg(test)]
 mod tests {
     use super::super::{CONFIGURATIONS, SCENES};
     use super::*;
+    use crate::model::MODELS;
 
     #[test]
     fn presets_name_what_there_is() {
         for preset in PRESETS {
             for scene in preset.scenes {
-                assert!(SCENES.iter().any(|known| known.name == *scene), "{scene}");
+                let known = match preset.draws_models() {
+                    true => MODELS.iter().any(|known| known.name == *scene),
+                    false => SCENES.iter().any(|known| known.name == *scene),
+                };
+                assert!(known, "{scene}");
             }
             for name in preset.configurations {
                 assert!(

@@ -54,14 +54,22 @@ impl DepthImage {
         if colours.len() != pixels || inverses.len() != pixels {
             return Err(DepthImageError(w, h, colours.len(), inverses.len()));
         }
-        let inverses = inverses.into_iter();
+        Ok(DepthImage::of(size, colours, inverses.into_iter()))
+    }
+
+    /// Of as many of both as there are pixels.
+    pub(super) fn of(
+        size: [u32; 2],
+        colours: Vec<[u8; 3]>,
+        inverses: impl Iterator<Item = f32>,
+    ) -> DepthImage {
         let drawn = |v: f32| v.is_finite() && v >= 0.0;
         let inverses = inverses.map(|v| if drawn(v) { v } else { NOTHING });
-        Ok(DepthImage {
+        DepthImage {
             size,
             colours,
             inverses: inverses.collect(),
-        })
+        }
     }
 
     /// Width and height.

@@ -4,10 +4,13 @@
 //! the discontinuity pixels around.
 
 use super::DepthImage;
+use super::depth_image::is_nothing;
 use super::warp::excess;
 
 /// Pixels to either side within which discontinuity pixels are of one line.
 const AROUND: i64 = 3;
+/// Pixels around within which what is drawn says how far away something may be that comes out before nothing: the reach of a splat.
+const BEYOND: i64 = 30;
 
 /// A pixel in front of something farther.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -18,7 +21,7 @@ pub struct Edge {
     pub normal: [f64; 2],
     /// 1/w in front.
     pub near: f64,
-    /// 1/w behind.
+    /// 1/w behind. Where nothing was drawn there, something may still come out: as far away as the farthest around.
     pub far: f64,
 }
 
@@ -33,6 +36,7 @@ impl Edges {
     /// Finds them; `threshold`: 1/w by which a step is more than a slope.
     pub fn of(image: &DepthImage, threshold: f64) -> Edges {
         let [w, h] = image.size().map(|side| side as usize);
+        let beyond = Beyond::of(image, threshold);
         // Of each pixel in front: the sum of the directions to what is behind, and the farthest of that.
         let mut found: Vec<Option<([f64; 2], f64)>> = vec![None; w * h];
         let mut note = |at: [usize; 2], towards: [f64; 2], far: f64| {
@@ -49,8 +53,8 @@ impl Edges {
                 }
                 let (a, b) = (f64::from(values[x]), f64::from(values[x + 1]));
                 match a > b {
-                    true => note(place(x), d, b),
-                    false => note(place(x + 1), d.map(|v| -v), a),
+                    true => note(place(x), d, beyond.or(b, place(x))),
+                    false => note(place(x + 1), d.map(|v| -v), beyond.or(a, place(x + 1))),
                 }
             }
         };
@@ -80,6 +84,54 @@ impl Edges {
             all: (0..w * h).filter_map(edge).collect(),
         }
     }
+}
+
+/// How far away something may be that hides behind an edge before nothing.
+struct Beyond {
+    width: usize,
+    /// By pixel: the farthest around, or, where that is no step, of all.
+    farthest: Vec<f32>,
+}
+
+impl Beyond {
+    fn of(image: &DepthImage, threshold: f64) -> Beyond {
+        let [w, h] = image.size().map(|side| side as usize);
+        let rows = (0..h).flat_map(|y| image.inverses(y as u32));
+        let drawn = |v: &f32| if is_nothing(*v) { f32::INFINITY } else { *v };
+        let own: Vec<f32> = rows.map(drawn).collect();
+        let all = own.iter().copied().fold(f32::INFINITY, f32::min);
+        let across = least(&own, [w, h], [1, w]);
+        let around = least(&across, [h, w], [w, 1]);
+        let step = |(own, around): (f32, f32)| match f64::from(own - around) > threshold {
+            true => around,
+            false => all,
+        };
+        Beyond {
+            width: w,
+            farthest: own.into_iter().zip(around).map(step).collect(),
+        }
+    }
+
+    /// What is known to be behind, or else what may be.
+    fn or(&self, behind: f64, at: [usize; 2]) -> f64 {
+        match is_nothing(behind as f32) {
+            true => f64::from(self.farthest[at[1] * self.width + at[0]]),
+            false => behind,
+        }
+    }
+}
+
+/// The least value within [`BEYOND`] along lines: so many values, so many lines; from one to the next.
+fn least(values: &[f32], [count, lines]: [usize; 2], [next, line]: [usize; 2]) -> Vec<f32> {
+    let mut out = vec![f32::INFINITY; values.len()];
+    for start in (0..lines).map(|number| number * line) {
+        for at in 0..count as i64 {
+            let range = (at - BEYOND).max(0)..(at + BEYOND + 1).min(count as i64);
+            let around = range.map(|other| values[start + other as usize * next]);
+            out[start + at as usize * next] = around.fold(f32::INFINITY, f32::min);
+        }
+    }
+    out
 }
 
 /// Across the line that fits the discontinuity pixels around best, to the side of `towards`.

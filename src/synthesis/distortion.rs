@@ -1,8 +1,15 @@
 //! The distortion map of the depth-discontinuity occlusion camera: how rays are bent at each pixel.
 //!
-//! Popescu et al., section IV.C: steps 3 to 5 and asymmetrical splats (Equation 1); the magnitude over depth is a part of Equation 2.
+//! Popescu et al., section IV.C: steps 3 to 5 and asymmetrical splats (Equation 1); the magnitude over depth is a part of Equation 2. What
+//! differs from the paper, all because statues and rooms have edges everywhere, and their splats would take each other's place:
+//!
+//! - D is the most. A splat reaches as far as the viewpoints that matter can part what makes the edge.
+//! - Of two splats, the one that reaches farther has some more of the places between them.
+//! - A conflict counts where the splat's own samples go, in front of the edge, not somewhere in its disc.
+//! - α is the most, too: a splat has room before the background up to a conflict, and only where that is less than its radius is it asymmetrical.
+//! - What a reduced splat gives up is taken by the next one that reaches there.
 
-use super::Edges;
+use super::{Edge, Edges};
 
 /// How the rays near a depth discontinuity are bent: the five-tuple of the paper, depths as 1/w.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,9 +35,12 @@ impl Distortion {
 /// What the user chooses.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Splats {
-    /// D: pixels behind what is in front that the camera reaches, 30 in the paper.
+    /// D: pixels behind what is in front that the camera reaches at most, 30 in the paper.
     pub radius: f64,
-    /// α: on the side of the background a splat reaches so much less far. 1: as far as on the other.
+    /// Pixels by which the farthest viewpoint that matters parts things per unit of 1/w: no splat reaches farther than its own step in depth
+    /// needs. Infinite: all reach as far as the paper's.
+    pub parallax: f64,
+    /// α: on the side of the background a splat reaches at most so much less far. 1: as far as on the other.
     pub asymmetry: f64,
 }
 
@@ -44,52 +54,24 @@ pub struct Distortions {
 impl Distortions {
     /// Of the discontinuities of a picture of this size.
     pub fn of(size: [u32; 2], edges: &Edges, splats: &Splats) -> Distortions {
-        let [w, h] = size.map(i64::from);
-        let index = |[x, y]: [i64; 2]| (y * w + x) as usize;
-        let apart = |a: [i64; 2], b: [i64; 2]| ((a[0] - b[0]) as f64).hypot((a[1] - b[1]) as f64);
-        let disc = |centre: [i64; 2]| {
-            let reach = splats.radius.ceil() as i64;
-            let rows = (centre[1] - reach).max(0)..(centre[1] + reach + 1).min(h);
-            rows.flat_map(move |y| {
-                let columns = (centre[0] - reach).max(0)..(centre[0] + reach + 1).min(w);
-                columns.map(move |x| [x, y])
-            })
-            .map(move |p| (p, apart(p, centre)))
-            .filter(|(_, distance)| *distance <= splats.radius)
-        };
-        // Step 3: the splat whose centre is closest has the place.
-        let mut owners: Vec<Option<(usize, f64)>> = vec![None; (w * h) as usize];
-        for (number, edge) in edges.all.iter().enumerate() {
-            for (p, distance) in disc(edge.at) {
-                if let Some(owner) = owners.get_mut(index(p))
-                    && owner.is_none_or(|(_, closest)| distance < closest)
-                {
-                    *owner = Some((number, distance));
-                }
-            }
-        }
-        // Step 4: none reaches to where one has the place that bends the other way.
-        let radius = |edge: &super::Edge| {
-            let conflicts = disc(edge.at).filter(|(p, _)| {
-                let owner = owners.get(index(*p)).copied().flatten();
-                let other = owner.and_then(|(number, _)| edges.all.get(number));
-                other.is_some_and(|other| dot(edge.normal, other.normal) < 0.0)
-            });
-            let nearest = conflicts.map(|(_, distance)| distance);
-            nearest.fold(splats.radius, f64::min)
-        };
-        let radii: Vec<f64> = edges.all.iter().map(radius).collect();
+        let edges = &edges.all;
+        let most = |edge: &Edge| (splats.parallax * (edge.near - edge.far)).min(splats.radius);
+        let most: Vec<f64> = edges.iter().map(most).collect();
+        let first = owners(size, edges, &most);
+        let room = |(edge, &most)| first.room(edges, edge, most);
+        let room: Vec<f64> = edges.iter().zip(&most).map(room).collect();
+        let radius = |(room, most): (&f64, &f64)| (room * splats.asymmetry).min(*most);
+        let radii: Vec<f64> = room.iter().zip(&most).map(radius).collect();
+        let owners = owners(size, edges, &radii);
+        let reaches = owners.reaches(edges, &radii);
         // Step 5.
-        let sample = |(at, owner): (usize, &Option<(usize, f64)>)| {
-            let (number, distance) = (*owner)?;
-            let (edge, r) = (edges.all.get(number)?, *radii.get(number)?);
-            if distance > r || r <= 0.0 {
+        let sample = |owner: &Option<Owner>| {
+            let Owner { number, x } = (*owner)?;
+            let (edge, r) = (edges.get(number)?, *reaches.get(number)?);
+            if x.abs() > r || r <= 0.0 {
                 return None;
             }
-            let p = [at as i64 % w, at as i64 / w];
-            let to = [(p[0] - edge.at[0]) as f64, (p[1] - edge.at[1]) as f64];
-            let x = distance.copysign(dot(to, edge.normal));
-            let magnitude = magnitude(x, r, splats.asymmetry);
+            let magnitude = magnitude(x, r, (r / room.get(number)?).max(1.0));
             (magnitude > 0.0).then_some(Distortion {
                 direction: edge.normal,
                 near: edge.near,
@@ -99,8 +81,14 @@ impl Distortions {
         };
         Distortions {
             size,
-            map: owners.iter().enumerate().map(sample).collect(),
+            map: owners.all.iter().map(sample).collect(),
         }
+    }
+
+    /// None: straight rays.
+    pub fn none(size: [u32; 2]) -> Distortions {
+        let map = Vec::new();
+        Distortions { size, map }
     }
 
     /// At a place in the picture.
@@ -111,6 +99,101 @@ impl Distortions {
         inside.then(|| self.map.get(index())?.as_ref()).flatten()
     }
 }
+
+/// The splat that has a place, by the number of its edge, and how far away that is: positive on the side of the background.
+#[derive(Clone, Copy)]
+struct Owner {
+    number: usize,
+    x: f64,
+}
+
+/// Step 3: the splat whose centre is closest has the place, where one that reaches four times as far may be twice as far away.
+fn owners(size: [u32; 2], edges: &[Edge], radii: &[f64]) -> Owners {
+    let [w, h] = size.map(i64::from);
+    let mut all: Vec<Option<Owner>> = vec![None; (w * h) as usize];
+    let relative = |owner: Owner| {
+        let radius = radii.get(owner.number).map_or(1.0, |r| r.max(1.0));
+        owner.x.abs() / radius.sqrt()
+    };
+    for (number, (edge, &radius)) in edges.iter().zip(radii).enumerate() {
+        let reach = radius.ceil() as i64;
+        let [columns, rows] = [(0, w), (1, h)].map(|(i, end): (usize, i64)| {
+            (edge.at[i] - reach).max(0)..(edge.at[i] + reach + 1).min(end)
+        });
+        for y in rows {
+            for x in columns.clone() {
+                let to = [x - edge.at[0], y - edge.at[1]].map(|v| v as f64);
+                let distance = to[0].hypot(to[1]);
+                if distance > radius {
+                    continue;
+                }
+                let x_e = distance.copysign(dot(to, edge.normal));
+                let own = Owner { number, x: x_e };
+                if let Some(owner) = all.get_mut((y * w + x) as usize)
+                    && owner.is_none_or(|other| relative(own) < relative(other))
+                {
+                    *owner = Some(own);
+                }
+            }
+        }
+    }
+    Owners { size: [w, h], all }
+}
+
+/// Who has each place.
+struct Owners {
+    size: [i64; 2],
+    all: Vec<Option<Owner>>,
+}
+
+impl Owners {
+    fn at(&self, [x, y]: [i64; 2]) -> Option<Owner> {
+        let [w, h] = self.size;
+        let inside = (0..w).contains(&x) && (0..h).contains(&y);
+        inside
+            .then(|| self.all.get((y * w + x) as usize).copied())
+            .flatten()?
+    }
+
+    /// Step 4: pixels before the background up to where a splat has the place that bends the other way, by more than 90°.
+    fn room(&self, edges: &[Edge], edge: &Edge, most: f64) -> f64 {
+        let place =
+            |t: f64| [0, 1].map(|i| (edge.at[i] as f64 + t * edge.normal[i]).round() as i64);
+        let conflict = |t: &f64| {
+            let other = self.at(place(*t)).and_then(|owner| edges.get(owner.number));
+            other.is_some_and(|other| dot(edge.normal, other.normal) < 0.0)
+        };
+        let steps = (1..).map(f64::from).take_while(|t| *t < most);
+        steps.into_iter().find(conflict).unwrap_or(most)
+    }
+
+    /// As far behind what is in front as edges of the same line have places: more would only press the samples together.
+    fn reaches(&self, edges: &[Edge], radii: &[f64]) -> Vec<f64> {
+        let [w, h] = self.size;
+        let mut own = vec![0.0_f64; edges.len()];
+        for owner in self.all.iter().flatten() {
+            own[owner.number] = own[owner.number].max(-owner.x);
+        }
+        let mut numbers = vec![None; (w * h) as usize];
+        for (number, edge) in edges.iter().enumerate() {
+            numbers[(edge.at[1] * w + edge.at[0]) as usize] = Some(number);
+        }
+        let line = |(edge, radius): (&Edge, &f64)| {
+            let [columns, rows] = [(0, w), (1, h)].map(|(i, end): (usize, i64)| {
+                (edge.at[i] - LINE).max(0)..(edge.at[i] + LINE + 1).min(end)
+            });
+            let around = rows.flat_map(|y| columns.clone().map(move |x| (y * w + x) as usize));
+            let along = around.filter_map(|at| numbers[at]);
+            let same = along.filter(|&number: &usize| dot(edges[number].normal, edge.normal) > 0.5);
+            let farthest = same.map(|number| own[number]).fold(0.0, f64::max);
+            (farthest + 1.0).min(*radius)
+        };
+        edges.iter().zip(radii).map(line).collect()
+    }
+}
+
+/// Pixels to either side within which edges that bend the same way, by less than 60°, are of one line.
+const LINE: i64 = 8;
 
 fn dot(a: [f64; 2], b: [f64; 2]) -> f64 {
     a[0] * b[0] + a[1] * b[1]

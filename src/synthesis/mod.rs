@@ -13,7 +13,10 @@ mod depth_image;
 mod discontinuity;
 mod distortion;
 mod gpu;
+mod mesh;
 mod occlusion;
+mod pinhole;
+mod raster;
 mod rows;
 #[cfg(test)]
 mod tests;
@@ -24,5 +27,6 @@ pub use discontinuity::{Edge, Edges};
 pub use distortion::{Distortion, Distortions, Splats};
 pub use gpu::Passes;
 pub use occlusion::{Reference, Triangle, Vertex};
+pub use pinhole::{Motion, Pinhole};
 pub use rows::{Bend, Bending};
 pub use warp::{View, warp};

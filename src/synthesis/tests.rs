@@ -51,6 +51,7 @@ fn columns(places: &[[f64; 2]]) -> Vec<Triangle> {
 fn none() -> Distortions {
     let nothing = Splats {
         radius: 0.0,
+        parallax: f64::INFINITY,
         asymmetry: 1.0,
     };
     Distortions::of(SIZE, &Edges::default(), &nothing)
@@ -91,6 +92,69 @@ fn wrong(view: &View, truth: &View) -> usize {
         .zip(&view.holes)
         .filter(|(d, hole)| *d && !**hole)
         .count()
+}
+
+#[test]
+fn a_depth_image_seen_from_its_own_place_is_itself() {
+    let scene = columns(&[[40.0, 56.0]]);
+    let image = Reference::from(&depth_image(&scene));
+    let camera = Pinhole::through(SIZE, 9.0, [0.5, -0.25, 10.0]);
+    let seen = image.seen(SIZE, &camera.to(&camera), THRESHOLD);
+    assert_eq!(seen.depth_image(), depth_image(&scene));
+    assert_eq!(seen.picture(), image.picture());
+}
+
+#[test]
+fn a_camera_moves_what_it_sees_as_it_would_project_it() {
+    let camera = Pinhole::through(SIZE, 9.0, [0.0, 0.0, 10.0]);
+    let nearer = Pinhole::through(SIZE, 12.0, [1.0, -2.0, 8.0]);
+    for point in [[0.0, 0.0, 0.0], [1.5, -1.0, 3.0], [-2.0, 0.5, -7.0]] {
+        let seen = |camera: &Pinhole| camera.project(point).expect("before the eye");
+        let ((at, inverse), (other, other_inverse)) = (seen(&camera), seen(&nearer));
+        let vertex = Vertex {
+            at,
+            inverse,
+            colour: [0.0; 3],
+        };
+        let moved = camera.to(&nearer).apply(&vertex).expect("before the eye");
+        assert!((moved.inverse - other_inverse).abs() < 1e-12);
+        for i in 0..2 {
+            assert!(
+                (moved.at[i] - other[i]).abs() < 1e-9,
+                "{moved:?}, {other:?}"
+            );
+        }
+    }
+    // What lies in the window stays, and what is beyond the eye is nowhere.
+    assert_eq!(
+        nearer.project([0.0; 3]).map(|seen| seen.0),
+        Some([48.0, 32.0])
+    );
+    assert_eq!(nearer.project([0.0, 0.0, 9.0]), None);
+}
+
+#[test]
+fn a_lone_sample_grows_as_the_camera_comes_nearer() {
+    let mut inverses = vec![f32::NAN; 96 * 64];
+    inverses[32 * 96 + 48] = 0.25;
+    let lone = DepthImage::new(SIZE, vec![[9; 3]; 96 * 64], inverses).expect("sizes that fit");
+    let camera = Pinhole {
+        eye: [0.0, 0.0, 4.0],
+        focal: 50.0,
+        centre: [48.0, 32.0],
+    };
+    let nearer = Pinhole {
+        eye: [0.0, 0.0, 1.0],
+        ..camera
+    };
+    let seen = Reference::from(&lone).seen(SIZE, &camera.to(&nearer), THRESHOLD);
+    // Four times as near, so four pixels wide and high.
+    let covered = seen
+        .inverses()
+        .iter()
+        .filter(|inverse| **inverse > 0.0)
+        .count();
+    assert_eq!(covered, 16);
 }
 
 #[test]
@@ -226,6 +290,7 @@ fn compare(places: &[[f64; 2]], splats: &Splats) -> (usize, usize, usize) {
 fn an_occlusion_camera_has_what_is_about_to_be_seen() {
     let splats = Splats {
         radius: 14.0,
+        parallax: f64::INFINITY,
         asymmetry: 1.0,
     };
     let (depth, occlusion, wrong) = compare(&[[32.0, 64.0]], &splats);
@@ -240,6 +305,7 @@ fn an_occlusion_camera_has_what_is_about_to_be_seen() {
 fn a_thin_gap_loses_nothing_that_was_seen() {
     let splats = Splats {
         radius: 16.0,
+        parallax: f64::INFINITY,
         asymmetry: 2.0,
     };
     let scene = columns(&[[30.0, 45.0], [49.0, 64.0]]);
@@ -258,6 +324,20 @@ fn a_thin_gap_loses_nothing_that_was_seen() {
 }
 
 proptest! {
+    #[test]
+    fn what_is_projected_is_unprojected(
+        point in prop::array::uniform3(-5.0f64..5.0),
+        eye in prop::array::uniform3(-4.0f64..4.0),
+        scale in 1.0f64..100.0,
+    ) {
+        let camera = Pinhole::through(SIZE, scale, [eye[0], eye[1], 50.0 + eye[2]]);
+        let (at, inverse) = camera.project(point).expect("before the eye");
+        let back = camera.unproject(at, inverse);
+        for i in 0..3 {
+            prop_assert!((back[i] - point[i]).abs() < 1e-9, "{:?} of {:?}", back, point);
+        }
+    }
+
     #[test]
     fn any_depths_make_a_picture(
         inverses in proptest::collection::vec(
@@ -279,6 +359,6 @@ proptest! {
         }
         let edges = Edges::of(&image, 0.05);
         prop_assert!(edges.all.iter().all(|e| (e.normal[0].hypot(e.normal[1]) - 1.0).abs() < 1e-9));
-        Distortions::of([24, 6], &edges, &Splats { radius: 5.0, asymmetry: 2.0 });
+        Distortions::of([24, 6], &edges, &Splats { radius: 5.0, parallax: f64::INFINITY, asymmetry: 2.0 });
     }
 }

@@ -56,7 +56,7 @@ pub(super) fn run(arguments: &Arguments) -> Ended {
             writable(purpose, file)?;
         }
     }
-    let outcomes = measured(&cases, &configurations, &arguments.api)?;
+    let outcomes = measured(&cases, &configurations, arguments.api())?;
     print(&hard::text(&outcomes))?;
     if let Some(file) = &arguments.json {
         let text =

@@ -1,6 +1,7 @@
 //! `manyview bench`: what may be asked for; `measure` does it.
 #![forbid(unsafe_code)]
 
+mod disocclusion;
 mod hard;
 mod measure;
 mod prove;
@@ -23,6 +24,7 @@ use std::process::ExitCode;
 /// Of the window, in pixels, unless given; that of the demos.
 const SIZE: (u32, u32) = (512, 384);
 const VIEWS: &str = "8";
+const FRAMES: &str = "15";
 const MOST_FRAMES: u32 = 10_000;
 
 #[derive(Args)]
@@ -75,20 +77,15 @@ pub(crate) struct Arguments {
     /// Size of the window in pixels [default: 512x384, or the preset's]
     #[arg(long, value_name = "WxH", value_delimiter = ',')]
     size: Vec<String>,
-    /// How often each program has its turn
-    #[arg(
-        long,
-        value_name = "N",
-        default_value = "15",
-        allow_hyphen_values = true
-    )]
-    frames: String,
+    /// How often each program has its turn [default: 15]
+    #[arg(long, value_name = "N", allow_hyphen_values = true)]
+    frames: Option<String>,
     /// An experiment of a paper, with the paper's figures beside ours, see --list
     #[arg(long, value_name = "NAME")]
     preset: Option<String>,
-    /// Where the scenes draw: a window, or off screen with EGL, which needs no X server
-    #[arg(long, value_name = "glx|egl", default_value = "glx", value_parser = ["glx", "egl"])]
-    api: String,
+    /// Where the scenes draw: a window, or off screen with EGL, which needs no X server [default: glx]
+    #[arg(long, value_name = "glx|egl", value_parser = ["glx", "egl"])]
+    api: Option<String>,
     /// Write everything that was measured
     #[arg(long, value_name = "FILE.json")]
     json: Option<PathBuf>,
@@ -112,6 +109,12 @@ pub(crate) struct Arguments {
     command: Vec<OsString>,
 }
 
+impl Arguments {
+    fn api(&self) -> &str {
+        self.api.as_deref().unwrap_or("glx")
+    }
+}
+
 pub(crate) fn run(arguments: &Arguments) -> Outcome {
     if arguments.list {
         return print(&list());
@@ -123,12 +126,18 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
         Some(name) => Some(find(PRESETS, |preset| preset.name, "--preset", name)?),
         None => None,
     };
-    let frames: Result<u32, _> = arguments.frames.parse();
+    if let Some(preset) = preset.filter(|preset| preset.draws_models()) {
+        let size = disocclusion::check(arguments, sizes(arguments, Some(preset))?)?;
+        check_files(arguments)?;
+        return disocclusion::run(arguments, preset, size);
+    }
+    let frames = arguments.frames.as_deref().unwrap_or(FRAMES);
     let Some(rounds) = frames
+        .parse()
         .ok()
         .filter(|frames| (1..=MOST_FRAMES).contains(frames))
     else {
-        return Err(BenchError::Frames(arguments.frames.clone()).into());
+        return Err(BenchError::Frames(frames.to_owned()).into());
     };
     if !arguments.command.is_empty() {
         check_files(arguments)?;
@@ -136,7 +145,7 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
     }
     let groups = groups(arguments, preset)?;
     check_files(arguments)?;
-    let bench = measure::run(&groups, rounds, &arguments.api, preset)?;
+    let bench = measure::run(&groups, rounds, arguments.api(), preset)?;
     if let Some(preset) = preset {
         print(&format!("{}: {}\n\n", preset.name, preset.about))?;
     }
@@ -200,13 +209,7 @@ fn groups(
     for name in names(&arguments.scene, |preset| preset.scenes, DEFAULT_SCENES) {
         scenes.push(find(SCENES, |scene| scene.name, "--scene", &name)?);
     }
-    let mut sizes = Vec::new();
-    for text in &arguments.size {
-        sizes.push(size(text).ok_or_else(|| LaunchError::Size(text.clone()))?);
-    }
-    if sizes.is_empty() {
-        sizes.push(preset.map_or(SIZE, |preset| preset.size));
-    }
+    let sizes = sizes(arguments, preset)?;
     let mut savings = Vec::new();
     for name in &arguments.without {
         savings.push(find(&Saving::ALL, |saving| saving.0, "--without", name)?.0);
@@ -251,6 +254,21 @@ fn groups(
         }
     }
     Ok(groups)
+}
+
+/// What was given, or else the preset's or the default.
+fn sizes(
+    arguments: &Arguments,
+    preset: Option<&'static Preset>,
+) -> Result<Vec<(u32, u32)>, LaunchError> {
+    let mut sizes = Vec::new();
+    for text in &arguments.size {
+        sizes.push(size(text).ok_or_else(|| LaunchError::Size(text.clone()))?);
+    }
+    if sizes.is_empty() {
+        sizes.push(preset.map_or(SIZE, |preset| preset.size));
+    }
+    Ok(sizes)
 }
 
 /// What was given, or else the default.

@@ -1,0 +1,106 @@
+//! One frame against the truth.
+
+use super::{Experiment, TOLERANCE};
+use crate::metric::Comparison;
+use crate::synthesis::Reference;
+use image::{Rgb, RgbImage};
+
+/// Marks a sample that is missing, as Figure 20 does.
+const WHITE: Rgb<u8> = Rgb([255; 3]);
+
+/// What a frame has of the true picture.
+#[derive(Clone, Debug)]
+pub struct Frame {
+    /// Pixels of the true picture that show the scene.
+    pub samples: usize,
+    /// By pixel: there is such a sample and it is not in the frame.
+    pub missing: Vec<bool>,
+    /// Samples that are not at their own pixel; those at silhouettes that lie a pixel off are among them.
+    pub displaced: usize,
+    /// Pixels where the true picture shows the scene and the frame nothing, %.
+    pub holes_percent: f64,
+    /// The whole picture, holes black.
+    pub all: Comparison,
+    /// With what is missing taken from the truth.
+    pub present: Comparison,
+    /// Pixels by which samples at their own pixel part from the true ones on the way to the farthest viewpoint, on average.
+    pub disparity: f64,
+    /// As it is.
+    pub picture: RgbImage,
+}
+
+impl Frame {
+    /// Compares; both pictures are of the experiment's size. None if they have no pixels.
+    #[must_use]
+    pub fn of(experiment: &Experiment, truth: &Reference, seen: &Reference) -> Option<Frame> {
+        let tolerance = experiment.tolerance();
+        let (true_depths, depths) = (truth.inverses(), seen.inverses());
+        let missing = missing(experiment.size, &true_depths, &depths, tolerance);
+        let shown = true_depths.iter().zip(&depths).filter(|(t, _)| **t > 0.0);
+        let (mut samples, mut displaced, mut holes, mut parted) = (0, 0, 0, 0.0);
+        for (truth, frame) in shown {
+            samples += 1;
+            holes += usize::from(*frame <= 0.0);
+            let step = f64::from(frame - truth).abs();
+            match *frame > 0.0 && step <= tolerance {
+                true => parted += step / tolerance * TOLERANCE,
+                false => displaced += 1,
+            }
+        }
+        let (truth, picture) = (truth.picture().picture, seen.picture().picture);
+        let mut present = picture.clone();
+        for ((pixel, own), missing) in present.pixels_mut().zip(truth.pixels()).zip(&missing) {
+            if *missing {
+                *pixel = *own;
+            }
+        }
+        let share = |part: usize| part as f64 / samples.max(1) as f64;
+        Some(Frame {
+            samples,
+            missing,
+            displaced,
+            holes_percent: 100.0 * share(holes),
+            all: Comparison::new(&truth, &picture, None).ok()?,
+            present: Comparison::new(&truth, &present, None).ok()?,
+            disparity: parted / (samples - displaced).max(1) as f64,
+            picture,
+        })
+    }
+
+    /// How many samples are missing.
+    #[must_use]
+    pub fn count(&self) -> usize {
+        self.missing.iter().filter(|missing| **missing).count()
+    }
+
+    /// The frame, darker, with what is missing in white.
+    #[must_use]
+    pub fn marked(&self) -> RgbImage {
+        let mut picture = self.picture.clone();
+        for (pixel, missing) in picture.pixels_mut().zip(&self.missing) {
+            *pixel = match missing {
+                true => WHITE,
+                false => Rgb(pixel.0.map(|part| part / 2)),
+            };
+        }
+        picture
+    }
+}
+
+/// By pixel: the truth has a sample there, and the frame has none of its depth at that pixel or one of the eight around it. Both pictures are
+/// sampled at pixels, so the same silhouette may lie a pixel off; a hole has to be wider than that to be seen. Depths are 1/w, 0 where nothing is.
+#[must_use]
+pub fn missing([w, h]: [u32; 2], truth: &[f32], frame: &[f32], tolerance: f64) -> Vec<bool> {
+    let [w, h] = [w as usize, h as usize];
+    let has = |x: usize, y: usize, depth: f32| {
+        let own = frame[y * w + x];
+        own > 0.0 && f64::from(own - depth).abs() <= tolerance
+    };
+    let is_missing = |(at, &depth): (usize, &f32)| {
+        let (x, y) = (at % w, at / w);
+        let columns = x.saturating_sub(1)..(x + 2).min(w);
+        let mut rows = y.saturating_sub(1)..(y + 2).min(h);
+        depth > 0.0 && !rows.any(|y| columns.clone().any(|x| has(x, y, depth)))
+    };
+    truth.iter().enumerate().map(is_missing).collect()
+}

@@ -1,0 +1,158 @@
+//! Samples of the true picture that views of a depth image, and of an occlusion camera's reference image, have not.
+//!
+//! Popescu, Rosen and Aliaga, section VIII: "We measure the disocclusion errors present in a frame by rendering a ground truth image from
+//! geometry and counting how many ground truth image samples are not present in the frame. We rendered sequences of frames by moving the
+//! viewpoint on the edges of an 8'' cube centered at the reference viewpoint." Everything is drawn by the rasteriser of [`crate::synthesis`].
+
+mod frame;
+mod outcome;
+mod sheet;
+#[cfg(test)]
+mod tests;
+
+pub use frame::{Frame, missing};
+pub use outcome::{Outcome, Scene, View, text, write_csv};
+pub use sheet::sheet;
+
+use crate::model::{Surface, project, triangles};
+use crate::synthesis::{Distortions, Edges, Pinhole, Reference, Splats};
+use std::time::{Duration, Instant};
+
+/// What the paper says is left of a depth image's missing samples, on average of its scenes, %.
+pub const PAPER: f64 = 4.5;
+/// What the frames are made of.
+pub const IMAGES: [&str; 2] = ["depth image", "occlusion camera"];
+
+/// Inches from the viewer to the middle of the display.
+const DISTANCE: f64 = 50.0;
+/// Half the side of the cube, inches.
+const HALF: f64 = 4.0;
+/// Viewpoints on each of its 12 edges.
+const PER_EDGE: u32 = 4;
+/// Pixels to an inch of a picture of 720 x 480: the display has some room around it, so that nothing leaves the picture from any viewpoint.
+const SCALE: f64 = 42.0;
+/// The paper's picture.
+const PAPER_SIZE: [f64; 2] = [720.0, 480.0];
+/// D of the paper, pixels of its picture.
+const RADIUS: f64 = 30.0;
+/// α, at most.
+const ASYMMETRY: f64 = 4.0;
+/// Splats reach so much farther than the edges of the cube ask for.
+const MORE: f64 = 1.1;
+/// A step in depth is one that opens a hole wider than this at the farthest viewpoint, pixels. Less is joined.
+const STEP: f64 = 4.0;
+/// A sample is another one if it parts from it by more than this on the way to the farthest viewpoint, pixels: half a step.
+const TOLERANCE: f64 = 2.0;
+
+/// How it is measured.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Experiment {
+    /// Of every picture, pixels.
+    pub size: [u32; 2],
+}
+
+/// What frames are made of.
+#[derive(Clone, Debug)]
+pub struct Images {
+    /// As [`IMAGES`] has them, both as large as the picture.
+    pub all: [Reference; 2],
+    /// To draw one view of the geometry.
+    pub single: Duration,
+    /// To find the edges, make the map and draw the reference image. The depths of the single view are there already.
+    pub construction: Duration,
+}
+
+impl Experiment {
+    /// Pixels to an inch in the plane through the middle of the display.
+    fn scale(&self) -> f64 {
+        let [w, h] = [0, 1].map(|i| f64::from(self.size[i]) / PAPER_SIZE[i]);
+        SCALE * w.min(h)
+    }
+
+    /// Pixels by which the farthest viewpoint parts things per unit of 1/w.
+    fn parallax(&self) -> f64 {
+        self.scale() * DISTANCE * HALF * 2_f64.sqrt()
+    }
+
+    /// 1/w of a step between two surfaces.
+    #[must_use]
+    pub fn step(&self) -> f64 {
+        STEP / self.parallax()
+    }
+
+    /// 1/w up to which two samples are one.
+    #[must_use]
+    pub fn tolerance(&self) -> f64 {
+        TOLERANCE / self.parallax()
+    }
+
+    /// At the reference viewpoint, or so many inches from it. All look through the same window in the middle of the display.
+    #[must_use]
+    pub fn camera(&self, [x, y, z]: [f64; 3]) -> Pinhole {
+        Pinhole::through(self.size, self.scale(), [x, y, DISTANCE + z])
+    }
+
+    /// What a camera sees of the geometry.
+    #[must_use]
+    pub fn draw(&self, camera: &Pinhole, scene: &[Surface]) -> Reference {
+        let mut drawn = Reference::new(self.size);
+        let all = triangles(scene).filter_map(|solid| project(camera, &solid));
+        drawn.draw(all, &Distortions::none(self.size), f64::INFINITY);
+        drawn
+    }
+
+    /// The rays of the occlusion camera, of what the reference viewpoint sees.
+    #[must_use]
+    pub fn distortions(&self, depth_image: &Reference) -> Distortions {
+        let edges = Edges::of(&depth_image.depth_image(), self.step());
+        let splats = Splats {
+            radius: RADIUS * self.scale() / SCALE,
+            parallax: self.parallax() * MORE,
+            asymmetry: ASYMMETRY,
+        };
+        Distortions::of(self.size, &edges, &splats)
+    }
+
+    /// Makes both images.
+    #[must_use]
+    pub fn images(&self, scene: &[Surface]) -> Images {
+        let camera = self.camera([0.0; 3]);
+        let start = Instant::now();
+        let depth_image = self.draw(&camera, scene);
+        let single = start.elapsed();
+        let start = Instant::now();
+        let distortions = self.distortions(&depth_image);
+        let mut reference = Reference::new(self.size);
+        let all = triangles(scene).filter_map(|solid| project(&camera, &solid));
+        reference.draw(all, &distortions, 1.0);
+        Images {
+            all: [depth_image, reference],
+            single,
+            construction: start.elapsed(),
+        }
+    }
+
+    /// What is seen of an image from so many inches beside the reference viewpoint.
+    #[must_use]
+    pub fn seen(&self, image: &Reference, offset: [f64; 3]) -> Reference {
+        let motion = self.camera([0.0; 3]).to(&self.camera(offset));
+        image.seen(self.size, &motion, self.step())
+    }
+}
+
+/// Inches from the reference viewpoint: in the middle of equal parts of the 12 edges of the cube.
+#[must_use]
+pub fn viewpoints() -> Vec<[f64; 3]> {
+    let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
+    let edges = (0..3).flat_map(|axis| corners.map(|corner| (axis, corner)));
+    let parts = edges.flat_map(|edge| (0..PER_EDGE).map(move |part| (edge, part)));
+    parts
+        .map(|((axis, (a, b)), part)| {
+            let mut at = [0.0; 3];
+            at[axis] = HALF * (f64::from(2 * part + 1) / f64::from(PER_EDGE) - 1.0);
+            at[(axis + 1) % 3] = HALF * a;
+            at[(axis + 2) % 3] = HALF * b;
+            at
+        })
+        .collect()
+}

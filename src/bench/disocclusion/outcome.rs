@@ -1,0 +1,234 @@
+//! What was measured, as text, JSON and CSV.
+
+use super::{Experiment, Frame, IMAGES, Images, PAPER};
+use crate::bench::error::BenchError;
+use crate::bench::table::columns;
+use crate::metric::Comparison;
+use serde::Serialize;
+use std::path::Path;
+
+/// All of a run.
+#[derive(Debug, Serialize)]
+pub struct Outcome {
+    /// When it began: RFC 3339, UTC.
+    pub date: String,
+    /// As it was typed.
+    pub command: Vec<String>,
+    /// Of `--preset`.
+    pub preset: &'static str,
+    /// One for each scene.
+    pub scenes: Vec<Scene>,
+    /// One for each scene, viewpoint and image.
+    pub views: Vec<View>,
+}
+
+/// A scene, and what its images cost.
+#[derive(Clone, Debug, Serialize)]
+pub struct Scene {
+    /// Name of the model.
+    pub scene: &'static str,
+    /// Of the geometry.
+    pub triangles: usize,
+    /// Pixels of every picture.
+    pub width: u32,
+    /// Pixels of every picture.
+    pub height: u32,
+    /// One view of the geometry, ms.
+    pub single_ms: f64,
+    /// The reference image, without the depths that it begins with, ms.
+    pub construction_ms: f64,
+    /// The occlusion camera's missing samples over the depth image's, of all viewpoints together, %. None where nothing is missing.
+    pub left_percent: Option<f64>,
+    /// The same in the paper, on average of its scenes.
+    pub paper_left_percent: f64,
+}
+
+/// A frame of one image.
+#[derive(Clone, Debug, Serialize)]
+pub struct View {
+    /// Name of the model.
+    pub scene: &'static str,
+    /// Inches to the right of the reference viewpoint.
+    pub right: f64,
+    /// Inches above it.
+    pub up: f64,
+    /// Inches farther from the display; negative: nearer.
+    pub farther: f64,
+    /// Of [`IMAGES`].
+    pub image: &'static str,
+    /// Pixels of the true picture that show the scene.
+    pub samples: usize,
+    /// Samples that are not in the frame.
+    pub missing: usize,
+    /// Samples that are not at their own pixel.
+    pub displaced: usize,
+    /// Of the samples, %: pixels with nothing.
+    pub holes_percent: f64,
+    /// dB; none for equal pictures, where it is infinite.
+    pub psnr: Option<f64>,
+    /// At most 1.
+    pub ssim: f64,
+    /// With what is missing taken from the truth.
+    pub present_psnr: Option<f64>,
+    /// The same.
+    pub present_ssim: f64,
+    /// Pixels, on average of the samples at their own pixel.
+    pub disparity_error: f64,
+}
+
+impl View {
+    /// Of a frame; `image` is a number of [`IMAGES`].
+    #[must_use]
+    pub fn new(scene: &'static str, at: [f64; 3], image: usize, frame: &Frame) -> View {
+        let psnr = |comparison: &Comparison| Some(comparison.psnr).filter(|psnr| psnr.is_finite());
+        View {
+            scene,
+            right: at[0],
+            up: at[1],
+            farther: at[2],
+            image: IMAGES.get(image).copied().unwrap_or_default(),
+            samples: frame.samples,
+            missing: frame.count(),
+            displaced: frame.displaced,
+            holes_percent: frame.holes_percent,
+            psnr: psnr(&frame.all),
+            ssim: frame.all.ssim,
+            present_psnr: psnr(&frame.present),
+            present_ssim: frame.present.ssim,
+            disparity_error: frame.disparity,
+        }
+    }
+}
+
+impl Scene {
+    /// Of its views.
+    #[must_use]
+    pub fn new(
+        scene: &'static str,
+        triangles: usize,
+        experiment: &Experiment,
+        images: &Images,
+        views: &[View],
+    ) -> Scene {
+        let [depth, occlusion] = IMAGES.map(|image| {
+            let of = views.iter().filter(|view| view.image == image);
+            of.map(|view| view.missing).sum::<usize>()
+        });
+        Scene {
+            scene,
+            triangles,
+            width: experiment.size[0],
+            height: experiment.size[1],
+            single_ms: 1e3 * images.single.as_secs_f64(),
+            construction_ms: 1e3 * images.construction.as_secs_f64(),
+            left_percent: (depth > 0).then(|| 100.0 * occlusion as f64 / depth as f64),
+            paper_left_percent: PAPER,
+        }
+    }
+}
+
+/// The viewpoint where most is missing of an image.
+#[must_use]
+pub(super) fn worst<'a>(views: &'a [View], scene: &str, image: &str) -> Option<&'a View> {
+    let own = views
+        .iter()
+        .filter(|view| view.scene == scene && view.image == image);
+    own.max_by_key(|view| view.missing)
+}
+
+/// The table: two lines for each scene, means of the viewpoints.
+#[must_use]
+pub fn text(outcome: &Outcome) -> String {
+    let head = [
+        "scene",
+        "size",
+        "triangles",
+        "image",
+        "samples",
+        "missing",
+        "left %",
+        "paper's %",
+        "worst",
+        "at",
+        "holes %",
+        "PSNR",
+        "SSIM",
+        "present: PSNR",
+        "SSIM",
+        "px",
+        "times",
+    ];
+    let mut lines = vec![head.map(str::to_owned).to_vec()];
+    for scene in &outcome.scenes {
+        lines.extend(IMAGES.map(|image| cells(scene, image, &outcome.views)));
+    }
+    let views = outcome.views.len() / IMAGES.len() / outcome.scenes.len().max(1);
+    format!(
+        "means of {views} viewpoints on the edges of the cube; worst: inches to the right, up and away from the display; times: construction over a single view\n\n{}",
+        columns(&lines)
+    )
+}
+
+fn cells(scene: &Scene, image: &str, views: &[View]) -> Vec<String> {
+    let own: Vec<&View> = views
+        .iter()
+        .filter(|view| view.scene == scene.scene && view.image == image)
+        .collect();
+    let mean = |of: &dyn Fn(&View) -> f64| {
+        own.iter().map(|view| of(view)).sum::<f64>() / own.len().max(1) as f64
+    };
+    let psnr = |of: &dyn Fn(&View) -> Option<f64>| match own.iter().any(|view| of(view).is_some()) {
+        true => {
+            let all: Vec<f64> = own.iter().filter_map(|view| of(view)).collect();
+            format!("{:.1}", all.iter().sum::<f64>() / all.len() as f64)
+        }
+        false => "exact".to_owned(),
+    };
+    let (worst, at) = worst(views, scene.scene, image).map_or_else(Default::default, |view| {
+        let at = format!("({}, {}, {})", view.right, view.up, view.farther);
+        (view.missing.to_string(), at)
+    });
+    let of_occlusion = |cell: String| match image == IMAGES[1] {
+        true => cell,
+        false => String::new(),
+    };
+    vec![
+        scene.scene.to_owned(),
+        format!("{}x{}", scene.width, scene.height),
+        scene.triangles.to_string(),
+        image.to_owned(),
+        format!("{:.0}", mean(&|view| view.samples as f64)),
+        format!("{:.0}", mean(&|view| view.missing as f64)),
+        of_occlusion(
+            scene
+                .left_percent
+                .map_or("-".to_owned(), |left| format!("{left:.1}")),
+        ),
+        of_occlusion(format!("{:.1}", scene.paper_left_percent)),
+        worst,
+        at,
+        format!("{:.2}", mean(&|view| view.holes_percent)),
+        psnr(&|view| view.psnr),
+        format!("{:.4}", mean(&|view| view.ssim)),
+        psnr(&|view| view.present_psnr),
+        format!("{:.4}", mean(&|view| view.present_ssim)),
+        format!("{:.2}", mean(&|view| view.disparity_error)),
+        of_occlusion(format!("{:.2}", scene.construction_ms / scene.single_ms)),
+    ]
+}
+
+/// Writes one line for each scene, viewpoint and image.
+///
+/// # Errors
+/// If the file cannot be written.
+pub fn write_csv(views: &[View], file: &Path) -> Result<(), BenchError> {
+    let bad = |error: csv::Error| BenchError::Write {
+        file: file.to_owned(),
+        reason: error.to_string(),
+    };
+    let mut csv = csv::Writer::from_path(file).map_err(bad)?;
+    for view in views {
+        csv.serialize(view).map_err(bad)?;
+    }
+    csv.flush().map_err(|error| bad(error.into()))
+}

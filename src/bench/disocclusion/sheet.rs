@@ -1,0 +1,36 @@
+//! The pictures that one would rather look at.
+
+use super::outcome::worst;
+use super::{Experiment, Frame, IMAGES, Images, View};
+use crate::model::Surface;
+use image::{RgbImage, imageops};
+
+/// Of one scene, from left to right: depth image, reference image, the frame of each at the viewpoint where most is missing of the latter, what
+/// is missing in white, and the truth there.
+#[must_use]
+pub fn sheet(
+    experiment: &Experiment,
+    scene: &[Surface],
+    images: &Images,
+    views: &[View],
+) -> Option<RgbImage> {
+    let name = views.first()?.scene;
+    let view = worst(views, name, IMAGES[1])?;
+    let at = [view.right, view.up, view.farther];
+    let truth = experiment.draw(&experiment.camera(at), scene);
+    let mut pictures = images
+        .all
+        .each_ref()
+        .map(|image| image.picture().picture)
+        .to_vec();
+    for image in &images.all {
+        pictures.push(Frame::of(experiment, &truth, &experiment.seen(image, at))?.marked());
+    }
+    pictures.push(truth.picture().picture);
+    let [w, h] = experiment.size;
+    let mut sheet = RgbImage::new(w * pictures.len() as u32, h);
+    for (number, picture) in (0..).zip(&pictures) {
+        imageops::replace(&mut sheet, picture, number * i64::from(w), 0);
+    }
+    Some(sheet)
+}

@@ -1,0 +1,204 @@
+//! The mesh of a picture's samples, and what other cameras see of it.
+//!
+//! Popescu et al., section VI: samples are joined to their neighbours; each is where it was before its ray was bent. A depth image is a reference
+//! image whose rays are straight.
+
+use super::occlusion::Sample;
+use super::warp::{View, excess, finish};
+use super::{DepthImage, Distortions, Motion, Reference, Shift, Triangle, Vertex};
+
+/// Of the square around a sample.
+const CORNERS: [[f64; 2]; 4] = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
+/// Pixels, half of what one of the reference image may cover.
+const WIDEST: f64 = 2.5;
+
+impl From<&DepthImage> for Reference {
+    fn from(image: &DepthImage) -> Reference {
+        let rows = 0..image.size()[1];
+        let pixels = rows.flat_map(|y| image.colours(y).iter().zip(image.inverses(y)));
+        let sample = |(colour, inverse): (&[u8; 3], &f32)| {
+            (*inverse >= 0.0).then(|| Sample {
+                inverse: f64::from(*inverse),
+                colour: colour.map(f64::from),
+                moved: [0.0; 2],
+            })
+        };
+        Reference {
+            size: image.size(),
+            samples: pixels.map(sample).collect(),
+        }
+    }
+}
+
+impl Reference {
+    /// Colours and depths as they lie in the picture.
+    pub fn depth_image(&self) -> DepthImage {
+        let colours = self.all_seen().into_iter();
+        let colours = colours.map(|seen| seen.map_or([0; 3], |(_, colour)| colour));
+        let depths = self.samples.iter();
+        let depths = depths.map(|s| s.map_or(f32::NAN, |s| s.inverse as f32));
+        DepthImage::of(self.size, colours.collect(), depths)
+    }
+
+    /// What a camera beside that of the picture sees of it, holes filled; `threshold` is that of [`super::Edges::of`].
+    pub fn view(&self, shift: &Shift, threshold: f64) -> View {
+        let seen = self.seen(self.size, &Motion::beside(shift, self.size[0]), threshold);
+        finish(self.size, seen.all_seen(), true)
+    }
+
+    /// What another camera sees of it, in a picture of this size: the mesh of its samples, drawn.
+    pub fn seen(&self, size: [u32; 2], motion: &Motion, threshold: f64) -> Reference {
+        let mut seen = Reference::new(size);
+        let moved = self.mesh(threshold).filter_map(|[a, b, c]| {
+            Some([motion.apply(&a)?, motion.apply(&b)?, motion.apply(&c)?])
+        });
+        seen.draw(moved, &Distortions::none(size), f64::INFINITY);
+        seen
+    }
+
+    /// The triangles between its samples, each where the undistorted camera projects it. Samples of different surfaces are not joined;
+    /// as far as half a pixel of this picture around a sample there is always what it is of.
+    pub fn mesh(&self, threshold: f64) -> impl Iterator<Item = Triangle> {
+        let [w, h] = self.size.map(|side| side as usize);
+        let joints = Joints::of(self, threshold);
+        (0..h).flat_map(move |y| {
+            let mut triangles = Vec::new();
+            for x in 0..w {
+                let Some(own) = self.undistorted(x, y) else {
+                    continue;
+                };
+                let cell = joints.cell(x, y);
+                let inner = x > 0
+                    && y > 0
+                    && joints.cell(x - 1, y - 1)
+                    && joints.cell(x, y - 1)
+                    && joints.cell(x - 1, y);
+                if !(cell && inner) {
+                    let right = self.half(&own, [x, y], 0, &joints.across);
+                    let down = self.half(&own, [x, y], 1, &joints.down);
+                    let [a, b, c, d] = CORNERS.map(|[u, v]| Vertex {
+                        at: [0, 1].map(|i| own.at[i] + u * right[i] + v * down[i]),
+                        ..own
+                    });
+                    triangles.extend([[a, b, c], [a, c, d]]);
+                }
+                self.cell(&joints, [x, y], &mut triangles);
+            }
+            triangles
+        })
+    }
+
+    /// Between a sample and those to the right, below and across: two triangles where all are of one surface, and one for each corner
+    /// whose two sides are.
+    fn cell(&self, joints: &Joints, [x, y]: [usize; 2], out: &mut Vec<Triangle>) {
+        let [w, h] = self.size.map(|side| side as usize);
+        if x + 1 >= w || y + 1 >= h {
+            return;
+        }
+        let sample = |dx: usize, dy: usize| self.undistorted(x + dx, y + dy);
+        let [own, right, across, under] = [sample(0, 0), sample(1, 0), sample(1, 1), sample(0, 1)];
+        let at = y * w + x;
+        let [top, left] = [joints.across[at], joints.down[at]];
+        let [bottom, far] = [joints.across[at + w], joints.down[at + 1]];
+        let whole = top && left && bottom && far;
+        let corners = [
+            (top && far, [own, right, across]),
+            (bottom && left, [own, across, under]),
+            (top && left && !whole, [own, right, under]),
+            (bottom && far && !whole, [right, across, under]),
+        ];
+        for (joined, corners) in corners {
+            if let (true, [Some(a), Some(b), Some(c)]) = (joined, corners) {
+                out.push([a, b, c]);
+            }
+        }
+    }
+
+    /// Half the way from a sample to the next column or row: as far as its rays are from those of a neighbour of the same surface.
+    fn half(&self, own: &Vertex, at: [usize; 2], way: usize, joined: &[bool]) -> [f64; 2] {
+        let width = self.size[0] as usize;
+        let index = |[x, y]: [usize; 2]| y * width + x;
+        let mut straight = [0.0; 2];
+        straight[way] = 0.5;
+        let mut next = at;
+        next[way] += 1;
+        let mut before = at;
+        before[way] = before[way].wrapping_sub(1);
+        let (other, sign) = if joined[index(at)] {
+            (next, 0.5)
+        } else if at[way] > 0 && joined[index(before)] {
+            (before, -0.5)
+        } else {
+            return straight;
+        };
+        let Some(other) = self.undistorted(other[0], other[1]) else {
+            return straight;
+        };
+        let half = [0, 1].map(|i| (other.at[i] - own.at[i]) * sign);
+        // Neighbours whose rays go entirely elsewhere say nothing.
+        match half[0].hypot(half[1]) <= WIDEST {
+            true => half,
+            false => straight,
+        }
+    }
+
+    /// A sample where the undistorted camera projects it: (u_d − δ_u, v_d − δ_v).
+    fn undistorted(&self, x: usize, y: usize) -> Option<Vertex> {
+        let sample = (*self.samples.get(y * self.size[0] as usize + x)?)?;
+        Some(Vertex {
+            at: [
+                x as f64 + 0.5 - sample.moved[0],
+                y as f64 + 0.5 - sample.moved[1],
+            ],
+            inverse: sample.inverse,
+            colour: sample.colour,
+        })
+    }
+}
+
+/// Which neighbours are of one surface.
+struct Joints {
+    width: usize,
+    /// A pixel and the next of its row.
+    across: Vec<bool>,
+    /// A pixel and the next of its column.
+    down: Vec<bool>,
+}
+
+impl Joints {
+    fn of(image: &Reference, threshold: f64) -> Joints {
+        let [w, h] = image.size.map(|side| side as usize);
+        let inverses = image.inverses();
+        let drawn = |at: usize| image.samples.get(at).is_some_and(Option::is_some);
+        let mut joints = Joints {
+            width: w,
+            across: vec![false; w * h],
+            down: vec![false; w * h],
+        };
+        for (y, row) in inverses.chunks(w.max(1)).enumerate() {
+            for x in 1..w {
+                let at = y * w + x - 1;
+                joints.across[at] = drawn(at) && drawn(at + 1) && excess(row, x - 1) <= threshold;
+            }
+        }
+        for x in 0..w {
+            let column: Vec<f32> = (0..h).map(|y| inverses[y * w + x]).collect();
+            for y in 1..h {
+                let at = (y - 1) * w + x;
+                joints.down[at] = drawn(at) && drawn(at + w) && excess(&column, y - 1) <= threshold;
+            }
+        }
+        joints
+    }
+
+    /// Whether a pixel and those to the right, below and across are.
+    fn cell(&self, x: usize, y: usize) -> bool {
+        let at = y * self.width + x;
+        let next = |all: &[bool], at: usize| all.get(at) == Some(&true);
+        x + 1 < self.width
+            && next(&self.across, at)
+            && next(&self.down, at)
+            && next(&self.across, at + self.width)
+            && next(&self.down, at + 1)
+    }
+}
