@@ -230,6 +230,26 @@ fn what_cannot_be_measured_is_one_line() {
             "--chart is 'chart.pdf'; give a name that ends in .png or .svg",
         ),
         (
+            &["--preset", "popescu-table1", "--display", "rows"],
+            "--display does not go with --preset popescu-table1, which starts no program",
+        ),
+        (
+            &["--preset", "popescu-table1", "--frames", "15"],
+            "--frames does not go with",
+        ),
+        (
+            &["--preset", "popescu-table1", "--api", "glx"],
+            "--api does not go with",
+        ),
+        (
+            &["--preset", "popescu-table1", "--size", "9x6,18x12"],
+            "--size has several sizes",
+        ),
+        (
+            &["--preset", "popescu-table1", "--chart", "frames.svg"],
+            "--chart is 'frames.svg'; --preset popescu-table1 draws pictures",
+        ),
+        (
             &["--json", "/no/folder/b.json"],
             "the JSON cannot be written",
         ),

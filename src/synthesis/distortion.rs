@@ -1,9 +1,10 @@
 //! The distortion map of the depth-discontinuity occlusion camera: how rays are bent at each pixel.
 //!
 //! Popescu et al., section IV.C: steps 3 to 5 and asymmetrical splats (Equation 1); the magnitude over depth is a part of Equation 2. What
-//! differs from the paper, all because statues and rooms have edges everywhere, and their splats would take each other's place:
+//! differs from the paper, because splats of scenes with edges everywhere take each other's place:
 //!
-//! - D is the most. A splat reaches as far as the viewpoints that matter can part what makes the edge.
+//! - D is the most. A splat reaches as far as the viewpoints that matter can part what makes the edge. That matters where small steps count as
+//!   edges, and little where only large ones do (docs/measured.md).
 //! - Of two splats, the one that reaches farther has some more of the places between them.
 //! - A conflict counts where the splat's own samples go, in front of the edge, not somewhere in its disc.
 //! - α is the most, too: a splat has room before the background up to a conflict, and only where that is less than its radius is it asymmetrical.
