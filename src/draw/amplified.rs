@@ -41,7 +41,6 @@ pub(super) struct Program {
     clip: i32,
     tiles: i32,
     grid: i32,
-    pub(super) bends: i32,
     pub(super) window: i32,
     pub(super) bend: i32,
     pub(super) levels: i32,
@@ -251,7 +250,6 @@ impl Programs {
             clip: gl.uniform_location(name, c"mv_clip"),
             tiles: gl.uniform_location(name, c"mv_tile"),
             grid: gl.uniform_location(name, c"mv_grid"),
-            bends: gl.uniform_location(name, c"mv_bends"),
             window: gl.uniform_location(name, c"mv_window"),
             bend: gl.uniform_location(name, c"mv_bend"),
             levels: gl.uniform_location(name, c"mv_levels"),
@@ -366,6 +364,10 @@ fn name_units(gl: &Gl, program: u32, key: &FragmentKey) {
         if let Ok(name) = CString::new(sampler(unit)) {
             gl.uniform_1i(gl.uniform_location(program, &name), unit as i32);
         }
+    }
+    if key.bent {
+        let map = gl.uniform_location(program, c"mv_bends");
+        gl.uniform_1i(map, super::bent::UNIT as i32);
     }
     gl.use_program(0);
 }

@@ -12,7 +12,7 @@ use crate::plan::{Reason, Rig, Shear};
 use crate::state::State;
 
 /// The texture unit of the map: the last one that all drivers with OpenGL 3.0 have.
-const UNIT: u32 = 31;
+pub(super) const UNIT: u32 = 31;
 
 /// What the rays are bent by.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -119,7 +119,6 @@ impl Programs {
         let map = Bound::enter(gl, rays.map);
         let around = Around::enter(gl, state, atlas, &stages.0, program, Units::None, fixed);
         let [window, bend] = rays.uniforms(state, atlas, !few);
-        gl.uniform_1i(program.bends, UNIT as i32);
         gl.uniform_4fv(program.window, &[window]);
         gl.uniform_4fv(program.bend, &[bend]);
         let cut = patches.map(|(_, corners)| {

@@ -143,16 +143,7 @@ fn write_emit_between(text: &mut Text, key: &FixedKey) {
     let position = between(&|i| format!("gl_in[{i}].gl_Position"));
     let vertex = between(&|i| format!("mv_in[{i}].vertex"));
     text.line(format!("mv_place(view, {position}, {vertex});"));
-    for varying in varyings(key) {
-        let Some(builtin) = varying.builtin(key) else {
-            continue;
-        };
-        let value = match flat_source(key) {
-            Some(source) if varying.is_color() => format!("mv_in[{source}].{}", varying.member()),
-            _ => between(&|i| format!("mv_in[{i}].{}", varying.member())),
-        };
-        text.line(format!("{builtin} = {value};"));
-    }
+    vertex::write_between(text, key, flat_source(key), &between);
     text.line("gl_PrimitiveID = gl_PrimitiveIDIn;");
     text.line("EmitVertex();");
     text.close("}");

@@ -8,7 +8,7 @@
 //! ```text
 //! FixedKey ── canonical ──► vertex ─┬─ lighting   section 12.2.1
 //!  (key)                            ├─ texgen     sections 12.1.1, 12.1.3
-//!                                  ├─ bent       the rays of an occlusion camera
+//!                                   ├─ bent       the rays of an occlusion camera
 //!                                   └─ view       shift, tile, clip distances, layer
 //!                           geometry ── view      one primitive per view
 //!                           tessellation ── bent  small ones for bent rays

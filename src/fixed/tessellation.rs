@@ -19,7 +19,7 @@ pub const UNIFORM_LEVELS: &str = "mv_levels";
 /// Least shading language version.
 pub(super) const VERSION: u32 = 400;
 
-fn corners(key: &FixedKey) -> usize {
+fn corners(key: &FixedKey) -> u8 {
     match key.target.primitive {
         Primitive::Quads => 4,
         _ => 3,
@@ -81,7 +81,7 @@ pub(super) fn write_control(key: &FixedKey) -> String {
 }
 
 /// The corner whose colours all of a flat primitive have.
-fn flat_source(key: &FixedKey) -> Option<usize> {
+fn flat_source(key: &FixedKey) -> Option<u8> {
     key.flat.then(|| match key.provoking {
         Provoking::First => 0,
         Provoking::Last => corners(key) - 1,
@@ -106,20 +106,11 @@ pub(super) fn write_evaluation(key: &FixedKey) -> String {
         4 => "vec4 at = vec4((1.0 - gl_TessCoord.x) * (1.0 - gl_TessCoord.y), gl_TessCoord.x * (1.0 - gl_TessCoord.y), gl_TessCoord.x * gl_TessCoord.y, (1.0 - gl_TessCoord.x) * gl_TessCoord.y);",
         _ => "vec3 at = gl_TessCoord;",
     });
-    let between = |of: &dyn Fn(usize) -> String| {
+    let between = |of: &dyn Fn(u8) -> String| {
         let parts = (0..corners).map(|i| format!("at[{i}] * {}", of(i)));
         parts.collect::<Vec<_>>().join(" + ")
     };
-    for varying in varyings(key) {
-        let Some(builtin) = varying.builtin(key) else {
-            continue;
-        };
-        let value = match flat_source(key) {
-            Some(source) if varying.is_color() => format!("mv_in[{source}].{}", varying.member()),
-            _ => between(&|i| format!("mv_in[{i}].{}", varying.member())),
-        };
-        text.line(format!("{builtin} = {value};"));
-    }
+    vertex::write_between(&mut text, key, flat_source(key), &between);
     let position = between(&|i| format!("gl_in[{i}].gl_Position"));
     text.line(format!("mv_place({position});"));
     text.close("}");

@@ -50,6 +50,29 @@ pub(super) fn write_block(text: &mut Text, key: &FixedKey, direction: &str, inst
     text.close(format!("}} {instance};"));
 }
 
+/// A sum over a primitive's corners, of what a number of a corner names.
+type Between<'a> = dyn Fn(&dyn Fn(u8) -> String) -> String + 'a;
+
+/// Everything that is read of a place in a primitive, as the built-ins have it: `between` sums what it has of each corner. A flat primitive
+/// has the colours of one of them.
+pub(super) fn write_between(
+    text: &mut Text,
+    key: &FixedKey,
+    flat: Option<u8>,
+    between: &Between<'_>,
+) {
+    for varying in varyings(key) {
+        let Some(builtin) = varying.builtin(key) else {
+            continue;
+        };
+        let value = match flat {
+            Some(source) if varying.is_color() => format!("mv_in[{source}].{}", varying.member()),
+            _ => between(&|i| format!("mv_in[{i}].{}", varying.member())),
+        };
+        text.line(format!("{builtin} = {value};"));
+    }
+}
+
 /// Where a value goes: into the block, or to the built-in that the next stage reads.
 fn output(key: &FixedKey, varying: Varying) -> String {
     match varying.builtin(key) {

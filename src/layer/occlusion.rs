@@ -29,14 +29,14 @@ pub(super) struct Bent {
     mapped: bool,
     /// The scene that is being drawn goes to the reference image.
     pub(super) on: bool,
-    /// The next draw goes there: its mode, where it is known.
-    next: Option<Next>,
+    /// The next draw goes there.
+    pub(super) next: Option<Next>,
 }
 
 /// A draw that is about to be made.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Next {
-    mode: Option<u32>,
+pub(super) struct Next {
+    mode: u32,
     rays: Rays,
 }
 
@@ -46,7 +46,6 @@ impl Layer {
         let framebuffer = self.atlas.bent_framebuffer();
         let bent = &mut self.synthesis.bent;
         bent.on = bent.mapped && framebuffer.is_some();
-        bent.next = None;
         if let (true, Some(framebuffer)) = (bent.on, framebuffer) {
             gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, framebuffer);
             gl.clear(c::COLOR_BUFFER_BIT | c::DEPTH_BUFFER_BIT);
@@ -56,16 +55,18 @@ impl Layer {
         }
     }
 
-    /// A draw of the scene is about to be made.
+    /// A draw of the scene is about to be made; those of surfaces by fixed function can be bent.
     pub(super) fn expect_bent(&mut self, kind: Kind, look: &Look) {
-        let mode = match kind {
-            Kind::Begin(mode) | Kind::Arrays(mode) | Kind::Elements(mode) => Some(mode),
-            Kind::Other => None,
-            _ => return,
+        let (Kind::Begin(mode) | Kind::Arrays(mode) | Kind::Elements(mode)) = kind else {
+            return;
         };
-        let surface = |mode| (c::TRIANGLES..=c::POLYGON).contains(&mode);
+        let bends = self.synthesis.bent.on
+            && self.state.compatibility
+            && self.state.program == 0
+            && self.state.pipeline == 0
+            && (c::TRIANGLES..=c::POLYGON).contains(&mode);
         let map = self.atlas.bent().map(|bent| bent.map);
-        if let (true, Some(map)) = (self.synthesis.bent.on && mode.is_none_or(surface), map) {
+        if let (true, Some(map)) = (bends, map) {
             let [near, far] = self.state.look.depths;
             let (middle, half) = match self.state.look.zero_to_one {
                 true => (near, far - near),
@@ -92,12 +93,6 @@ impl Layer {
         let Some(next) = self.synthesis.bent.next.take() else {
             return;
         };
-        let Some(mode) = next.mode.filter(|_| self.state.program == 0) else {
-            return;
-        };
-        if !self.state.compatibility || self.state.pipeline != 0 {
-            return;
-        }
         self.read_fixed(gl);
         let Some(fixed) = &self.fixed else { return };
         self.queries.pause(gl);
@@ -112,7 +107,7 @@ impl Layer {
             &self.rig,
             plan.shear,
             (fixed, material),
-            (mode, vertices),
+            (next.mode, vertices),
             again,
             &next.rays,
             call,

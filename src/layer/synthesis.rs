@@ -87,6 +87,7 @@ impl Synthesis {
 impl Layer {
     /// Before a draw that is planned: it goes to the own view alone, or the views are made.
     pub(super) fn keep_own(&mut self, gl: &Gl, kind: Kind, plan: &Plan, classed: &Classed) {
+        self.synthesis.bent.next = None;
         let drawn = plan.method != Method::Once && self.state.draws_to_window();
         if self.synthesis.passes.is_none() || !drawn {
             return;
