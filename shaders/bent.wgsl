@@ -32,6 +32,11 @@ fn sample_depth(x: i32, row: i32, behind: bool) -> f32 {
     return depth;
 }
 
+fn see(view: f32, x: f32, row: i32, range: vec2<f32>) -> Seen {
+    let lever = u.lever.x + view * u.lever.y;
+    return look_behind(seek(x, row, lever, range), x, row, lever);
+}
+
 // From what hides the rest outwards, where hidden samples lie side by side up to it: the farthest behind it is the closest to it. The
 // outermost place where the ray meets their surface is what it meets first.
 fn look_behind(seen: Seen, x: f32, row: i32, t: f32) -> Seen {

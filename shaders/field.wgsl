@@ -11,6 +11,16 @@
 // The same of the blocks themselves.
 @group(0) @binding(4) var peaks_texture: texture_2d_array<f32>;
 
+// Where the picture lies that is looked at: pixels from the left and the layer of its texture, and its layer of the two above.
+struct Place {
+    left: i32,
+    layer: i32,
+    field: i32,
+}
+
+// The view that lies at the origin, unless another one is entered.
+var<private> picture: Place = Place(0, 0, 0);
+
 // Samples of a row in one texel of both.
 const BLOCK = 16;
 // Where nothing was drawn, and it is not infinitely far: lower than everything.
@@ -25,7 +35,7 @@ fn texel_at(position: vec4<f32>) -> vec2<i32> {
 }
 
 fn depth_at(x: i32, row: i32) -> f32 {
-    return textureLoad(depth_texture, vec2<i32>(x, row), 0, 0).r;
+    return textureLoad(depth_texture, vec2<i32>(picture.left + x, row), picture.layer, 0).r;
 }
 
 // Whether nothing was drawn there. Depths of 24 bits come back with the error of one step.
@@ -65,7 +75,7 @@ fn first_beyond(place: f32, along: i32) -> i32 {
 
 // The greatest and the least height of all that can be seen in a column.
 fn range_of(x: u32, row: i32) -> vec2<f32> {
-    return textureLoad(range_texture, vec2<i32>(i32(x) / BLOCK, row), 0, 0).rg;
+    return textureLoad(range_texture, vec2<i32>(i32(x) / BLOCK, row), picture.field, 0).rg;
 }
 
 // What a camera with a lever sees at x, in pixels from the left of its picture, in a row of the textures. There is one way out, and little
@@ -100,7 +110,7 @@ fn seek(x: f32, row: i32, t: f32, range: vec2<f32>) -> Seen {
         let start = k;
         var skips = true;
         while skips {
-            let peak = textureLoad(peaks_texture, vec2<i32>(k / BLOCK, row), 0, 0).r;
+            let peak = textureLoad(peaks_texture, vec2<i32>(k / BLOCK, row), picture.field, 0).r;
             let in_block = k & (BLOCK - 1);
             let next = select(k - in_block + BLOCK, k - in_block - 1, along < 0);
             let low = first_beyond(x + t * (peak + edge - far), along);

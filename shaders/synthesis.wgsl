@@ -1,8 +1,13 @@
 // How high the rows of a picture with depths are, for field.wgsl.
 
+fn enter_told() {
+    picture = Place(i32(u.bend.y), i32(u.bend.z), i32(u.bend.w));
+}
+
 // Of a block: the greatest and the least height.
 @fragment
 fn peaks(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
+    enter_told();
     let block = texel_at(position);
     let end = min((block.x + 1) * BLOCK, i32(u.tile.x));
     var peak = NOTHING;
@@ -16,12 +21,13 @@ fn peaks(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
 }
 
 fn block(x: i32, row: i32) -> vec2<f32> {
-    return textureLoad(peaks_texture, vec2<i32>(x, row), 0, 0).rg;
+    return textureLoad(peaks_texture, vec2<i32>(x, row), picture.field, 0).rg;
 }
 
 // Of a row: the greatest height.
 @fragment
 fn tops(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
+    enter_told();
     let row = texel_at(position).y;
     let last = (i32(u.tile.x) - 1) / BLOCK;
     var top = 0.0;
@@ -40,9 +46,10 @@ fn reach(height: f32) -> f32 {
 // Of all that the rays of a block can meet: the greatest and the least height.
 @fragment
 fn range(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
+    enter_told();
     let at = texel_at(position);
     let last = (i32(u.tile.x) - 1) / BLOCK;
-    let top = textureLoad(range_texture, vec2<i32>(0, at.y), 0, 0).r;
+    let top = textureLoad(range_texture, vec2<i32>(0, at.y), picture.field, 0).r;
     let farthest = i32(ceil(min(reach(top), 1.0e4)));
     var both = block(at.x, at.y);
     for (var x = max(at.x - farthest, 0); x <= min(at.x + farthest, last); x++) {

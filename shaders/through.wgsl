@@ -3,8 +3,7 @@
 
 fn through(view: u32, at: vec2<u32>, row: i32, range: vec2<f32>) -> vec3<f32> {
     let x = f32(at.x) + 0.5;
-    let lever = u.lever.x + f32(view) * u.lever.y;
-    let seen = look_behind(seek(x, row, lever, range), x, row, lever);
+    let seen = see(f32(view), x, row, range);
     return select(colour_of(seen, row), vec3<f32>(0.0), view >= u.views);
 }
 

@@ -15,8 +15,7 @@ fn view(@builtin(position) position: vec4<f32>) -> Made {
     let at = vec2<u32>(position.xy);
     let row = i32(texel_row(min(at.y, u.tile.y - 1u), u.tile.y));
     let x = position.x - u.aim.y;
-    let first = seek(x, row, u.aim.x, range_of(u32(x), row));
-    let seen = look_behind(first, x, row, u.aim.x);
+    let seen = see(u.aim.x, x, row, range_of(u32(x), row));
     let low = sample_depth(seen.low, row, seen.behind);
     let high = sample_depth(seen.high, row, seen.behind);
     // Where the surface is bent it is not where the straight line between two samples is.

@@ -272,6 +272,13 @@ fn random_calls_by_depth_images() {
 }
 
 #[test]
+fn random_calls_by_several_true_views() {
+    compare(Api::Egl, "side-by-side", "hybrid", 45_000..45_060);
+    compare(Api::Egl, "layers", "hybrid", 45_060..45_090);
+    compare(Api::OsMesa, "side-by-side", "hybrid", 45_090..45_110);
+}
+
+#[test]
 fn random_calls_by_an_occlusion_camera() {
     compare(Api::Egl, "side-by-side", "occlusion", 44_000..44_060);
     compare(Api::Egl, "layers", "occlusion", 44_060..44_090);

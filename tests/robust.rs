@@ -98,6 +98,7 @@ fn a_driver_that_says_it_is_old() {
             "geometry",
             "depth-image",
             "occlusion",
+            "hybrid",
         ] {
             let (_folder, file, _) = files();
             let options = [("VIEWS", "5"), ("STRATEGY", strategy), ("REPORT", &*file)];
@@ -123,7 +124,7 @@ fn a_driver_that_says_it_is_old() {
                 });
                 match strategy {
                     "auto" | "replay" => true,
-                    "depth-image" | "occlusion" => noted,
+                    "depth-image" | "occlusion" | "hybrid" => noted,
                     _ => reasons > 0,
                 }
             } else {

@@ -1,13 +1,14 @@
-//! A copy of the program's own view with its depths, and how high they are at most, for what makes views of it.
+//! Copies of views with their depths, and how high they are at most, for what makes other views of them.
 
 use super::{Atlas, BentTextures, Names, Single, fetched};
+use crate::config::Behind;
 use crate::gl::{Gl, consts as c};
 use crate::state::Window;
 
 /// Samples of a row in one texel of the peaks.
 const BLOCK: u32 = 16;
 
-/// The textures of a picture with depths, array textures of one layer in use; see `shaders/field.wgsl`.
+/// The textures of pictures with depths, array textures with a layer for each; see `shaders/field.wgsl`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FieldTextures {
     /// Colours.
@@ -20,8 +21,21 @@ pub struct FieldTextures {
     pub tops: u32,
     /// The greatest and the least of all that the rays of a block can meet.
     pub range: u32,
+    /// The pictures are copies, else they lie in their tiles.
+    pub copied: bool,
     /// The reference image of an occlusion camera.
     pub bent: Option<BentTextures>,
+}
+
+impl FieldTextures {
+    /// What is known of what is hidden; `several`: there are more views than one.
+    pub fn behind(&self, several: bool) -> Behind {
+        match self.bent {
+            _ if several => Behind::Views,
+            Some(_) => Behind::Reference,
+            None => Behind::Nothing,
+        }
+    }
 }
 
 /// Where they are drawn to.
@@ -29,10 +43,16 @@ pub struct FieldTextures {
 pub(super) struct Field {
     /// None where what the tiles are resolved to is no tile.
     copy: Option<Single>,
-    /// Texture and framebuffer.
-    peaks: (u32, u32),
-    tops: (u32, u32),
-    range: (u32, u32),
+    peaks: Lines,
+    tops: Lines,
+    range: Lines,
+}
+
+/// A texture, and the framebuffers of its layers.
+#[derive(Debug)]
+struct Lines {
+    texture: u32,
+    framebuffers: Vec<u32>,
 }
 
 /// What is drawn to.
@@ -47,43 +67,67 @@ pub enum FieldTarget {
 }
 
 impl Field {
-    pub(super) fn framebuffers(&self) -> impl Iterator<Item = u32> + use<> {
-        let copy = self.copy.as_ref().map(Single::framebuffer);
-        copy.into_iter()
-            .chain([self.peaks.1, self.tops.1, self.range.1])
+    fn lines(&self, target: FieldTarget) -> &Lines {
+        match target {
+            FieldTarget::Peaks => &self.peaks,
+            FieldTarget::Tops => &self.tops,
+            FieldTarget::Range => &self.range,
+        }
+    }
+
+    pub(super) fn framebuffers(&self) -> impl Iterator<Item = u32> {
+        let lines = [&self.peaks, &self.tops, &self.range].into_iter();
+        let copies = self.copy.iter().flat_map(Single::framebuffers);
+        copies.chain(lines.flat_map(|lines| lines.framebuffers.iter().copied()))
     }
 }
 
 impl Atlas {
-    /// Makes what [`Atlas::take_field`] copies to. The caller saves and restores bindings as for [`Atlas::new`].
-    pub fn make_field(&mut self, gl: &Gl, names: &mut Names, window: &Window) -> bool {
+    /// Makes what [`Atlas::take_field`] copies to, for as many views. The caller saves and restores bindings as for [`Atlas::new`].
+    pub fn make_field(&mut self, gl: &Gl, names: &mut Names, window: &Window, layers: u32) -> bool {
         let size = [self.tiles.width, self.tiles.height].map(|side| side as i32);
         let mut complete = true;
         let blocks = self.tiles.width.div_ceil(BLOCK).max(1) as i32;
-        let mut line = |width: i32| {
-            let name = names.texture(gl);
+        let mut lines = |width: i32| {
+            let texture = names.texture(gl);
             let target = c::TEXTURE_2D_ARRAY;
-            gl.bind_texture(target, name);
-            gl.tex_storage_3d(c::RG32F, width, size[1], 1, c::RG, c::FLOAT);
+            gl.bind_texture(target, texture);
+            let depth = layers as i32;
+            gl.tex_storage_3d(c::RG32F, width, size[1], depth, c::RG, c::FLOAT);
             fetched(gl);
             gl.bind_texture(target, 0);
-            let framebuffer = gl.gen_framebuffer();
-            gl.bind_framebuffer(c::FRAMEBUFFER, framebuffer);
-            gl.framebuffer_texture_layer(c::FRAMEBUFFER, c::COLOR_ATTACHMENT0, name, 0, 0);
-            // As the tiles: Mesa 22.3 turns a polygon stipple for the framebuffer that is drawn to first, and keeps it so.
-            if self.flipped {
-                gl.flip_framebuffer(c::FRAMEBUFFER);
+            self.textures.push(texture);
+            let mut framebuffer = |layer: u32| {
+                let name = gl.gen_framebuffer();
+                gl.bind_framebuffer(c::FRAMEBUFFER, name);
+                let layer = layer as i32;
+                gl.framebuffer_texture_layer(
+                    c::FRAMEBUFFER,
+                    c::COLOR_ATTACHMENT0,
+                    texture,
+                    0,
+                    layer,
+                );
+                // As the tiles: Mesa 22.3 turns a polygon stipple for the framebuffer that is drawn to first, and keeps it so.
+                if self.flipped {
+                    gl.flip_framebuffer(c::FRAMEBUFFER);
+                }
+                complete &= gl.check_framebuffer_status(c::FRAMEBUFFER) == c::FRAMEBUFFER_COMPLETE;
+                name
+            };
+            let framebuffers = (0..layers).map(&mut framebuffer).collect();
+            Lines {
+                texture,
+                framebuffers,
             }
-            complete &= gl.check_framebuffer_status(c::FRAMEBUFFER) == c::FRAMEBUFFER_COMPLETE;
-            self.textures.push(name);
-            (name, framebuffer)
         };
-        let (peaks, tops, range) = (line(blocks), line(1), line(blocks));
+        let (peaks, tops, range) = (lines(blocks), lines(1), lines(blocks));
         let copy = match self.multisampled() {
             true => None,
             false => {
                 let (flip, textures) = (self.flipped, &mut self.textures);
-                Some(Single::new(gl, names, window, size, flip, textures))
+                let size = (size, layers);
+                Some(Single::layers(gl, names, window, size, flip, textures))
             }
         };
         self.field = Some(Field {
@@ -95,7 +139,7 @@ impl Atlas {
         complete
     }
 
-    /// The textures of the own view, where [`Atlas::make_field`] has made them: of a copy, or of the tile itself.
+    /// The textures of the views, where [`Atlas::make_field`] has made them: of copies, or of the tiles themselves.
     pub fn field(&self, copied: bool) -> Option<FieldTextures> {
         let field = self.field.as_ref()?;
         let copy = field.copy.as_ref().filter(|_| copied);
@@ -103,35 +147,36 @@ impl Atlas {
         Some(FieldTextures {
             colour,
             depth,
-            peaks: field.peaks.0,
-            tops: field.tops.0,
-            range: field.range.0,
+            peaks: field.peaks.texture,
+            tops: field.tops.texture,
+            range: field.range.texture,
+            copied: copy.is_some(),
             bent: None,
         })
     }
 
-    /// Copies the own view, so that all tiles can be drawn to. Changes the framebuffer bindings; the scissor test must be off.
-    pub fn take_field(&mut self, gl: &Gl) {
-        let own = self.tiles.own();
-        self.resolve(gl, true, c::COLOR_BUFFER_BIT | c::DEPTH_BUFFER_BIT);
-        let (from, x) = self.target(own);
-        if let Some(copy) = self.field.as_ref().and_then(|field| field.copy.as_ref()) {
-            copy.take(gl, from, x);
+    /// Copies some views, each to a layer of its own, so that all tiles can be drawn to. Changes the framebuffer bindings; the scissor test must be off.
+    pub fn take_field(&mut self, gl: &Gl, views: impl Iterator<Item = u32>) {
+        for (layer, view) in (0..).zip(views) {
+            let (from, x) = self.target(view);
+            if let Some(copy) = self.field.as_ref().and_then(|field| field.copy.as_ref()) {
+                copy.take_to(gl, layer, from, x);
+            }
         }
         self.bound_row = u32::MAX;
     }
 
-    /// Binds what a pass draws to, and answers its width in texels.
-    pub fn enter_field(&mut self, gl: &Gl, target: FieldTarget) -> i32 {
+    /// Binds what a pass draws to, of a layer, and answers its width in texels.
+    pub fn enter_field(&mut self, gl: &Gl, target: FieldTarget, layer: u32) -> i32 {
         let Some(field) = &self.field else { return 0 };
-        let blocks = self.tiles.width.div_ceil(BLOCK).max(1) as i32;
-        let (framebuffer, width) = match target {
-            FieldTarget::Tops => (field.tops.1, 1),
-            FieldTarget::Peaks => (field.peaks.1, blocks),
-            FieldTarget::Range => (field.range.1, blocks),
-        };
-        gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, framebuffer);
+        let framebuffer = field.lines(target).framebuffers.get(layer as usize);
+        gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, framebuffer.copied().unwrap_or(0));
         self.bound_row = u32::MAX;
-        width
+        match target {
+            FieldTarget::Tops => 1,
+            FieldTarget::Peaks | FieldTarget::Range => {
+                self.tiles.width.div_ceil(BLOCK).max(1) as i32
+            }
+        }
     }
 }

@@ -1,13 +1,14 @@
-//! A copy of one tile with nothing beside it, for reads that the tiles themselves cannot answer.
+//! Copies of tiles with nothing beside them, for reads that the tiles themselves cannot answer.
 
-use super::{Names, color_format, depth_format, fetched};
+use super::{Names, color_format, depth_format, store};
 use crate::gl::{Gl, consts as c};
 use crate::state::Window;
 
 /// A framebuffer of the window's size and format, single-sampled. As in the window, what is outside of it cannot be read.
 #[derive(Debug)]
 pub(super) struct Single {
-    framebuffer: u32,
+    /// One for each layer.
+    framebuffers: Vec<u32>,
     /// Colours and depths; 0 where there is none.
     textures: [u32; 2],
     size: [i32; 2],
@@ -24,29 +25,46 @@ impl Single {
         flip: bool,
         textures: &mut Vec<u32>,
     ) -> Single {
-        let framebuffer = gl.gen_framebuffer();
-        gl.bind_framebuffer(c::FRAMEBUFFER, framebuffer);
-        let mut own = [0; 2];
-        let mut attach = |at: usize, point, (internal, format, kind)| {
+        Single::layers(gl, names, window, (size, 1), flip, textures)
+    }
+
+    /// The same with several layers, for as many tiles.
+    pub(super) fn layers(
+        gl: &Gl,
+        names: &mut Names,
+        window: &Window,
+        (size, layers): ([i32; 2], u32),
+        flip: bool,
+        textures: &mut Vec<u32>,
+    ) -> Single {
+        let mut texture = |format: (u32, u32, u32)| {
             let name = names.texture(gl);
-            gl.bind_texture(c::TEXTURE_2D_ARRAY, name);
-            gl.tex_storage_3d(internal, size[0], size[1], 1, format, kind);
-            fetched(gl);
-            gl.bind_texture(c::TEXTURE_2D_ARRAY, 0);
-            gl.framebuffer_texture_layer(c::FRAMEBUFFER, point, name, 0, 0);
+            store(gl, name, format, [size[0], size[1], layers as i32]);
             textures.push(name);
-            own[at] = name;
+            name
         };
-        attach(0, c::COLOR_ATTACHMENT0, color_format(window));
-        if let Some((internal, format, kind, point)) = depth_format(window) {
-            attach(1, point, (internal, format, kind));
-        }
-        if flip {
-            gl.flip_framebuffer(c::FRAMEBUFFER);
-        }
+        let colour = texture(color_format(window));
+        let depth = depth_format(window)
+            .map(|(internal, format, kind, point)| (texture((internal, format, kind)), point));
+        let framebuffer = |layer: u32| {
+            let name = gl.gen_framebuffer();
+            gl.bind_framebuffer(c::FRAMEBUFFER, name);
+            let colour = Some((colour, c::COLOR_ATTACHMENT0));
+            for (texture, point) in colour.into_iter().chain(depth) {
+                let layer = layer as i32;
+                gl.framebuffer_texture_layer(c::FRAMEBUFFER, point, texture, 0, layer);
+            }
+            if flip {
+                gl.flip_framebuffer(c::FRAMEBUFFER);
+            }
+            name
+        };
+        // That of the first is the one that stays bound.
+        let mut framebuffers: Vec<u32> = (0..layers).rev().map(framebuffer).collect();
+        framebuffers.reverse();
         Single {
-            framebuffer,
-            textures: own,
+            framebuffers,
+            textures: [colour, depth.map_or(0, |(name, _)| name)],
             size,
         }
     }
@@ -54,12 +72,19 @@ impl Single {
     /// Takes a copy of the tile at an x offset in pixels of a framebuffer. Binds that one for reading and itself for drawing; the
     /// scissor test must be off.
     pub(super) fn take(&self, gl: &Gl, from: u32, x: i32) {
-        self.copy(gl, (from, x), (self.framebuffer, 0));
+        self.copy(gl, (from, x), (self.framebuffer(), 0));
+    }
+
+    /// The same into one of its layers.
+    pub(super) fn take_to(&self, gl: &Gl, layer: u32, from: u32, x: i32) {
+        if let Some(&to) = self.framebuffers.get(layer as usize) {
+            self.copy(gl, (from, x), (to, 0));
+        }
     }
 
     /// Copies itself to such a tile. Binds itself for reading and that one for drawing; the scissor test must be off.
     pub(super) fn give(&self, gl: &Gl, to: u32, x: i32) {
-        self.copy(gl, (self.framebuffer, 0), (to, x));
+        self.copy(gl, (self.framebuffer(), 0), (to, x));
     }
 
     fn copy(&self, gl: &Gl, (from, x): (u32, i32), (to, to_x): (u32, i32)) {
@@ -75,7 +100,7 @@ impl Single {
     pub(super) fn shrink(&self, gl: &Gl, from: u32, x: i32, window: [i32; 2]) {
         let ([w, h], [width, height]) = (self.size, window);
         gl.bind_framebuffer(c::READ_FRAMEBUFFER, from);
-        gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, self.framebuffer);
+        gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, self.framebuffer());
         let depth = c::DEPTH_BUFFER_BIT;
         gl.blit_framebuffer(x, 0, x + width, height, 0, 0, w, h, depth, c::NEAREST);
     }
@@ -90,8 +115,13 @@ impl Single {
         self.textures
     }
 
-    /// Its name.
+    /// Its name; that of the first layer.
     pub(super) fn framebuffer(&self) -> u32 {
-        self.framebuffer
+        self.framebuffers.first().copied().unwrap_or(0)
+    }
+
+    /// Those of all layers.
+    pub(super) fn framebuffers(&self) -> impl Iterator<Item = u32> + '_ {
+        self.framebuffers.iter().copied()
     }
 }

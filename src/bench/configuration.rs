@@ -33,6 +33,7 @@ pub const DEFAULT_CONFIGURATIONS: &[&str] = &["replay", "instanced", "geometry"]
 const LAYERS: (OptionId, &str) = (OptionId::Atlas, "layers");
 const REPLAY: (OptionId, &str) = (OptionId::Strategy, "replay");
 const INSTANCED: (OptionId, &str) = (OptionId::Strategy, "instanced");
+const HYBRID: (OptionId, &str) = (OptionId::Strategy, "hybrid");
 const GEOMETRY: (OptionId, &str) = (OptionId::Strategy, "geometry");
 
 const DISTANCES: (OptionId, &str) = (OptionId::Clip, "distances");
@@ -79,6 +80,21 @@ pub const CONFIGURATIONS: &[Configuration] = &[
         "occlusion",
         &[(OptionId::Strategy, "occlusion")],
         "the same, and what is hidden from an occlusion camera's reference image",
+    ),
+    row(
+        "hybrid-2",
+        &[HYBRID, (OptionId::TrueViews, "2")],
+        "the scene in two views, the others by the depths of those beside them",
+    ),
+    row(
+        "hybrid-3",
+        &[HYBRID, (OptionId::TrueViews, "3")],
+        "the same with three",
+    ),
+    row(
+        "hybrid-4",
+        &[HYBRID, (OptionId::TrueViews, "4")],
+        "the same with four",
     ),
     row(
         "replay-layers",

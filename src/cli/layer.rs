@@ -38,7 +38,7 @@ pub(crate) struct LayerArguments {
     /// How draws are repeated per view [default: auto]
     #[arg(
         long,
-        value_name = "auto|replay|instanced|geometry|depth-image|occlusion"
+        value_name = "auto|replay|instanced|geometry|depth-image|occlusion|hybrid"
     )]
     strategy: Option<String>,
     /// Where the views lie in memory [default: side-by-side]
@@ -47,9 +47,15 @@ pub(crate) struct LayerArguments {
     /// Put the views of instanced and geometry side by side, and keep them apart so [default: views lie in layers]
     #[arg(long, value_name = "distances|discard|both|cut")]
     clip: Option<String>,
-    /// What views made by depth-image or occlusion have where nothing is known: what is behind, or magenta [default: fill]
+    /// What views that are made, not drawn, have where nothing is known: what is behind, or magenta [default: fill]
     #[arg(long, value_name = "fill|mark")]
     holes: Option<String>,
+    /// Views that --strategy hybrid draws, the others are made of them [default: as many as --fps leaves time for]
+    #[arg(long, value_name = "K", allow_hyphen_values = true)]
+    true_views: Option<String>,
+    /// Frames per second that --strategy hybrid holds by drawing fewer views [default: 60]
+    #[arg(long, value_name = "F", allow_hyphen_values = true)]
+    fps: Option<String>,
     /// Size of a view over the size of the window, above 0 and at most 1 [default: 1]
     #[arg(long, value_name = "F", allow_hyphen_values = true)]
     view_scale: Option<String>,
@@ -101,6 +107,8 @@ impl LayerArguments {
             (OptionId::Atlas, &self.atlas),
             (OptionId::Clip, &self.clip),
             (OptionId::Holes, &self.holes),
+            (OptionId::TrueViews, &self.true_views),
+            (OptionId::Fps, &self.fps),
             (OptionId::ViewScale, &self.view_scale),
             (OptionId::HudDepth, &self.hud_depth),
             (OptionId::Without, &self.without),

@@ -34,6 +34,44 @@ pub enum ConfigError {
         /// The option.
         field: Field,
     },
+    /// Views that are drawn are counted by one strategy only.
+    #[error(
+        "{field} is for the strategy hybrid; give {remedy} as 'hybrid' with it, or leave it out"
+    )]
+    NotHybrid {
+        /// The option.
+        field: Field,
+        /// The other one.
+        remedy: Field,
+    },
+    /// Either says how many views are drawn.
+    #[error("{count} and {rate} both say how many views are drawn; leave one of them out")]
+    TrueViewsAndRate {
+        /// The number of views.
+        count: Field,
+        /// The rate.
+        rate: Field,
+    },
+    /// No number of views that are drawn.
+    #[error(
+        "{field} is '{value}'; give a whole number of views from 1 to {views}, as many as there are"
+    )]
+    TrueViews {
+        /// The option.
+        field: Field,
+        /// Its value.
+        value: String,
+        /// N.
+        views: u32,
+    },
+    /// No rate.
+    #[error("{field} is '{value}'; give frames per second from 1 to 1000")]
+    Rate {
+        /// The option.
+        field: Field,
+        /// Its value.
+        value: String,
+    },
     /// A view that does not exist.
     #[error("{field} asks for view {view} of {views}; views count from 0, so the last is view:{last}", last = views - 1)]
     ViewOutOfRange {

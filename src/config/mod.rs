@@ -14,6 +14,7 @@ pub mod profile;
 mod profile_tests;
 mod settings;
 mod status;
+mod strategy;
 #[cfg(test)]
 mod tests;
 
@@ -26,6 +27,7 @@ pub use options::{DISABLE, Field, LIBRARY, OPTIONS, OptionId, OptionSpec, Origin
 pub use profile::{Profile, Rule};
 pub use settings::{Setting, Settings};
 pub use status::Status;
+pub use strategy::{Behind, Strategy, TrueViews};
 
 use crate::display::Display;
 use std::path::{Path, PathBuf};
@@ -55,6 +57,8 @@ pub struct Config {
     pub atlas: AtlasLayout,
     /// What keeps views beside each other apart where one draw makes several; views lie in layers unless it is given.
     pub clip: Option<Clip>,
+    /// How many views are drawn where the others are made of them.
+    pub true_views: TrueViews,
     /// Holes of views that are made of depths are magenta.
     pub marks_holes: bool,
     /// Size of a tile over the size of the window.
@@ -82,13 +86,6 @@ pub struct Config {
 }
 
 impl Config {
-    /// Whether views are made of the program's own instead of drawn; true: with an occlusion camera.
-    #[must_use]
-    pub fn synthesis(&self) -> Option<bool> {
-        let made = self.strategy.synthesises() && self.views > 1;
-        made.then_some(self.strategy == Strategy::Occlusion)
-    }
-
     /// Reads the `MANYVIEW_*` variables through `lookup`, the TOML file that they name, and the profile for this process's program.
     pub fn from_env(lookup: impl Fn(&str) -> Option<String>) -> Result<Self, ConfigError> {
         let mut settings = Settings::from_env(&lookup)?;
@@ -260,45 +257,6 @@ pub enum Kept {
     EyeSpacing(f64),
     /// ξ, positive
     FocalDepth(f64),
-}
-
-/// How a draw call is repeated for the views.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Strategy {
-    /// The one that draws the program fastest.
-    Auto,
-    /// The draw itself again, per view.
-    Replay,
-    /// One instanced draw with a generated vertex shader.
-    Instanced,
-    /// One draw through a generated geometry shader.
-    Geometry,
-    /// The scene once, and the other views by its depths.
-    DepthImage,
-    /// The same, with what an occlusion camera sees behind what is in front.
-    Occlusion,
-}
-
-impl Strategy {
-    /// Views are made of the program's own, and not drawn.
-    #[must_use]
-    pub fn synthesises(self) -> bool {
-        matches!(self, Strategy::DepthImage | Strategy::Occlusion)
-    }
-
-    /// By its name.
-    #[must_use]
-    pub fn named(name: &str) -> Option<Strategy> {
-        let all = parse::STRATEGIES.iter();
-        all.copied().find(|s| s.0 == name).map(|s| s.1)
-    }
-}
-
-impl std::fmt::Display for Strategy {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let named = parse::STRATEGIES.iter().find(|s| s.1 == *self);
-        f.write_str(named.map_or("", |s| s.0))
-    }
 }
 
 /// Work that is left out where a scene does not need it.

@@ -40,6 +40,10 @@ pub enum OptionId {
     Clip,
     /// What is seen where nothing is known of what is behind.
     Holes,
+    /// Views that are drawn while others are made of them.
+    TrueViews,
+    /// Frames per second that the number of views drawn follows.
+    Fps,
     /// Tile size over window size.
     ViewScale,
     /// Depth of flat draws.
@@ -139,14 +143,18 @@ pub const OPTIONS: &[OptionSpec] = &[
         "clip-space w of zero parallax; with --separation"),
     option!(AutoDepth, Some("auto-depth"), Some("auto-depth"), "MANYVIEW_AUTO_DEPTH", "0|1", No,
         "place the cameras by the depths of each frame, within what the display can show; one of the four values above may be given with it"),
-    option!(Strategy, Some("strategy"), Some("strategy"), "MANYVIEW_STRATEGY", "auto|replay|instanced|geometry|depth-image", No,
+    option!(Strategy, Some("strategy"), Some("strategy"), "MANYVIEW_STRATEGY", "auto|replay|instanced|geometry|depth-image|occlusion|hybrid", No,
         "how draws are repeated per view; auto unless given"),
     option!(Atlas, Some("atlas"), Some("atlas"), "MANYVIEW_ATLAS", "side-by-side|layers", No,
         "where the views lie in memory; side-by-side unless given"),
     option!(Clip, Some("clip"), Some("clip"), "MANYVIEW_CLIP", "distances|discard|both|cut", No,
         "put the views of instanced and geometry side by side, and keep them apart so; views lie in layers unless given"),
     option!(Holes, Some("holes"), Some("holes"), "MANYVIEW_HOLES", "fill|mark", No,
-        "what views made by depth-image have where nothing is known: what is behind, or magenta; fill unless given"),
+        "what views that are made have where nothing is known: what is behind, or magenta; fill unless given"),
+    option!(TrueViews, Some("true-views"), Some("true-views"), "MANYVIEW_TRUE_VIEWS", "K", No,
+        "views that hybrid draws, the others are made of them; as many as --fps leaves time for unless given"),
+    option!(Fps, Some("fps"), Some("fps"), "MANYVIEW_FPS", "F", No,
+        "frames per second that hybrid holds by drawing fewer views; 60 unless given"),
     option!(ViewScale, Some("view-scale"), Some("view-scale"), "MANYVIEW_VIEW_SCALE", "F", No,
         "size of a view over that of the window, from 0.05 to 1, or auto: as much as the output shows; 1 unless given"),
     option!(HudDepth, Some("hud-depth"), Some("hud-depth"), "MANYVIEW_HUD_DEPTH", "D", No,
@@ -286,6 +294,6 @@ mod tests {
         for row in OPTIONS {
             assert_eq!(row.id.spec().variable, row.variable);
         }
-        assert_eq!(OPTIONS.len(), 29, "a new option needs a row");
+        assert_eq!(OPTIONS.len(), 31, "a new option needs a row");
     }
 }

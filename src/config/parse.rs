@@ -6,8 +6,8 @@ use super::options::{Field, OptionId, Origin};
 use super::settings::Settings;
 use super::{
     Anaglyph, AtlasLayout, Camera, Capture, CaptureWhat, Clip, Config, Explain, Filter, Glasses,
-    Interlace, Kept, MAX_VIEWS, Mixture, Output, Profile, Saving, Strategy, ViewScale, Without,
-    panel, profile,
+    Interlace, Kept, MAX_VIEWS, Mixture, Output, Profile, Saving, ViewScale, Without, panel,
+    profile, strategy,
 };
 use crate::display::{Display, Kind, MAX_FINE_VIEWS, MaskError};
 use std::fmt;
@@ -22,18 +22,14 @@ impl Config {
         let output = output(settings, &display)?;
         let views = views(settings, &display, output)?;
         check_output(settings, output, views)?;
+        let strategy = strategy::chosen(settings)?;
         Ok(Self {
             views,
             output,
             filter: filter(settings, views)?,
             camera: camera(settings)?,
-            strategy: choice(
-                settings,
-                OptionId::Strategy,
-                STRATEGIES,
-                "auto, replay, instanced, geometry, depth-image and occlusion",
-            )?
-            .unwrap_or(Strategy::Auto),
+            strategy,
+            true_views: strategy::true_views(settings, strategy, views)?,
             atlas: choice(
                 settings,
                 OptionId::Atlas,
@@ -64,15 +60,6 @@ impl Config {
         })
     }
 }
-
-pub(super) const STRATEGIES: &[(&str, Strategy)] = &[
-    ("auto", Strategy::Auto),
-    ("replay", Strategy::Replay),
-    ("instanced", Strategy::Instanced),
-    ("geometry", Strategy::Geometry),
-    ("depth-image", Strategy::DepthImage),
-    ("occlusion", Strategy::Occlusion),
-];
 
 const HOLES: &[(&str, bool)] = &[("fill", false), ("mark", true)];
 
@@ -305,7 +292,7 @@ fn one_view(
     Ok(view)
 }
 
-fn choice<T: Copy>(
+pub(super) fn choice<T: Copy>(
     settings: &Settings,
     id: OptionId,
     table: &[(&str, T)],

@@ -1,6 +1,8 @@
 //! What the depths of a picture are, for views that are made of it; `shaders/field.wgsl` says how.
 #![forbid(unsafe_code)]
 
+use super::Sources;
+
 /// Heights of the samples of a picture, in pixels by which they stand before what is infinitely far for a camera one place further:
 /// `height = scale·depth + offset`, where the lever of a camera is how many places it stands to the side.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -21,33 +23,63 @@ pub struct Heights {
     pub margin: f32,
     /// The view that is made, and the left edge of its tile in pixels.
     pub aim: (u32, u32),
+    /// The views that are drawn; none where it is the own one alone.
+    pub sources: Option<Sources>,
+    /// Where what is looked at lies.
+    pub places: Places,
     /// Holes are marked instead of filled.
     pub marked: bool,
     /// Of an occlusion camera: the pixels that it reaches behind at most.
     pub reach: f32,
 }
 
+/// Where the pictures lie that views are made of.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Places {
+    /// In their tiles.
+    #[default]
+    Tiles,
+    /// In copies, one to a layer.
+    Copies,
+    /// While one of them is measured: its left edge and its layer, and which it is.
+    One([u32; 3]),
+}
+
 /// Lower than everything; as `shaders/field.wgsl` has it.
 const NOTHING: f32 = -1.0e6;
 
 impl Heights {
-    /// The lever of a view.
-    fn lever(&self, view: u32) -> f32 {
-        self.levers[0] + view as f32 * self.levers[1]
+    /// The longest lever of a view of the picture that is looked at.
+    fn longest(&self, views: u32) -> f32 {
+        let [first, step] = self.levers;
+        match (&self.sources, self.places) {
+            (Some(sources), Places::One([.., i])) => sources.farthest(i, views) as f32 * step.abs(),
+            _ => first
+                .abs()
+                .max((first + (views.max(1) - 1) as f32 * step).abs()),
+        }
     }
 
-    /// `field`, `lever`, `aim` and `bend` of `shaders/common.wgsl`.
-    pub(super) fn rows(&self, views: u32) -> [[f32; 4]; 4] {
+    /// `field`, `lever`, `aim`, `bend` and those of the sources of `shaders/common.wgsl`.
+    pub(super) fn rows(&self, views: u32) -> [[f32; 4]; 6] {
         let [first, step] = self.levers;
         let clear = if self.sky { 0.0 } else { NOTHING };
         let (view, left) = self.aim;
-        let ends = [0, views.max(1) - 1].map(|view| self.lever(view).abs());
+        let [left_edge, layer, field] = match self.places {
+            Places::Tiles => [0; 3],
+            Places::Copies => [1, 0, 0],
+            Places::One(place) => place,
+        }
+        .map(|n| n as f32);
+        let [low, high] = self.sources.map_or([[0.0; 4]; 2], |sources| sources.rows());
         let marked = f32::from(u8::from(self.marked));
         [
             [self.scale, self.offset, self.far, self.clear],
             [first, step, clear, self.margin],
-            [self.lever(view), left as f32, marked, ends[0].max(ends[1])],
-            [self.reach, 0.0, 0.0, 0.0],
+            [view as f32, left as f32, marked, self.longest(views)],
+            [self.reach, left_edge, layer, field],
+            low,
+            high,
         ]
     }
 }

@@ -7,7 +7,7 @@ use super::shader::{
 use super::sheet::{self, Sheet};
 use super::{Depth, Form, Heights, Layout, Program, reference, rgbd};
 use crate::atlas::{BentTextures, FieldTextures, Names, Shown, Tiles};
-use crate::config::{Config, Filter, Output};
+use crate::config::{Behind, Config, Filter, Output};
 use crate::display::{Display, GUARD, Lens, Mask, Placement};
 use crate::gl::{Gl, consts as c};
 use image::RgbImage;
@@ -111,9 +111,9 @@ fn reserve(gl: &Gl, names: &mut Names) -> u32 {
 }
 
 impl Interleaver {
-    /// Compiles the passes, with `synthesis` also those from the own view, and the reference image if that is true. Where that fails the CPU takes over and
+    /// Compiles the passes, with `synthesis` also those that make a panel's picture of views that are drawn. Where that fails the CPU takes over and
     /// [`Interleaver::note`] says why.
-    pub fn new(gl: &Gl, names: &mut Names, glsl: u32, synthesis: Option<bool>) -> Self {
+    pub fn new(gl: &Gl, names: &mut Names, glsl: u32, synthesis: Option<Behind>) -> Self {
         let mut i = Interleaver {
             vertex_array: 0,
             programs: Vec::new(),
@@ -125,7 +125,11 @@ impl Interleaver {
             cpu: None,
         };
         let panels = Synthesis::ALL.into_iter().filter(|pass| match pass {
-            Synthesis::Panel { bent, .. } => synthesis == Some(*bent),
+            // There is no reference image in the first frame.
+            Synthesis::Panel { behind, .. } => {
+                synthesis == Some(*behind)
+                    || (synthesis, *behind) == (Some(Behind::Reference), Behind::Nothing)
+            }
             _ => false,
         });
         let panels = panels.map(Pass::Synthesis);
@@ -278,11 +282,11 @@ impl Interleaver {
     /// The pass that makes a picture; where it needs the mask, that is bound.
     fn pass(&mut self, gl: &Gl, of: Of, form: &Form, source: &Source, size: [u32; 2]) -> Pass {
         let tiles = &source.tiles;
-        if let Some((textures, _)) = source.field
+        if let Some((textures, heights)) = source.field
             && let Some(Uploaded { whole, .. }) = self.upload(gl, of, None, None)
         {
-            let bent = textures.bent.is_some();
-            return Pass::Synthesis(Synthesis::Panel { whole, bent });
+            let behind = textures.behind(heights.sources.is_some());
+            return Pass::Synthesis(Synthesis::Panel { whole, behind });
         }
         let texels = tiles.grid.is_full() && [tiles.width, tiles.height] == size;
         let filter = match form {

@@ -16,15 +16,17 @@ pub mod quilt;
 pub mod reference;
 pub mod shader;
 mod sheet;
+mod sources;
 #[cfg(test)]
 mod tests;
 
 pub use anaglyph::Matrix;
 pub use depth::{Depth, rgbd};
-pub use field::Heights;
+pub use field::{Heights, Places};
 pub use gpu::{Glass, Interleaver, Source, bind_bent, glsl_version};
 pub use layout::Layout;
 pub use program::Program;
+pub use sources::Sources;
 
 use crate::atlas::Grid;
 use crate::config::{Anaglyph, Config, Filter, Interlace, Output};

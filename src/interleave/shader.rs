@@ -9,7 +9,7 @@ use super::Layout;
 use super::anaglyph::Matrix;
 use super::field::Heights;
 use crate::atlas::Grid;
-use crate::config::Filter;
+use crate::config::{Behind, Filter};
 use naga::back::glsl;
 use naga::valid::{Capabilities, ValidationFlags, Validator};
 
@@ -27,6 +27,7 @@ const FIELD: &str = include_str!("../../shaders/field.wgsl");
 const SYNTHESIS: &str = include_str!("../../shaders/synthesis.wgsl");
 const VIEW: &str = include_str!("../../shaders/view.wgsl");
 const PLAIN: &str = include_str!("../../shaders/plain.wgsl");
+const BETWEEN: &str = include_str!("../../shaders/between.wgsl");
 const BENT: &str = include_str!("../../shaders/bent.wgsl");
 const BENDS: &str = include_str!("../../shaders/bends.wgsl");
 const THROUGH: &str = include_str!("../../shaders/through.wgsl");
@@ -110,17 +111,14 @@ pub enum Synthesis {
     Splats,
     /// The distortion map of an occlusion camera.
     Bends,
-    /// One view, with depths.
-    View {
-        /// What is hidden is looked for in the reference image of an occlusion camera.
-        bent: bool,
-    },
+    /// One view, with depths, and what is known of what is hidden.
+    View(Behind),
     /// The panel's picture, through a mask of views; of one view for each pixel, where the mask is `whole`.
     Panel {
         /// Red, green and blue show the same view.
         whole: bool,
         /// As for a view.
-        bent: bool,
+        behind: Behind,
     },
 }
 
@@ -161,23 +159,26 @@ impl Pass {
 
 impl Synthesis {
     /// All of them.
-    pub const ALL: [Self; 12] = [
+    pub const ALL: [Self; 15] = [
         Self::Peaks,
         Self::Tops,
         Self::Range,
         Self::Steps,
         Self::Splats,
         Self::Bends,
-        Self::View { bent: false },
-        Self::View { bent: true },
-        Self::panel(false, false),
-        Self::panel(false, true),
-        Self::panel(true, false),
-        Self::panel(true, true),
+        Self::View(Behind::Nothing),
+        Self::View(Behind::Reference),
+        Self::View(Behind::Views),
+        Self::panel(false, Behind::Nothing),
+        Self::panel(false, Behind::Reference),
+        Self::panel(false, Behind::Views),
+        Self::panel(true, Behind::Nothing),
+        Self::panel(true, Behind::Reference),
+        Self::panel(true, Behind::Views),
     ];
 
-    const fn panel(whole: bool, bent: bool) -> Self {
-        Self::Panel { whole, bent }
+    const fn panel(whole: bool, behind: Behind) -> Self {
+        Self::Panel { whole, behind }
     }
 }
 
@@ -331,13 +332,13 @@ pub struct Uniforms {
 
 impl Uniforms {
     /// In the order and alignment of the WGSL struct.
-    pub fn words(&self) -> [u32; 72] {
+    pub fn words(&self) -> [u32; 80] {
         let [tile_x, tile_y] = self.tile;
         let [out_x, out_y] = self.picture;
         let (grid_x, grid_y) = self.layout.grid(self.views);
         let (columns, views) = (self.columns.max(1), self.views.max(1));
         let [period_x, period_y] = self.period.map(|p| p.max(1));
-        let mut words = [0; 72];
+        let mut words = [0; 80];
         let whole = [
             tile_x,
             tile_y,
@@ -520,7 +521,7 @@ fn entry(pass: Pass) -> &'static str {
         Pass::Synthesis(Synthesis::Steps) => "steps",
         Pass::Synthesis(Synthesis::Splats) => "splats",
         Pass::Synthesis(Synthesis::Bends) => "bends",
-        Pass::Synthesis(Synthesis::View { .. }) => "view",
+        Pass::Synthesis(Synthesis::View(_)) => "view",
         Pass::Synthesis(Synthesis::Panel { whole: false, .. }) => "panel_subpixels",
         Pass::Synthesis(Synthesis::Panel { whole: true, .. }) => "panel_pixels",
     }
@@ -540,11 +541,11 @@ fn source(pass: Pass) -> String {
         Pass::Synthesis(Synthesis::Steps | Synthesis::Splats | Synthesis::Bends) => {
             [COVER, COMMON, ATLAS, FIELD, PLAIN, BENDS].join("\n")
         }
-        Pass::Synthesis(Synthesis::Panel { bent, .. }) => {
-            [COVER, COMMON, ATLAS, MASK, FIELD, behind(bent), THROUGH].join("\n")
+        Pass::Synthesis(Synthesis::Panel { behind, .. }) => {
+            [COVER, COMMON, ATLAS, MASK, FIELD, hidden(behind), THROUGH].join("\n")
         }
-        Pass::Synthesis(Synthesis::View { bent }) => {
-            [COVER, COMMON, ATLAS, FIELD, behind(bent), VIEW].join("\n")
+        Pass::Synthesis(Synthesis::View(behind)) => {
+            [COVER, COMMON, ATLAS, FIELD, hidden(behind), VIEW].join("\n")
         }
         Pass::Synthesis(Synthesis::Peaks | Synthesis::Tops | Synthesis::Range) => {
             [COVER, COMMON, ATLAS, FIELD, PLAIN, SYNTHESIS].join("\n")
@@ -553,6 +554,10 @@ fn source(pass: Pass) -> String {
 }
 
 /// What is known of what is hidden.
-fn behind(bent: bool) -> &'static str {
-    if bent { BENT } else { PLAIN }
+fn hidden(behind: Behind) -> &'static str {
+    match behind {
+        Behind::Nothing => PLAIN,
+        Behind::Reference => BENT,
+        Behind::Views => BETWEEN,
+    }
 }

@@ -4,7 +4,7 @@
 use super::reference::{ReferenceError, anaglyph, arrange, filtered, interleave};
 use super::shader::*;
 use super::*;
-use crate::config::{Filter, Glasses, Mixture};
+use crate::config::{Behind, Filter, Glasses, Mixture};
 use crate::display::{Display, GUARD, Mask, Placement};
 use image::{GrayImage, Rgb, RgbImage, Rgba, RgbaImage};
 use proptest::prelude::*;
@@ -221,7 +221,7 @@ fn every_pass_translates_for_every_version() {
             for texture in &fragment.textures {
                 assert!(fragment.source.contains(&format!(" {};", texture.name)));
             }
-            assert_eq!(fragment.uniforms.len(), 27);
+            assert_eq!(fragment.uniforms.len(), 29);
             assert!(!fragment.source.contains("std140"), "no uniform block");
 
             let vertex = translate(pass, Stage::Vertex, version).unwrap();
@@ -273,6 +273,8 @@ fn uniforms_are_found_by_name() {
             margin: 27.0,
             aim: (2, 28),
             marked: true,
+            sources: Some(Sources::spread(1, 3, 2)),
+            places: Places::One([31, 32, 0]),
             reach: 30.0,
         },
     };
@@ -321,14 +323,20 @@ fn uniforms_are_found_by_name() {
     let rows = [
         [21.0f32, 22.0, 23.0, 24.0],
         [25.0, 26.0, 0.0, 27.0],
-        [77.0, 28.0, 1.0, 259.0],
-        [30.0, 0.0, 0.0, 0.0],
+        [2.0, 28.0, 1.0, 208.0],
+        [30.0, 31.0, 32.0, 0.0],
+        [1.0, 2.0, 1e9, 1e9],
+        [1e9; 4],
     ];
-    for (at, (name, row)) in ["field", "lever", "aim", "bend"]
-        .into_iter()
-        .zip(rows)
-        .enumerate()
-    {
+    let names = [
+        "field",
+        "lever",
+        "aim",
+        "bend",
+        "sources_low",
+        "sources_high",
+    ];
+    for (at, (name, row)) in names.into_iter().zip(rows).enumerate() {
         assert_eq!(of[23 + at], (name, &row.map(f32::to_bits)[..]));
     }
 }
@@ -478,10 +486,16 @@ fn every_pass_of_synthesis_translates_for_every_version() {
             Synthesis::Steps => &[DEPTH_UNIT],
             Synthesis::Splats => &[5],
             Synthesis::Bends => &[2, 5, 6],
-            Synthesis::View { bent: false } => &[0, 2, 3, 4],
-            Synthesis::View { bent: true } => &[0, 2, 3, 4, 5, 6, 7, 8],
-            Synthesis::Panel { bent: false, .. } => &[0, 1, 2, 3, 4],
-            Synthesis::Panel { bent: true, .. } => &[0, 1, 2, 3, 4, 5, 6, 7, 8],
+            Synthesis::View(Behind::Nothing | Behind::Views) => &[0, 2, 3, 4],
+            Synthesis::View(Behind::Reference) => &[0, 2, 3, 4, 5, 6, 7, 8],
+            Synthesis::Panel {
+                behind: Behind::Nothing | Behind::Views,
+                ..
+            } => &[0, 1, 2, 3, 4],
+            Synthesis::Panel {
+                behind: Behind::Reference,
+                ..
+            } => &[0, 1, 2, 3, 4, 5, 6, 7, 8],
         };
         for version in GlslVersion::SUPPORTED {
             let got = translate(Pass::Synthesis(pass), Stage::Fragment, version).unwrap();

@@ -131,7 +131,7 @@ impl Layer {
         let captured = self.config.capture.as_ref().map(|capture| capture.what);
         self.alike.same == EVERYTHING
             && self.config.views > 1
-            && !self.config.strategy.synthesises()
+            && self.config.strategy.behind().is_none()
             && !self.config.without.has(Saving::Alike)
             && self.support.shares
             && self.atlas.tiles.grid.is_full()

@@ -291,7 +291,11 @@ impl Layer {
     /// all draws go the same way. A pass before that one, in the program's first frame, is not made again.
     fn keep_together(&mut self, gl: &Gl) {
         let alike = match self.means.strategy {
-            Strategy::Replay | Strategy::Auto | Strategy::DepthImage | Strategy::Occlusion => true,
+            Strategy::Replay
+            | Strategy::Auto
+            | Strategy::DepthImage
+            | Strategy::Occlusion
+            | Strategy::Hybrid => true,
             Strategy::Instanced => self.config.clip.is_none() && self.support.layers(),
             Strategy::Geometry => false,
         };

@@ -193,7 +193,10 @@ impl Layer {
 
     /// Counts the frame and writes the report where one is asked for.
     pub fn count_frame(&mut self) {
-        self.report.frame();
+        if let (Some(ms), Some(drawn)) = (self.report.frame(), self.synthesis.number()) {
+            self.report.drew(ms, drawn);
+            self.synthesis.follow(ms);
+        }
         self.report.memory(self.atlas.bytes);
         for (reason, count) in self.fallbacks.take() {
             self.report.fallbacks(&reason, count);

@@ -161,8 +161,11 @@ impl Layer {
 
     /// The views that the next frame is drawn in.
     pub(super) fn shown(&self) -> Shown {
-        if self.rests() || self.synthesis.is_on() {
+        if self.rests() {
             return [].into_iter().collect();
+        }
+        if self.synthesis.is_on() {
+            return self.synthesis.drawn();
         }
         self.wanted_views()
     }

@@ -1,16 +1,19 @@
-//! `--strategy depth-image`: the scene goes to the program's own view alone, and the others are made of it and its depths.
+//! `--strategy depth-image`: the scene goes to the program's own view alone, and the others are made of it and its depths. `hybrid`: it goes
+//! to some views, and the others are made of those beside them.
 //!
-//! From a clear of the depths on, what is drawn in perspective, opaque, by one projection, is in the own view only. Before anything else (the
+//! From a clear of the depths on, what is drawn in perspective, opaque, by one projection, is in these views only. Before anything else (the
 //! HUD, glass, another clear, a copy of the frame) the views are made into their tiles, depths as well, and all that follows is drawn in each of
 //! them. Where nothing else follows, the panel's picture is made straight from the own view.
 
 use super::occlusion::{Bent, REACH};
-use super::{Layer, keep_bindings};
-use crate::atlas::FieldTextures;
-use crate::config::{CaptureWhat, Class, Config, DepthState, Filter, Output, Viewport};
+use super::{Layer, as_they_are, keep_bindings};
+use crate::atlas::{FieldTextures, Shown};
+use crate::config::{
+    Behind, CaptureWhat, Class, Config, DepthState, Filter, Output, TrueViews, Viewport,
+};
 use crate::gl::{Gl, consts as c};
-use crate::interleave::Heights;
-use crate::plan::{Classed, Kind, Method, Plan, Ramp, Reason, Shear};
+use crate::interleave::{Heights, Places, Sources};
+use crate::plan::{Classed, Governor, Kind, Method, Plan, Ramp, Reason, Shear};
 use crate::present::Saved;
 use crate::state::{BACK, Touch};
 use crate::synthesis::Passes;
@@ -46,8 +49,12 @@ pub(super) struct Look {
 pub(super) struct Synthesis {
     /// Made when the strategy is asked for; none where the driver cannot.
     pub(super) passes: Option<Passes>,
-    /// Only the own view is drawn.
+    /// Only the own view is drawn, or some views.
     scene: Option<Scene>,
+    /// These, of this scene.
+    sources: Option<Sources>,
+    /// How many they are.
+    number: Number,
     /// The views of this frame are made.
     done: bool,
     pub(super) bent: Bent,
@@ -55,12 +62,45 @@ pub(super) struct Synthesis {
     pub(super) field: Option<(FieldTextures, Heights)>,
 }
 
+/// How many views are drawn.
+#[derive(Debug, Default)]
+enum Number {
+    /// The own one alone, and nothing is known of what it hides.
+    #[default]
+    One,
+    /// Always as many, those that others are made of.
+    Fixed(u32),
+    /// As the rate has it.
+    Governed(Governor),
+}
+
+impl Number {
+    fn of(config: &Config) -> Number {
+        match (config.synthesis(), config.true_views) {
+            (Some(Behind::Views), TrueViews::Fixed(count)) => Number::Fixed(count),
+            (Some(Behind::Views), TrueViews::Rate(rate)) => {
+                Number::Governed(Governor::new(rate, config.views, Sources::MOST))
+            }
+            _ => Number::One,
+        }
+    }
+
+    /// None where it is the own one alone.
+    fn views(&self) -> Option<u32> {
+        match self {
+            Number::One => None,
+            Number::Fixed(count) => Some(*count),
+            Number::Governed(governor) => Some(governor.level()),
+        }
+    }
+}
+
 impl Synthesis {
     /// Where the user has asked for it; and what hinders it.
     pub(super) fn new(gl: &Gl, config: &Config, glsl: u32) -> (Synthesis, Option<String>) {
         let passes = config
             .synthesis()
-            .map(|bent| Passes::new(gl, glsl, bent))
+            .map(|behind| Passes::new(gl, glsl, behind))
             .transpose();
         let (passes, note) = match passes {
             Ok(passes) => (passes, None),
@@ -68,6 +108,7 @@ impl Synthesis {
         };
         let synthesis = Synthesis {
             passes,
+            number: Number::of(config),
             ..Synthesis::default()
         };
         (synthesis, note)
@@ -78,14 +119,32 @@ impl Synthesis {
         self.passes.iter().flat_map(Passes::programs)
     }
 
-    /// Whether only the own view is drawn.
+    /// Whether only some views are drawn.
     pub(super) fn is_on(&self) -> bool {
         self.scene.is_some()
+    }
+
+    /// They, beside the own one.
+    pub(super) fn drawn(&self) -> Shown {
+        let sources = self.sources.iter();
+        sources.flat_map(|sources| sources.iter()).collect()
+    }
+
+    /// How many views a frame draws of those that others are made of; none where it is the own one alone.
+    pub(super) fn number(&self) -> Option<u32> {
+        self.passes.as_ref().and_then(|_| self.number.views())
+    }
+
+    /// A frame took so many milliseconds.
+    pub(super) fn follow(&mut self, ms: f32) {
+        if let Number::Governed(governor) = &mut self.number {
+            governor.frame(ms);
+        }
     }
 }
 
 impl Layer {
-    /// Before a draw that is planned: it goes to the own view alone, or the views are made.
+    /// Before a draw that is planned: it goes to the views that are drawn alone, or the others are made.
     pub(super) fn keep_own(&mut self, gl: &Gl, kind: Kind, plan: &Plan, classed: &Classed) {
         self.synthesis.bent.next = None;
         let drawn = plan.method != Method::Once && self.state.draws_to_window();
@@ -119,12 +178,16 @@ impl Layer {
 
     /// A clear begins a scene, or ends it.
     fn clear_own(&mut self, gl: &Gl, whole: u32) {
+        let unscissored = self.clears_all(gl);
         let all = whole & c::DEPTH_BUFFER_BIT != 0
-            && self.clears_all(gl)
+            && unscissored
             && gl.get_integer(c::DEPTH_WRITEMASK) != 0;
+        let colours = whole & c::COLOR_BUFFER_BIT != 0
+            && unscissored
+            && gl.get_integers::<4>(c::COLOR_WRITEMASK) == [1; 4];
         if let Some(scene) = self.synthesis.scene
             && scene.begun
-            && !(all && scene.shown)
+            && !((all || colours) && scene.shown)
         {
             self.fallbacks.add(Reason::Parted("another clear"));
             return self.make_views(gl);
@@ -135,11 +198,23 @@ impl Layer {
         // What was shown last is no more.
         self.synthesis.scene = None;
         self.part(gl);
+        let (own, views) = (self.atlas.tiles.own(), self.config.views);
+        let count = self.synthesis.number();
+        self.synthesis.sources = count.map(|count| Sources::spread(own, views, count));
         self.synthesis.scene = Some(Scene {
             clear: gl.get_floats::<1>(c::DEPTH_CLEAR_VALUE)[0],
             ..Scene::default()
         });
         self.atlas.tiles.shown = self.shown();
+        // Views that were not drawn in the last frame have nothing to draw on.
+        if self.synthesis.sources.is_some() && !colours {
+            self.queries.pause(gl);
+            as_they_are(gl, || {
+                self.reading(gl, BACK, |layer| layer.atlas.share_own(gl));
+            });
+            self.rebind(gl);
+            self.queries.resume(gl);
+        }
         self.begin_bent(gl);
     }
 
@@ -159,6 +234,10 @@ impl Layer {
             && self.accumulated.buffer.is_none()
             && !self.has_copies()
             && !self.live.flat
+            && self
+                .synthesis
+                .number()
+                .is_none_or(|n| n < self.config.views)
     }
 
     /// Whether a draw belongs to the scene of the own view; else what it is instead.
@@ -254,7 +333,12 @@ impl Layer {
     /// The state is as [`Saved::take`] leaves it; changes the framebuffers that are bound.
     fn make_of(&mut self, gl: &Gl, scene: &Scene, look: &Look) {
         let heights = self.heights(scene, look);
-        self.atlas.take_field(gl);
+        self.resolve_sources(gl);
+        let (sources, own) = (self.synthesis.sources, self.atlas.tiles.own());
+        match sources {
+            Some(sources) => self.atlas.take_field(gl, sources.iter()),
+            None => self.atlas.take_field(gl, [own].into_iter()),
+        }
         let Some(textures) = self.measure(gl, &heights, true) else {
             return self.atlas.share_own(gl);
         };
@@ -288,7 +372,12 @@ impl Layer {
             return self.synthesis.passes.is_some();
         }
         let (names, window) = (&mut self.names, &self.state.window);
-        let made = keep_bindings(gl, || self.atlas.make_field(gl, names, window));
+        let layers = match &self.synthesis.number {
+            Number::One => 1,
+            Number::Fixed(count) => *count,
+            Number::Governed(_) => Sources::MOST.min(self.config.views),
+        };
+        let made = keep_bindings(gl, || self.atlas.make_field(gl, names, window, layers));
         if !made {
             self.synthesis.passes = None;
             self.report
@@ -297,7 +386,14 @@ impl Layer {
         made
     }
 
-    /// Learns of the own view, or of its copy, what views of it need; and the map for the next frame.
+    /// Only with what views are made of, colours and depths.
+    fn resolve_sources(&mut self, gl: &Gl) {
+        let only_own = self.synthesis.sources.is_none();
+        let both = c::COLOR_BUFFER_BIT | c::DEPTH_BUFFER_BIT;
+        self.atlas.resolve(gl, only_own, both);
+    }
+
+    /// Learns of the views that are drawn, or of their copies, what others need of them; and the map for the next frame.
     fn measure(&mut self, gl: &Gl, heights: &Heights, copied: bool) -> Option<FieldTextures> {
         let mut textures = self.atlas.field(copied)?;
         let passes = self.synthesis.passes.as_ref()?;
@@ -334,6 +430,8 @@ impl Layer {
             levers: levers.map(|lever| lever as f32),
             margin: (-scale.signum() * MARGIN * step) as f32,
             aim: (0, 0),
+            sources: self.synthesis.sources,
+            places: Places::Tiles,
             marked: self.config.marks_holes,
             reach: REACH,
         }
@@ -353,8 +451,7 @@ impl Layer {
         match scene.look {
             Some(look) if straight && self.has_field(gl) => {
                 let heights = self.heights(&scene, &look);
-                self.atlas
-                    .resolve(gl, true, c::COLOR_BUFFER_BIT | c::DEPTH_BUFFER_BIT);
+                self.resolve_sources(gl);
                 if let Some(textures) = self.measure(gl, &heights, false) {
                     self.synthesis.field = Some((textures, heights));
                     self.report.synthesised(true);

@@ -6,6 +6,7 @@ pub mod class;
 pub mod comfort;
 pub mod depths;
 pub mod frustum;
+mod governor;
 pub mod parallax;
 pub mod trial;
 
@@ -15,6 +16,7 @@ pub use class::{Classed, Classifier, Facts};
 pub use comfort::Comfort;
 pub use depths::{Ramp, Ways};
 pub use frustum::Bounds;
+pub use governor::Governor;
 pub use parallax::{Rig, Shear};
 pub use trial::Trial;
 
@@ -180,7 +182,11 @@ fn magnified(state: &State) -> f64 {
 fn method(kind: Kind, state: &State, means: &Means) -> Result<Method, Option<Reason>> {
     let wish = match means.strategy {
         // `auto` is in force as one of the others, and what no view is made of is drawn in each.
-        Strategy::Replay | Strategy::Auto | Strategy::DepthImage | Strategy::Occlusion => {
+        Strategy::Replay
+        | Strategy::Auto
+        | Strategy::DepthImage
+        | Strategy::Occlusion
+        | Strategy::Hybrid => {
             return Err(None);
         }
         Strategy::Geometry => Method::Geometry,

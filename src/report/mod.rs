@@ -4,6 +4,7 @@
 mod counts;
 mod disparity;
 mod proof;
+mod walk;
 
 pub use counts::Counts;
 pub use disparity::Disparity;
@@ -14,6 +15,7 @@ use disparity::Disparities;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::time::{Duration, Instant};
+use walk::Walk;
 
 /// Counts of one program; written as JSON while it runs.
 #[derive(Debug, Default)]
@@ -21,6 +23,7 @@ pub struct Report {
     frames: u64,
     alike: u64,
     synthesised: Synthesised,
+    walk: Walk,
     frame_ms: Vec<f32>,
     /// Method and class.
     draws: Counts<(&'static str, &'static str)>,
@@ -66,6 +69,9 @@ struct Json<'a> {
     frames_drawn_once: u64,
     #[serde(skip_serializing_if = "Synthesised::is_none")]
     frames_synthesised: Synthesised,
+    /// Milliseconds and views drawn of each of the last frames.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    true_views: Option<Vec<(f32, u32)>>,
     frame_ms: FrameTimes,
     draws: BTreeMap<&'static str, u64>,
     classes: BTreeMap<&'static str, u64>,
@@ -152,11 +158,13 @@ impl Report {
         self.frames
     }
 
-    /// A frame was shown.
-    pub fn frame(&mut self) {
+    /// A frame was shown; answers the milliseconds since the one before.
+    pub fn frame(&mut self) -> Option<f32> {
         let now = Instant::now();
-        if let Some(last) = self.last_swap {
-            let ms = now.duration_since(last).as_secs_f32() * 1e3;
+        let ms = self
+            .last_swap
+            .map(|last| now.duration_since(last).as_secs_f32() * 1e3);
+        if let Some(ms) = ms {
             if self.frame_ms.len() < KEPT {
                 self.frame_ms.push(ms);
             } else if let Some(slot) = self.frame_ms.get_mut(self.frames as usize % KEPT) {
@@ -165,6 +173,12 @@ impl Report {
         }
         self.last_swap = Some(now);
         self.frames += 1;
+        ms
+    }
+
+    /// That frame drew so many of its views.
+    pub fn drew(&mut self, ms: f32, views: u32) {
+        self.walk.frame(ms, views);
     }
 
     /// Whether it is time to write: the first frames each, then ten times a second (a program gives no sign before it
@@ -225,6 +239,7 @@ impl Report {
             frames: self.frames,
             frames_drawn_once: self.alike,
             frames_synthesised: self.synthesised,
+            true_views: self.walk.json(),
             frame_ms: FrameTimes {
                 median: at(0.5),
                 p95: at(0.95),

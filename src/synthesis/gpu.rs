@@ -6,12 +6,12 @@
 //! `shaders/bent.wgsl`); that camera's map is made here as well, and has to be what [`super::Bending`] says.
 
 use crate::atlas::{Atlas, BendTarget, FieldTarget, FieldTextures, Tiles};
-use crate::config::Filter;
+use crate::config::{Behind, Filter};
 use crate::gl::{Gl, consts as c};
 use crate::interleave::shader::{
     DEPTH_UNIT, PEAKS_UNIT, Pass, RANGE_UNIT, STEPS_UNITS, Synthesis, Uniforms, VIEWS_UNIT,
 };
-use crate::interleave::{Heights, Layout, Program, bind_bent};
+use crate::interleave::{Heights, Layout, Places, Program, bind_bent};
 
 /// The passes of one context.
 #[derive(Debug)]
@@ -20,6 +20,7 @@ pub struct Passes {
     peaks: Program,
     tops: Program,
     range: Program,
+    /// Where nothing else is known of what is hidden, or several views are drawn.
     view: Program,
     bent: Option<Bent>,
 }
@@ -34,23 +35,28 @@ struct Bent {
 }
 
 impl Passes {
-    /// For a context whose shading language has this version × 100; `bent`: with those of an occlusion camera. The error is naga's or
+    /// For a context whose shading language has this version × 100; `behind`: what is to be known of what is hidden. The error is naga's or
     /// the driver's.
-    pub fn new(gl: &Gl, glsl: u32, bent: bool) -> Result<Passes, String> {
+    pub fn new(gl: &Gl, glsl: u32, behind: Behind) -> Result<Passes, String> {
         let program = |pass| Program::new(gl, glsl, Pass::Synthesis(pass));
         let camera = || {
             Ok::<_, String>(Bent {
                 steps: program(Synthesis::Steps)?,
                 splats: program(Synthesis::Splats)?,
                 map: program(Synthesis::Bends)?,
-                view: program(Synthesis::View { bent: true })?,
+                view: program(Synthesis::View(Behind::Reference))?,
             })
+        };
+        let bent = behind == Behind::Reference;
+        let plain = match behind {
+            Behind::Nothing | Behind::Reference => Behind::Nothing,
+            Behind::Views => Behind::Views,
         };
         Ok(Passes {
             peaks: program(Synthesis::Peaks)?,
             tops: program(Synthesis::Tops)?,
             range: program(Synthesis::Range)?,
-            view: program(Synthesis::View { bent: false })?,
+            view: program(Synthesis::View(plain))?,
             bent: bent.then(camera).transpose()?,
             vertex_array: gl.gen_vertex_array(),
         })
@@ -73,10 +79,9 @@ impl Passes {
             .map(Program::name)
     }
 
-    /// Learns how high the own view is, whose textures these are. State must be as
+    /// Learns how high the views are whose textures these are, the own one or all that are drawn. State must be as
     /// `present::Saved::take` leaves it; changes the framebuffers that are bound.
     pub fn measure(&self, gl: &Gl, atlas: &mut Atlas, heights: &Heights, textures: &FieldTextures) {
-        let words = uniforms(&atlas.tiles, atlas.flipped, *heights).words();
         for (unit, texture) in [
             (VIEWS_UNIT, textures.colour),
             (DEPTH_UNIT, textures.depth),
@@ -88,15 +93,26 @@ impl Passes {
         }
         gl.bind_vertex_array(self.vertex_array);
         let height = atlas.tiles.height as i32;
-        for (program, target) in [
-            (&self.peaks, FieldTarget::Peaks),
-            (&self.tops, FieldTarget::Tops),
-            (&self.range, FieldTarget::Range),
-        ] {
-            let width = atlas.enter_field(gl, target);
-            gl.viewport(0, 0, width, height);
-            program.bind(gl, &words);
-            gl.draw_arrays(c::TRIANGLES, 0, 3);
+        let own = atlas.tiles.own();
+        for layer in 0..heights.sources.map_or(1, |sources| sources.count()) {
+            let view = heights.sources.map_or(own, |sources| sources.view(layer));
+            let (row, left) = match textures.copied {
+                true => (layer, 0),
+                false => atlas.tiles.place(view),
+            };
+            let places = Places::One([left, row, layer]);
+            let heights = Heights { places, ..*heights };
+            let words = uniforms(&atlas.tiles, atlas.flipped, heights).words();
+            for (program, target) in [
+                (&self.peaks, FieldTarget::Peaks),
+                (&self.tops, FieldTarget::Tops),
+                (&self.range, FieldTarget::Range),
+            ] {
+                let width = atlas.enter_field(gl, target, layer);
+                gl.viewport(0, 0, width, height);
+                program.bind(gl, &words);
+                gl.draw_arrays(c::TRIANGLES, 0, 3);
+            }
         }
         gl.active_texture(c::TEXTURE0 + RANGE_UNIT);
         gl.bind_texture(c::TEXTURE_2D_ARRAY, textures.range);
@@ -126,18 +142,27 @@ impl Passes {
         true
     }
 
-    /// Makes the views that are shown of the copy of the own one, which has been measured: colours, and depths for what is drawn
+    /// Makes the views that are shown, and not drawn, of copies of those that are, which have been measured: colours, and depths for what is drawn
     /// after them. The depth test must pass and write everything; changes the framebuffers that are bound.
     pub fn views(&self, gl: &Gl, atlas: &mut Atlas, heights: &Heights, textures: &FieldTextures) {
         let (tiles, own) = (atlas.tiles, atlas.tiles.own());
         bind_bent(gl, textures.bent);
         let bent = self.bent.as_ref().filter(|_| textures.bent.is_some());
         let program = bent.map_or(&self.view, |bent| &bent.view);
-        for view in tiles.order().filter(|&view| view != own) {
+        let drawn = |view: u32| match &heights.sources {
+            Some(sources) => sources.has(view),
+            None => view == own,
+        };
+        let places = match textures.copied {
+            true => Places::Copies,
+            false => Places::Tiles,
+        };
+        for view in tiles.order().filter(|&view| !drawn(view)) {
             let left = atlas.enter(gl, view);
             gl.viewport(left, 0, tiles.width as i32, tiles.height as i32);
             let heights = Heights {
                 aim: (view, left as u32),
+                places,
                 ..*heights
             };
             let words = uniforms(&tiles, atlas.flipped, heights).words();

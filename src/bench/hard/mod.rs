@@ -173,6 +173,9 @@ pub fn configurations() -> impl Iterator<Item = &'static Configuration> {
         "auto",
         "depth-image",
         "occlusion",
+        "hybrid-2",
+        "hybrid-3",
+        "hybrid-4",
         "instanced-layers",
         "geometry-layers",
     ];

@@ -1,0 +1,74 @@
+// Views between several that are drawn: what the nearest of them hides, the nearest on the other side may see.
+
+// Beyond all views.
+const NO_VIEW = 1.0e9;
+
+fn source(i: i32) -> f32 {
+    return select(u.sources_low[i & 3], u.sources_high[i & 3], i > 3);
+}
+
+fn up_to(view: f32) -> i32 {
+    let one = vec4<f32>(1.0);
+    let none = vec4<f32>(0.0);
+    let low = select(none, one, u.sources_low <= vec4<f32>(view));
+    let high = select(none, one, u.sources_high <= vec4<f32>(view));
+    return i32(dot(low, one) + dot(high, one));
+}
+
+// The nearest of those that are drawn, and the nearest on its other side; beyond it where there is none. As Sources::pair in
+// src/interleave/field.rs.
+fn pair(view: f32) -> vec2<i32> {
+    let count = up_to(0.5 * NO_VIEW);
+    let right = up_to(view);
+    if right == 0 {
+        return vec2<i32>(0, min(1, count - 1));
+    }
+    if right == count {
+        return vec2<i32>(count - 1, max(count - 2, 0));
+    }
+    let left = right - 1;
+    let both = vec2<i32>(left, right);
+    return select(both, both.yx, source(right) - view < view - source(left));
+}
+
+// Looks at one of them from now on, and answers the lever that a view has of it.
+fn enter(i: i32, view: f32) -> f32 {
+    let at = source(i);
+    let s = slot(u32(at));
+    let layer = u32((f32(s) + 0.5) / f32(u.columns));
+    let left = (s - layer * u.columns) * u.stride;
+    // Copies lie one to a layer.
+    picture = Place(i32(left), i32(layer), i);
+    if u.bend.y > 0.0 {
+        picture = Place(0, i, i);
+    }
+    return (view - at) * u.lever.y;
+}
+
+fn see(view: f32, x: f32, row: i32, range: vec2<f32>) -> Seen {
+    let both = pair(view);
+    let lever = enter(both.x, view);
+    var seen = seek(x, row, lever, range_of(u32(x), row));
+    if seen.hole && both.x != both.y {
+        let first = picture;
+        let other_lever = enter(both.y, view);
+        let other = seek(x, row, other_lever, range_of(u32(x), row));
+        // What lies deeper is behind.
+        let deeper = height(other.low, row);
+        let second = picture;
+        picture = first;
+        if !other.hole || deeper < height(seen.low, row) {
+            seen = other;
+            picture = second;
+        }
+    }
+    return seen;
+}
+
+fn sample_at(x: i32, row: i32, behind: bool) -> vec3<f32> {
+    return textureLoad(views_texture, vec2<i32>(picture.left + x, row), picture.layer, 0).rgb;
+}
+
+fn sample_depth(x: i32, row: i32, behind: bool) -> f32 {
+    return depth_at(x, row);
+}

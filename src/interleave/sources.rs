@@ -1,0 +1,135 @@
+//! The views that are drawn while others are made of them.
+#![forbid(unsafe_code)]
+
+/// Some views, from left to right.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Sources {
+    views: [u32; Sources::MOST as usize],
+    count: u32,
+}
+
+impl Sources {
+    /// As many as there may be: what `shaders/between.wgsl` has room for.
+    pub const MOST: u32 = 8;
+
+    /// `count` of `views`, at least 1 and at most [`Sources::MOST`]: the own one, and each time the one that is farthest from all
+    /// before, the rightmost of them. So those of a smaller count are among those of a larger one.
+    #[must_use]
+    pub fn spread(own: u32, views: u32, count: u32) -> Sources {
+        let count = count.clamp(1, views.min(Self::MOST));
+        let mut chosen = vec![own];
+        while (chosen.len() as u32) < count {
+            let away = |view: u32| chosen.iter().map(|&c| c.abs_diff(view)).min();
+            let next = (0..views).max_by_key(|&view| away(view));
+            chosen.extend(next);
+        }
+        chosen.sort_unstable();
+        let mut views = [0; Self::MOST as usize];
+        for (place, view) in views.iter_mut().zip(&chosen) {
+            *place = *view;
+        }
+        Sources { views, count }
+    }
+
+    /// From left to right.
+    pub fn iter(&self) -> impl Iterator<Item = u32> + use<> {
+        self.views.into_iter().take(self.count as usize)
+    }
+
+    /// Whether a view is among them.
+    #[must_use]
+    pub fn has(&self, view: u32) -> bool {
+        self.iter().any(|source| source == view)
+    }
+
+    /// As many as there are.
+    #[must_use]
+    pub fn count(&self) -> u32 {
+        self.count
+    }
+
+    /// Which of them a view is made of: the nearest, the left one of two that are equally near, and the nearest on the other side of the
+    /// view, or beyond the first where there is none.
+    #[must_use]
+    pub fn pair(&self, view: u32) -> [u32; 2] {
+        let right = self.iter().filter(|&source| source <= view).count() as u32;
+        let last = self.count - 1;
+        if right == 0 {
+            return [0, last.min(1)];
+        }
+        if right > last {
+            return [last, last.saturating_sub(1)];
+        }
+        let away = |i: u32| self.view(i).abs_diff(view);
+        match away(right) < away(right - 1) {
+            true => [right, right - 1],
+            false => [right - 1, right],
+        }
+    }
+
+    /// One of them.
+    #[must_use]
+    pub fn view(&self, i: u32) -> u32 {
+        self.views.get(i as usize).copied().unwrap_or(0)
+    }
+
+    /// How many places away the farthest of `views` is that one of them is needed for.
+    #[must_use]
+    pub fn farthest(&self, i: u32, views: u32) -> u32 {
+        let made = (0..views).filter(|&view| !self.has(view));
+        let needed = made.filter(|&view| self.pair(view).contains(&i));
+        let away = needed.map(|view| self.view(i).abs_diff(view));
+        away.max().unwrap_or(0)
+    }
+
+    /// `sources_low` and `sources_high` of `shaders/common.wgsl`.
+    pub(super) fn rows(&self) -> [[f32; 4]; 2] {
+        const NO_VIEW: f32 = 1.0e9;
+        let mut rows = [[NO_VIEW; 4]; 2];
+        for (place, view) in rows.as_flattened_mut().iter_mut().zip(self.iter()) {
+            *place = view as f32;
+        }
+        rows
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn they_are_spread_and_fewer_are_among_more() {
+        let of = |count| Sources::spread(3, 8, count).iter().collect::<Vec<_>>();
+        assert_eq!(of(0), [3]);
+        assert_eq!(of(1), [3]);
+        assert_eq!(of(2), [3, 7]);
+        assert_eq!(of(3), [0, 3, 7]);
+        assert_eq!(of(4), [0, 3, 5, 7]);
+        assert_eq!(of(9), [0, 1, 2, 3, 4, 5, 6, 7]);
+        for count in 1..8 {
+            assert!(of(count).iter().all(|view| of(count + 1).contains(view)));
+        }
+        assert_eq!(Sources::spread(23, 48, 99).count(), Sources::MOST);
+    }
+
+    #[test]
+    fn a_view_is_made_of_those_beside_it() {
+        let sources = Sources::spread(3, 8, 3);
+        let pairs: Vec<_> = (0..8).map(|view| sources.pair(view)).collect();
+        let expected = [
+            [0, 1],
+            [0, 1],
+            [1, 0],
+            [1, 2],
+            [1, 2],
+            [1, 2],
+            [2, 1],
+            [2, 1],
+        ];
+        assert_eq!(pairs, expected);
+        let two = Sources::spread(3, 8, 2);
+        assert_eq!(two.pair(0), [0, 1], "no other lies to the left");
+        assert_eq!(Sources::spread(3, 8, 1).pair(5), [0, 0]);
+        assert_eq!([0, 1].map(|i| two.farthest(i, 8)), [3, 7]);
+    }
+}
