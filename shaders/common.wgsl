@@ -63,6 +63,9 @@ struct Uniforms {
     // The views that are drawn, from left to right, 8 at most, beyond all views where there are no more (see between.wgsl).
     sources_low: vec4<f32>,
     sources_high: vec4<f32>,
+    // Heights of what stands before everything, nearer than a depth: the factor, what is added, that depth, and 1 where nearer depths are
+    // larger, -1 where they are smaller; 0 where there is no such thing.
+    before: vec4<f32>,
 }
 
 var<immediate> u: Uniforms;

@@ -47,7 +47,8 @@ fn height_of(depth: f32) -> f32 {
     if is_clear(depth) {
         return u.lever.z;
     }
-    return max(u.field.x * depth + u.field.y, 0.0);
+    let line = select(u.field.xy, u.before.xy, (depth - u.before.z) * u.before.w > 0.0);
+    return max(line.x * depth + line.y, 0.0);
 }
 
 fn height(x: i32, row: i32) -> f32 {

@@ -390,3 +390,53 @@ fn a_program_that_does_not_clear_draws_on() {
         assert!(wrong <= 60, "frame {frame}: {wrong} of 3072 pixels");
     }
 }
+
+/// Quake's engines blend light with a surface by drawing it again, and draw the weapon in the hand in a part of the depth range: all of
+/// that belongs to the scene. Glass from the same arrays does not.
+#[test]
+fn another_pass_over_a_surface_has_its_depths() {
+    let program = support::compiled("over", support::Compiled::Program, &["-lEGL", "-lGL"]);
+    let folder = tempfile::tempdir().expect("a folder");
+    let expected = support::lines(&mut support::bare(&program));
+    assert_eq!(expected.matches("error 0x0").count(), 4, "{expected}");
+    for (argument, reason) in [("", None), ("glass", Some("what is transparent"))] {
+        let picture = |strategy: &str, holes: &str| {
+            let out = folder.path().join("views.png");
+            let report = folder.path().join("report.json");
+            let options = [
+                ("VIEWS", "5"),
+                ("STRATEGY", strategy),
+                ("HOLES", holes),
+                ("EYE_SPACING", "0.1"),
+                ("FOCAL_DEPTH", "5"),
+                ("REPORT", report.to_str().expect("UTF-8")),
+                ("CAPTURE_OUT", out.to_str().expect("UTF-8")),
+                ("CAPTURE_WHAT", "atlas"),
+                ("CAPTURE_FRAMES", "3"),
+            ];
+            let mut command = support::layered(&program, &options);
+            assert_eq!(support::lines(command.arg(argument)), expected);
+            let told = std::fs::read_to_string(&report).expect("a report");
+            let told: Value = serde_json::from_str(&told).expect("JSON");
+            (rgb(&out), told)
+        };
+        let (exact, _) = picture("replay", "fill");
+        for strategy in ["depth-image", "occlusion", "hybrid"] {
+            let (filled, report) = picture(strategy, "fill");
+            let (marked, _) = picture(strategy, "mark");
+            assert!(made(&report)[1] > 0, "{report}");
+            let told = reason.map(|reason| format!("views are made before {reason}"));
+            let found = reasons(&report);
+            let ends: Vec<_> = found.iter().filter(|r| r.contains("before")).collect();
+            assert_eq!(ends, told.iter().collect::<Vec<_>>(), "{strategy}");
+            let width = exact.width() / VIEWS;
+            for i in 0..VIEWS {
+                let tile = |all: &RgbImage| all.view(i * width, 0, width, all.height()).to_image();
+                let [exact, filled, marked] = [&exact, &filled, &marked].map(tile);
+                let wrong = odd(&exact, &filled, &marked);
+                println!("{argument} by {strategy}, view {i}: {wrong}");
+                assert!(wrong <= 3, "{argument} by {strategy}, view {i}: {wrong}");
+            }
+        }
+    }
+}

@@ -2,6 +2,7 @@
 
 use super::held::Held;
 use super::immediate::{Ends, Recording};
+use super::indices::Indices;
 use super::real::{Ptr, Real};
 use core::ffi::CStr;
 
@@ -567,16 +568,4 @@ fn text(p: Ptr) -> String {
     unsafe { CStr::from_ptr(p as *const core::ffi::c_char) }
         .to_string_lossy()
         .into_owned()
-}
-
-/// The index pointer of the program's draw: an address, or an offset into the element buffer.
-#[derive(Clone, Copy, Debug)]
-pub struct Indices(Ptr);
-
-impl Indices {
-    /// # Safety
-    /// The value is used only while the draw it came from has not returned, for the same count and type.
-    pub unsafe fn new(p: Ptr) -> Self {
-        Indices(p)
-    }
 }

@@ -214,6 +214,10 @@ pub const STENCIL_WRITEMASK: u32 = 0x0B98;
 pub const DEPTH_FUNC: u32 = 0x0B74;
 pub const ALWAYS: u32 = 0x0207;
 pub const EQUAL: u32 = 0x0202;
+/// `GL_LEQUAL`
+pub const LEQUAL: u32 = 0x0203;
+/// `GL_GEQUAL`
+pub const GEQUAL: u32 = 0x0206;
 pub const VERTEX_ARRAY_BINDING: u32 = 0x85B5;
 pub const ARRAY_BUFFER: u32 = 0x8892;
 pub const ARRAY_BUFFER_BINDING: u32 = 0x8894;

@@ -10,6 +10,7 @@ mod framebuffers;
 mod held;
 mod images;
 pub mod immediate;
+mod indices;
 mod pixels;
 mod programs;
 #[allow(missing_docs, non_upper_case_globals, clippy::missing_safety_doc, reason = "generated; the names are the API's own")]
@@ -23,6 +24,7 @@ pub use framebuffers::{Attachment, Object, Storage};
 pub use held::{Count, Held};
 pub use images::ImageUnit;
 pub use immediate::{Ends, Recording};
+pub use indices::Indices;
 pub use programs::Active;
 pub use real::{Ptr, Real};
 pub use table::{COUNT, NAMES, slot};

@@ -7,6 +7,8 @@ use super::Sources;
 /// `height = scale·depth + offset`, where the lever of a camera is how many places it stands to the side.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Heights {
+    /// The same for what is nearer than a depth: scale and offset, that depth, and 1 where nearer is larger, −1 where it is smaller; 0 for none.
+    pub before: [f32; 4],
     /// For a unit of depth.
     pub scale: f32,
     /// At depth 0.
@@ -61,7 +63,7 @@ impl Heights {
     }
 
     /// `field`, `lever`, `aim`, `bend` and those of the sources of `shaders/common.wgsl`.
-    pub(super) fn rows(&self, views: u32) -> [[f32; 4]; 6] {
+    pub(super) fn rows(&self, views: u32) -> [[f32; 4]; 7] {
         let [first, step] = self.levers;
         let clear = if self.sky { 0.0 } else { NOTHING };
         let (view, left) = self.aim;
@@ -80,6 +82,7 @@ impl Heights {
             [self.reach, left_edge, layer, field],
             low,
             high,
+            self.before,
         ]
     }
 }

@@ -332,13 +332,13 @@ pub struct Uniforms {
 
 impl Uniforms {
     /// In the order and alignment of the WGSL struct.
-    pub fn words(&self) -> [u32; 80] {
+    pub fn words(&self) -> [u32; 84] {
         let [tile_x, tile_y] = self.tile;
         let [out_x, out_y] = self.picture;
         let (grid_x, grid_y) = self.layout.grid(self.views);
         let (columns, views) = (self.columns.max(1), self.views.max(1));
         let [period_x, period_y] = self.period.map(|p| p.max(1));
-        let mut words = [0; 80];
+        let mut words = [0; 84];
         let whole = [
             tile_x,
             tile_y,

@@ -221,7 +221,7 @@ fn every_pass_translates_for_every_version() {
             for texture in &fragment.textures {
                 assert!(fragment.source.contains(&format!(" {};", texture.name)));
             }
-            assert_eq!(fragment.uniforms.len(), 29);
+            assert_eq!(fragment.uniforms.len(), 30);
             assert!(!fragment.source.contains("std140"), "no uniform block");
 
             let vertex = translate(pass, Stage::Vertex, version).unwrap();
@@ -273,6 +273,7 @@ fn uniforms_are_found_by_name() {
             margin: 27.0,
             aim: (2, 28),
             marked: true,
+            before: [33.0, 34.0, 35.0, -1.0],
             sources: Some(Sources::spread(1, 3, 2)),
             places: Places::One([31, 32, 0]),
             reach: 30.0,
@@ -327,6 +328,7 @@ fn uniforms_are_found_by_name() {
         [30.0, 31.0, 32.0, 0.0],
         [1.0, 2.0, 1e9, 1e9],
         [1e9; 4],
+        [33.0, 34.0, 35.0, -1.0],
     ];
     let names = [
         "field",
@@ -335,6 +337,7 @@ fn uniforms_are_found_by_name() {
         "bend",
         "sources_low",
         "sources_high",
+        "before",
     ];
     for (at, (name, row)) in names.into_iter().zip(rows).enumerate() {
         assert_eq!(of[23 + at], (name, &row.map(f32::to_bits)[..]));

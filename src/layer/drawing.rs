@@ -6,7 +6,7 @@ use crate::atlas::Surface;
 use crate::config::{Class, Output, Projection, Strategy, Word};
 use crate::draw::{Again, Amplified, FixedState, Programs, replay};
 use crate::gl::Gl;
-use crate::gl::api::Indices;
+use crate::gl::Indices;
 use crate::offscreen::Target;
 use crate::plan::class::Why;
 use crate::plan::{Classed, Kind, Method, Plan, Ramp, Shear, plan};
@@ -117,7 +117,9 @@ impl Layer {
         if self.compiles() {
             return self.draw(gl, kind, call);
         }
+        self.synthesis.surfaces.next = Some(primitives);
         let plan = self.plan(gl, kind);
+        self.synthesis.surfaces.next = None;
         match plan.method {
             Method::Once => self.once(gl, call),
             Method::Replay => {

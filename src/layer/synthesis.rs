@@ -5,6 +5,8 @@
 //! HUD, glass, another clear, a copy of the frame) the views are made into their tiles, depths as well, and all that follows is drawn in each of
 //! them. Where nothing else follows, the panel's picture is made straight from the own view.
 
+mod surface;
+
 use super::occlusion::{Bent, REACH};
 use super::{Layer, as_they_are, keep_bindings};
 use crate::atlas::{FieldTextures, Shown};
@@ -17,6 +19,7 @@ use crate::plan::{Classed, Governor, Kind, Method, Plan, Ramp, Reason, Shear};
 use crate::present::Saved;
 use crate::state::{BACK, Touch};
 use crate::synthesis::Passes;
+use surface::Surfaces;
 
 /// Steps of the depth buffer by which views' depths lie behind what they are computed to be.
 const MARGIN: f64 = 4.0;
@@ -26,6 +29,8 @@ const MARGIN: f64 = 4.0;
 struct Scene {
     /// What it is projected by.
     look: Option<Look>,
+    /// What stands before everything, by the same projection in a part of the depth range, and up to which depth.
+    before: Option<(Look, f64)>,
     /// Something stands infinitely far behind it.
     sky: bool,
     /// Something else than a clear has been drawn.
@@ -44,6 +49,44 @@ pub(super) struct Look {
     viewport: [i32; 4],
 }
 
+impl Look {
+    fn is_like(&self, other: &Look) -> bool {
+        self.ramp.is_like(&other.ramp)
+            && self.viewport == other.viewport
+            && self.shear.conv == other.shear.conv
+            && self.shear.separation(1.0) == other.shear.separation(1.0)
+    }
+}
+
+impl Scene {
+    /// Whether what is projected so belongs to it.
+    fn takes(&mut self, new: Look) -> bool {
+        let known = self.look.get_or_insert(new);
+        if known.is_like(&new) {
+            return true;
+        }
+        let first = *known;
+        if let Some((before, _)) = self.before {
+            return before.is_like(&new);
+        }
+        if first.viewport != new.viewport
+            || first.shear.separation(1.0) != new.shear.separation(1.0)
+        {
+            return false;
+        }
+        // Either may come first.
+        self.before = match (first.ramp.beyond(&new.ramp), new.ramp.beyond(&first.ramp)) {
+            (Some(depth), _) => Some((new, depth)),
+            (_, Some(depth)) => {
+                self.look = Some(new);
+                Some((first, depth))
+            }
+            _ => None,
+        };
+        self.before.is_some()
+    }
+}
+
 /// Views that are made, not drawn.
 #[derive(Debug, Default)]
 pub(super) struct Synthesis {
@@ -58,6 +101,7 @@ pub(super) struct Synthesis {
     /// The views of this frame are made.
     done: bool,
     pub(super) bent: Bent,
+    pub(super) surfaces: Surfaces,
     /// While a panel's picture is made straight from the own view.
     pub(super) field: Option<(FieldTextures, Heights)>,
 }
@@ -162,10 +206,10 @@ impl Layer {
             return;
         };
         match self.stays(gl, kind, plan, classed, &mut scene) {
-            Ok(()) => {
+            Ok(look) => {
                 scene.begun = true;
-                if let (Class::Scene, Some(look)) = (plan.class, &scene.look) {
-                    self.expect_bent(kind, look);
+                if let Some(look) = look {
+                    self.expect_bent(kind, &look);
                 }
                 self.synthesis.scene = Some(scene);
             }
@@ -198,6 +242,7 @@ impl Layer {
         // What was shown last is no more.
         self.synthesis.scene = None;
         self.part(gl);
+        self.synthesis.surfaces.forget();
         let (own, views) = (self.atlas.tiles.own(), self.config.views);
         let count = self.synthesis.number();
         self.synthesis.sources = count.map(|count| Sources::spread(own, views, count));
@@ -240,7 +285,7 @@ impl Layer {
                 .is_none_or(|n| n < self.config.views)
     }
 
-    /// Whether a draw belongs to the scene of the own view; else what it is instead.
+    /// What a draw that belongs to the scene is projected by, or what it is instead.
     fn stays(
         &mut self,
         gl: &Gl,
@@ -248,7 +293,7 @@ impl Layer {
         plan: &Plan,
         classed: &Classed,
         scene: &mut Scene,
-    ) -> Result<(), &'static str> {
+    ) -> Result<Option<Look>, &'static str> {
         let groups = Touch::RANGE | Touch::DEPTH | Touch::COVER;
         self.state.look(gl, groups);
         let depth = self.state.look.depth;
@@ -271,39 +316,41 @@ impl Layer {
             }
             Class::Sky => {
                 scene.sky = true;
-                Ok(())
+                Ok(None)
             }
             Class::Flat if scene.look.is_some() => Err("what is flat"),
             Class::Flat if plan.shear.is_some() || depth == DepthState::On => {
                 Err("what is flat and stands elsewhere than on the panel")
             }
-            Class::Flat | Class::OffScreen => Ok(()),
+            Class::Flat | Class::OffScreen => Ok(None),
             Class::Scene => {
-                let shear = plan.shear.filter(|_| classed.focal.is_none());
-                let shear = shear.ok_or("a part of the scene with zero parallax of its own")?;
+                let shear = plan.shear.ok_or("a scene without parallax")?;
                 let [matrix, _] = self.projections();
                 let look = &self.state.look;
-                // Another pass over what is there has its depths.
-                if look.blends && !look.equal {
-                    return Err("what is transparent");
-                }
-                if depth != DepthState::On && !look.equal {
-                    return Err("what has no depths");
-                }
                 let ramp = Ramp::of(&matrix, look.depths, look.zero_to_one);
                 let ramp = ramp.ok_or("a projection without depths")?;
+                // Another pass over what is there has its depths.
+                let (blends, equal) = (look.blends, look.equal);
+                let shown = depth == DepthState::On && !blends;
+                if !shown && !equal && (depth == DepthState::Off || !self.is_over_last(gl)) {
+                    return Err(match blends {
+                        true => "what is transparent",
+                        false => "what has no depths",
+                    });
+                }
+                if shown {
+                    self.keep_surface(gl);
+                }
                 let new = Look {
                     ramp,
                     shear,
                     viewport: self.state.viewport,
                 };
-                let known = scene.look.get_or_insert(new);
-                let same = known.ramp.is_like(&ramp)
-                    && known.viewport == new.viewport
-                    && known.shear.conv == shear.conv
-                    && known.shear.separation(1.0) == shear.separation(1.0);
-                match same {
-                    true => Ok(()),
+                match scene.takes(new) {
+                    true => Ok(Some(new)),
+                    false if classed.focal.is_some() => {
+                        Err("a part of the scene with zero parallax of its own")
+                    }
                     false => Err("another projection"),
                 }
             }
@@ -421,7 +468,17 @@ impl Layer {
         let own = self.rig.place(tiles.own());
         let levers = [self.rig.place(0) - own, 1.0].map(|place| place * far.signum());
         let step = 0.5f64.powi(self.state.window.bits[4].min(24) as i32);
+        let before = scene.before.map(|(look, to)| {
+            let [scale, offset] = self.height_line(&look);
+            let side = if look.ramp.nearer_is_larger() {
+                1.0
+            } else {
+                -1.0
+            };
+            [scale, offset, to, side].map(|v| v as f32)
+        });
         Heights {
+            before: before.unwrap_or_default(),
             scale: scale as f32,
             offset: offset as f32,
             far: far.abs() as f32,

@@ -62,6 +62,24 @@ impl Ramp {
             && near(self.offset, other.offset)
     }
 
+    /// The depth up to which all is drawn by `part`, the same projection in a part of the depth range that begins at its nearest depth: what stands
+    /// before everything, such as a weapon in the hand. This one has nearly nothing there. None where it is something else.
+    pub fn beyond(&self, part: &Ramp) -> Option<f64> {
+        let near = |a: f64, b: f64| (a - b).abs() <= 1e-6;
+        let [from, to] = match self.nearer_is_larger() {
+            true => [part.range[1], part.range[0]],
+            false => [part.range[0], part.range[1]],
+        };
+        let nearest = match self.nearer_is_larger() {
+            true => self.range[1],
+            false => self.range[0],
+        };
+        // Twice as far as the near plane.
+        let most = self.inverse(to) >= 0.5 * self.inverse(nearest);
+        let same = near(part.inverse(from), self.inverse(nearest));
+        (near(from, nearest) && same && most).then_some(to)
+    }
+
     fn holds(&self, depth: f64) -> bool {
         (self.range[0]..=self.range[1]).contains(&depth)
     }

@@ -3,7 +3,7 @@
 use crate::context::{Inside, enter, inside, peek, peek_inside, real, recording, set_inside};
 use crate::hooks::{ask, compile};
 use core::slice::from_raw_parts;
-use manyview_core::gl::api::Indices;
+use manyview_core::gl::Indices;
 use manyview_core::gl::consts::LIST_BASE;
 use manyview_core::gl::{Ptr, slot};
 use manyview_core::layer::Primitives;
