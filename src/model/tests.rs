@@ -4,13 +4,14 @@ use super::*;
 use crate::synthesis::{Distortions, Pinhole, Reference};
 
 /// Triangles of each scene.
-const COUNTS: [(&str, usize); 6] = [
+const COUNTS: [(&str, usize); 7] = [
     ("knot", 320_000),
     ("statues", 4_620_800),
     ("coils", 10_248_200),
     ("bars", 114_772),
     ("portal", 87_456),
     ("crowd", 256_600),
+    ("temple", 366_252),
 ];
 
 fn length(at: [f32; 3]) -> f32 {
