@@ -201,7 +201,9 @@ pub const PRESETS: &[Preset] = &[
         name: "popescu-table1",
         about: "samples missing in views of a depth image and of an occlusion camera's reference image; models of the paper's sizes, on the CPU",
         size: (720, 480),
-        scenes: &["knot", "statues", "coils", "bars", "portal", "crowd"],
+        scenes: &[
+            "knot", "statues", "coils", "bars", "portal", "crowd", "temple",
+        ],
         views: &[],
         configurations: &[],
         figures: &[],

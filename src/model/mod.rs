@@ -8,6 +8,7 @@ mod noise;
 mod project;
 mod statue;
 mod surface;
+mod temple;
 #[cfg(test)]
 mod tests;
 
@@ -59,6 +60,11 @@ pub const MODELS: &[Model] = &[
         name: "crowd",
         about: "150 small balls, rings and boxes before each other",
         surfaces: furniture::crowd,
+    },
+    Model {
+        name: "temple",
+        about: "a bronze within columns, below beams; kept apart, nothing was chosen on it",
+        surfaces: temple::temple,
     },
 ];
 

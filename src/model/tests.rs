@@ -4,13 +4,14 @@ use super::*;
 use crate::synthesis::{Distortions, Pinhole, Reference};
 
 /// Triangles of each scene.
-const COUNTS: [(&str, usize); 6] = [
+const COUNTS: [(&str, usize); 7] = [
     ("knot", 320_000),
     ("statues", 4_620_800),
     ("coils", 10_248_200),
     ("bars", 114_772),
     ("portal", 87_456),
     ("crowd", 256_600),
+    ("temple", 366_252),
 ];
 
 fn length(at: [f32; 3]) -> f32 {
@@ -58,10 +59,11 @@ fn what_a_picture_has_seen_lies_on_the_scene() {
     let corners: Vec<Corner> = solids.flatten().collect();
     assert!(corners.len() > 3 * 600, "{}", corners.len());
     for corner in corners {
-        // Of a silhouette sample's square the corners are half a pixel, 0.1 inches, beside it.
+        // Of a silhouette sample's square the corners are half a pixel, 0.1 inches, beside it, and go on along the surface, which falls by up to
+        // the root of 2 · 3 · 0.2 inches over the last pixel: half of that.
         let length = length(corner.at);
-        assert!((2.85..=3.15).contains(&length), "{corner:?}");
-        assert!(corner.at[2] > -0.2, "{corner:?}");
+        assert!((2.85..=3.2).contains(&length), "{corner:?}");
+        assert!(corner.at[2] > -0.55, "{corner:?}");
     }
 }
 

@@ -7,9 +7,7 @@ use super::occlusion::Sample;
 use super::warp::{View, excess, finish};
 use super::{DepthImage, Distortions, Motion, Reference, Shift, Triangle, Vertex};
 
-/// Of the square around a sample.
-const CORNERS: [[f64; 2]; 4] = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
-/// Pixels, half of what one of the reference image may cover.
+/// Pixels that one of the reference image may cover to either side, as far as half of the way to the next one.
 const WIDEST: f64 = 2.5;
 
 impl From<&DepthImage> for Reference {
@@ -57,7 +55,7 @@ impl Reference {
     }
 
     /// The triangles between its samples, each where the undistorted camera projects it. Samples of different surfaces are not joined;
-    /// as far as half a pixel of this picture around a sample there is always what it is of.
+    /// as far as half a pixel of this picture around a sample there is always what it is of, and a whole one where that goes on behind its neighbour.
     pub fn mesh(&self, threshold: f64) -> impl Iterator<Item = Triangle> {
         let [w, h] = self.size.map(|side| side as usize);
         let joints = Joints::of(self, threshold);
@@ -74,13 +72,17 @@ impl Reference {
                     && joints.cell(x, y - 1)
                     && joints.cell(x - 1, y);
                 if !(cell && inner) {
-                    let right = self.half(&own, [x, y], 0, &joints.across);
-                    let down = self.half(&own, [x, y], 1, &joints.down);
-                    let [a, b, c, d] = CORNERS.map(|[u, v]| Vertex {
-                        at: [0, 1].map(|i| own.at[i] + u * right[i] + v * down[i]),
+                    let [left, right] =
+                        [-1, 1].map(|side| self.margin(&own, [x, y], [side, 0], &joints.across));
+                    let [up, down] =
+                        [-1, 1].map(|side| self.margin(&own, [x, y], [0, side], &joints.down));
+                    let around = [(left, up), (right, up), (right, down), (left, down)];
+                    let [a, b, c, d] = around.map(|(across, along)| Vertex {
+                        at: [0, 1].map(|i| own.at[i] + across.at[i] + along.at[i]),
+                        inverse: own.inverse + across.inverse + along.inverse,
                         ..own
                     });
-                    triangles.extend([[a, b, c], [a, c, d]]);
+                    triangles.extend([[own, a, b], [own, b, c], [own, c, d], [own, d, a]]);
                 }
                 self.cell(&joints, [x, y], &mut triangles);
             }
@@ -114,32 +116,37 @@ impl Reference {
         }
     }
 
-    /// Half the way from a sample to the next column or row: as far as its rays are from those of a neighbour of the same surface.
-    fn half(&self, own: &Vertex, at: [usize; 2], way: usize, joined: &[bool]) -> [f64; 2] {
-        let width = self.size[0] as usize;
-        let index = |[x, y]: [usize; 2]| y * width + x;
-        let mut straight = [0.0; 2];
-        straight[way] = 0.5;
-        let mut next = at;
-        next[way] += 1;
-        let mut before = at;
-        before[way] = before[way].wrapping_sub(1);
-        let (other, sign) = if joined[index(at)] {
-            (next, 0.5)
-        } else if at[way] > 0 && joined[index(before)] {
-            (before, -0.5)
-        } else {
-            return straight;
+    /// How far what a sample is of reaches to one side, a step to a neighbouring pixel: half of the way to that, or, along the surface as its
+    /// neighbour on the other side has it, half of the way beyond. What is behind the next pixel's surface does not end between them, so it
+    /// reaches all of the way.
+    fn margin(&self, own: &Vertex, at: [usize; 2], side: [isize; 2], joined: &[bool]) -> Margin {
+        let neighbour = |sign: isize| {
+            let x = at[0].checked_add_signed(sign * side[0])?;
+            let y = at[1].checked_add_signed(sign * side[1])?;
+            let first = at[1].min(y) * self.size[0] as usize + at[0].min(x);
+            let inside = x < self.size[0] as usize;
+            let vertex = inside.then(|| self.undistorted(x, y)).flatten()?;
+            Some((vertex, joined.get(first) == Some(&true)))
         };
-        let Some(other) = self.undistorted(other[0], other[1]) else {
-            return straight;
+        let towards = |other: &Vertex, share: f64| Margin {
+            at: [0, 1].map(|i| (other.at[i] - own.at[i]) * share),
+            inverse: (other.inverse - own.inverse) * share,
         };
-        let half = [0, 1].map(|i| (other.at[i] - own.at[i]) * sign);
-        // Neighbours whose rays go entirely elsewhere say nothing.
-        match half[0].hypot(half[1]) <= WIDEST {
-            true => half,
-            false => straight,
+        let next = neighbour(1);
+        if let Some((next, true)) = &next {
+            return towards(next, 0.5);
         }
+        let behind = next.is_some_and(|(next, _)| next.inverse > own.inverse);
+        let share = if behind { 1.0 } else { 0.5 };
+        let margin = neighbour(-1)
+            .filter(|(_, joined)| *joined)
+            .map(|(before, _)| towards(&before, -share));
+        // Neighbours whose rays go entirely elsewhere say nothing.
+        let near = |margin: &Margin| margin.at[0].hypot(margin.at[1]) <= 2.0 * share * WIDEST;
+        margin.filter(near).unwrap_or(Margin {
+            at: side.map(|step| step as f64 * share),
+            inverse: 0.0,
+        })
     }
 
     /// A sample where the undistorted camera projects it: (u_d − δ_u, v_d − δ_v).
@@ -154,6 +161,14 @@ impl Reference {
             colour: sample.colour,
         })
     }
+}
+
+/// From a sample to where what it is of ends.
+#[derive(Clone, Copy)]
+struct Margin {
+    at: [f64; 2],
+    /// By which 1/w grows on the way.
+    inverse: f64,
 }
 
 /// Which neighbours are of one surface.

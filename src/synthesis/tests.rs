@@ -362,3 +362,28 @@ proptest! {
         Distortions::of([24, 6], &edges, &Splats { radius: 5.0, parallax: f64::INFINITY, asymmetry: 2.0 });
     }
 }
+
+#[test]
+fn a_surface_goes_on_along_itself_to_where_it_is_covered() {
+    // A slope, farther to the right, that ends behind something.
+    let inverses = [0.5, 0.49, 0.48, 0.47, 0.8, 0.8];
+    let colours = vec![[200; 3]; 6];
+    let image = DepthImage::new([6, 1], colours, inverses.to_vec()).expect("as many");
+    let mesh: Vec<Triangle> = Reference::from(&image).mesh(0.05).collect();
+    let ends = |range: std::ops::Range<f64>| {
+        let corners = mesh.iter().flatten();
+        let own = corners.filter(|corner| range.contains(&corner.inverse));
+        let ends = own.map(|corner| (corner.at[0], corner.inverse));
+        ends.fold((f64::INFINITY, 0.0, 0.0), |(low, high, last), (x, v)| {
+            (x.min(low), x.max(high), if x >= high { v } else { last })
+        })
+    };
+    let (low, high, last) = ends(0.4..0.6);
+    // At the picture's edge half a pixel, below the other surface all of the way to its first sample, as deep as the slope is there.
+    assert!(
+        (low, high) == (0.0, 4.5) && (last - 0.46).abs() < 1e-6,
+        "{low} {high} {last}"
+    );
+    // What is in front ends half a pixel before its first sample.
+    assert_eq!(ends(0.7..0.9), (4.0, 6.0, f64::from(0.8_f32)));
+}

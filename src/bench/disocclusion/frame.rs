@@ -1,6 +1,6 @@
 //! One frame against the truth.
 
-use super::{Experiment, TOLERANCE};
+use super::Experiment;
 use crate::metric::Comparison;
 use crate::synthesis::Reference;
 use image::{Rgb, RgbImage};
@@ -23,10 +23,43 @@ pub struct Frame {
     pub all: Comparison,
     /// With what is missing taken from the truth.
     pub present: Comparison,
-    /// Pixels by which samples at their own pixel part from the true ones on the way to the farthest viewpoint, on average.
-    pub disparity: f64,
+    /// Of all pixels where both show the scene.
+    pub disparity: Disparity,
     /// As it is.
     pub picture: RgbImage,
+}
+
+/// Pixels by which what is shown parts from the truth on the way to the farthest viewpoint; what shows something else is not left out.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Disparity {
+    /// Half of the pixels have no more.
+    pub median: f64,
+    /// 95 % of them have no more.
+    pub most: f64,
+    /// Of the worst.
+    pub worst: f64,
+    /// Pixels that have more than [`Disparity::ASKED`], %.
+    pub over_percent: f64,
+}
+
+impl Disparity {
+    /// What a pixel may have, in pixels.
+    pub const ASKED: f64 = 0.5;
+
+    /// Of such pixels; none are without error.
+    #[must_use]
+    pub fn of(mut parted: Vec<f64>) -> Disparity {
+        parted.sort_by(f64::total_cmp);
+        let last = parted.len().saturating_sub(1);
+        let at = |percent: usize| parted.get(last * percent / 100).copied().unwrap_or(0.0);
+        let over = parted.iter().filter(|&&pixels| pixels > Self::ASKED);
+        Disparity {
+            median: at(50),
+            most: at(95),
+            worst: at(100),
+            over_percent: 100.0 * over.count() as f64 / parted.len().max(1) as f64,
+        }
+    }
 }
 
 impl Frame {
@@ -37,14 +70,15 @@ impl Frame {
         let (true_depths, depths) = (truth.inverses(), seen.inverses());
         let missing = missing(experiment.size, &true_depths, &depths, tolerance);
         let shown = true_depths.iter().zip(&depths).filter(|(t, _)| **t > 0.0);
-        let (mut samples, mut displaced, mut holes, mut parted) = (0, 0, 0, 0.0);
+        let (mut samples, mut displaced, mut holes) = (0, 0, 0);
+        let mut parted = Vec::new();
         for (truth, frame) in shown {
             samples += 1;
             holes += usize::from(*frame <= 0.0);
             let step = f64::from(frame - truth).abs();
-            match *frame > 0.0 && step <= tolerance {
-                true => parted += step / tolerance * TOLERANCE,
-                false => displaced += 1,
+            displaced += usize::from(*frame <= 0.0 || step > tolerance);
+            if *frame > 0.0 {
+                parted.push(step * experiment.parallax());
             }
         }
         let (truth, picture) = (truth.picture().picture, seen.picture().picture);
@@ -62,7 +96,7 @@ impl Frame {
             holes_percent: 100.0 * share(holes),
             all: Comparison::new(&truth, &picture, None).ok()?,
             present: Comparison::new(&truth, &present, None).ok()?,
-            disparity: parted / (samples - displaced).max(1) as f64,
+            disparity: Disparity::of(parted),
             picture,
         })
     }

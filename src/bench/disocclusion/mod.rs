@@ -10,7 +10,7 @@ mod sheet;
 #[cfg(test)]
 mod tests;
 
-pub use frame::{Frame, missing};
+pub use frame::{Disparity, Frame, missing};
 pub use outcome::{Outcome, Scene, View, text, write_csv};
 pub use sheet::sheet;
 
@@ -41,8 +41,8 @@ const ASYMMETRY: f64 = 4.0;
 const MORE: f64 = 1.1;
 /// A step in depth is one that opens a hole wider than this at the farthest viewpoint, pixels. Less is joined.
 const STEP: f64 = 4.0;
-/// A sample is another one if it parts from it by more than this on the way to the farthest viewpoint, pixels: half a step.
-const TOLERANCE: f64 = 2.0;
+/// A sample is another one if it parts from it by more than this on the way to the farthest viewpoint, pixels.
+const TOLERANCE: f64 = 1.0;
 
 /// How it is measured.
 #[derive(Clone, Copy, Debug, PartialEq)]

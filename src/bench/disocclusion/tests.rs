@@ -91,6 +91,31 @@ fn a_sample_may_be_a_pixel_off_and_not_two() {
 }
 
 #[test]
+fn a_disparity_leaves_out_nothing_but_holes() {
+    let all: Vec<f64> = (0..=100).rev().map(f64::from).collect();
+    let disparity = Disparity::of(all);
+    let expected = Disparity {
+        median: 50.0,
+        most: 95.0,
+        worst: 100.0,
+        over_percent: 10_000.0 / 101.0,
+    };
+    assert_eq!(disparity, expected);
+    // A column that the frame has not shows the wall, which parts by far more than a sample may.
+    let scene = column();
+    let wall = EXPERIMENT.draw(&EXPERIMENT.camera([0.0; 3]), &scene[..1]);
+    let frame = frame(&scene, &wall, [0.0; 3]);
+    assert_eq!(frame.disparity.median, 0.0);
+    let parts = EXPERIMENT.parallax() * (1.0 / 48.0 - 1.0 / 53.0);
+    assert!((frame.disparity.worst - parts).abs() < 1e-2, "{parts}");
+    let holes = frame.holes_percent * frame.samples as f64 / 100.0;
+    let column = frame.displaced as f64 - holes;
+    let shown = frame.samples as f64 - holes;
+    assert!(column > 0.1 * shown, "{column} of {shown}");
+    assert!((frame.disparity.over_percent - 100.0 * column / shown).abs() < 1e-9);
+}
+
+#[test]
 fn viewpoints_lie_on_the_edges_of_the_cube() {
     let all = viewpoints();
     assert_eq!(all.len(), 48);
