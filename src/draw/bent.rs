@@ -1,17 +1,19 @@
-//! One draw for the reference image of an occlusion camera, with a generated program.
+//! One draw for the reference image of an occlusion camera, with a generated program or a twin of the program's own.
 
 use super::amplified::{Around, Programs};
 use super::fixed_state::FixedState;
 use super::fragment_state;
 use super::replay::{Again, replay};
 use super::tuned::Units;
+use super::twin::Twin;
 use crate::atlas::{Atlas, BentSurface};
 use crate::fixed::{Amplifier, Primitive, Tiles};
 use crate::gl::{Gl, consts as c};
 use crate::plan::{Reason, Rig, Shear};
 use crate::state::State;
 
-/// The texture unit of the map: the last one that all drivers with OpenGL 3.0 have.
+/// The texture unit of the map: the last one that all drivers with OpenGL 3.0 have, or where a program's own shaders have a use for it, the
+/// last one that they have none for.
 pub(super) const UNIT: u32 = 31;
 
 /// What the rays are bent by.
@@ -51,25 +53,81 @@ impl Rays {
 
 /// The map in its unit.
 struct Bound {
+    unit: u32,
     active: u32,
     was: u32,
+    sampler: u32,
 }
 
 impl Bound {
-    fn enter(gl: &Gl, map: u32) -> Bound {
+    fn enter(gl: &Gl, unit: u32, map: u32) -> Bound {
         let active = gl.get_integer(c::ACTIVE_TEXTURE) as u32;
-        gl.active_texture(c::TEXTURE0 + UNIT);
+        gl.active_texture(c::TEXTURE0 + unit);
         let was = gl.get_integer(c::TEXTURE_BINDING_2D_ARRAY) as u32;
         gl.bind_texture(c::TEXTURE_2D_ARRAY, map);
+        // With one that wants mipmaps there is nothing in the map.
+        let sampler = match gl.since((3, 3), None) {
+            true => gl.get_integer(c::SAMPLER_BINDING) as u32,
+            false => 0,
+        };
+        if sampler != 0 {
+            gl.bind_sampler(unit, 0);
+        }
         gl.active_texture(active);
-        Bound { active, was }
+        Bound {
+            unit,
+            active,
+            was,
+            sampler,
+        }
     }
 
     fn leave(self, gl: &Gl) {
-        gl.active_texture(c::TEXTURE0 + UNIT);
+        gl.active_texture(c::TEXTURE0 + self.unit);
         gl.bind_texture(c::TEXTURE_2D_ARRAY, self.was);
+        if self.sampler != 0 {
+            gl.bind_sampler(self.unit, self.sampler);
+        }
         gl.active_texture(self.active);
     }
+}
+
+/// Draws by a twin of the program's own shaders, which is in use, into the reference image; `units` are those that it samples. All state is as
+/// before, but for the program in use. What has no shift by the projection matrix of fixed function has that of the twin.
+#[allow(
+    clippy::too_many_arguments,
+    reason = "the parts of one draw; a struct of them would be built for this call alone"
+)]
+pub fn draw_bent(
+    gl: &Gl,
+    atlas: &mut Atlas,
+    state: &State,
+    rig: &Rig,
+    shear: Option<Shear>,
+    (twin, units): (&Twin, &[u32]),
+    vertices: u64,
+    again: Again,
+    rays: &Rays,
+    call: &mut dyn FnMut(),
+) {
+    let unit = (0..=UNIT).rev().find(|unit| !units.contains(unit));
+    let unit = unit.unwrap_or(UNIT);
+    let sparse = !few(vertices, atlas);
+    twin.bend(gl, unit, rays.uniforms(state, atlas, sparse));
+    let map = Bound::enter(gl, unit, rays.map);
+    let mut surface = BentSurface(atlas);
+    replay(
+        gl,
+        &mut surface,
+        state,
+        rig,
+        shear,
+        again,
+        false,
+        &mut |_| call(),
+    );
+    atlas.bind_row(gl, 0);
+    map.leave(gl);
 }
 
 impl Programs {
@@ -116,7 +174,7 @@ impl Programs {
         let Some(Some(program)) = self.cache.get(&stages) else {
             return Err(Reason::Compile);
         };
-        let map = Bound::enter(gl, rays.map);
+        let map = Bound::enter(gl, UNIT, rays.map);
         let around = Around::enter(gl, state, atlas, &stages.0, program, Units::None, fixed);
         let [window, bend] = rays.uniforms(state, atlas, !few);
         gl.uniform_4fv(program.window, &[window]);

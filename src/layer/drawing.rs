@@ -105,6 +105,7 @@ impl Layer {
             Kind::Pixels => Again::Raster(plan.shear.take()),
             _ => Again::Same,
         };
+        self.draw_bent(gl, &plan, again, (0, false), &mut |_| call());
         self.replay(gl, &plan, again, &mut |_| call());
     }
 
