@@ -154,11 +154,15 @@ fn measured(picture: &RgbImage) -> [usize; 3] {
     [hidden, seen, wrong]
 }
 
-fn assert_bent(picture: &RgbImage, what: &str) {
+/// `part`: how much of it may be, at edges.
+fn assert_bent(picture: &RgbImage, what: &str, part: f64) {
     let [hidden, seen, wrong] = measured(picture);
     println!("{what}: {hidden} hidden, {seen} in front, {wrong} wrong");
     assert!(hidden > 3_000 && seen > 10_000, "{what}: {hidden}, {seen}");
-    assert!(wrong * 50 <= hidden, "{what}: {wrong} of {hidden}");
+    assert!(
+        wrong as f64 <= part * hidden as f64,
+        "{what}: {wrong} of {hidden}"
+    );
 }
 
 #[test]
@@ -170,11 +174,13 @@ fn the_reference_image_is_that_of_bent_rays() {
         WIDE,
     );
     assert!(report["draws"]["reference"].as_u64() > Some(0), "{report}");
-    assert_bent(&picture, "fixed function");
+    assert_bent(&picture, "fixed function", 0.02);
 }
 
-/// Ways of `bars.c`.
+/// Ways of `bars.c`: with shaders, and of fixed function, where surfaces as large as the wall's squares have to be cut, but in the list.
 const SHADED: [&str; 6] = ["matrix", "begin", "old", "coord", "new", "instanced"];
+
+const FIXED: [&str; 6] = ["strips", "fans", "polygons", "quads", "indexed", "list"];
 
 /// Those that take no part, and why.
 const UNBENT: [(&str, &str); 2] = [
@@ -204,10 +210,20 @@ fn bars_shown(way: &str, what: &str, strategy: &str) -> (RgbImage, Value) {
 fn programs_with_shaders_have_one_too() {
     for way in SHADED {
         let (picture, report) = bars_shown(way, "reference", "occlusion");
-        assert_eq!(report["draws"]["reference"], 4, "{way}: {report}");
+        assert!(report["draws"]["reference"].as_u64() > Some(0), "{report}");
         assert_eq!(report["fallbacks"], json!({}), "{way}");
         assert_eq!(report["gl_errors"], 0, "{way}");
-        assert_bent(&picture, way);
+        assert_bent(&picture, way, 0.02);
+    }
+}
+
+#[test]
+fn strips_and_fans_are_cut_and_lists_are_drawn() {
+    for way in FIXED {
+        let (picture, report) = bars_shown(way, "reference", "occlusion");
+        assert!(report["draws"]["reference"].as_u64() > Some(0), "{report}");
+        assert_eq!(report["gl_errors"], 0, "{way}");
+        assert_bent(&picture, way, 0.005);
     }
 }
 
@@ -216,15 +232,16 @@ fn programs_with_other_stages_and_outputs_are_left_out() {
     for (way, why) in UNBENT {
         let (picture, report) = bars_shown(way, "view:2", "occlusion");
         let reason = format!("no rays are bent for a program: {why}");
-        assert_eq!(report["fallbacks"], json!({ reason: 4 }), "{way}");
+        let counted = &report["fallbacks"][&reason];
+        assert!(counted.as_u64() > Some(0), "{way}: {report}");
         assert_eq!(report["draws"]["reference"], Value::Null, "{way}");
         assert!(picture == bars_shown(way, "view:2", "replay").0, "{way}");
     }
 }
 
 #[test]
-fn programs_with_shaders_know_nothing_of_it() {
-    for way in SHADED {
+fn programs_know_nothing_of_it() {
+    for way in SHADED.into_iter().chain(FIXED) {
         let expected = lines(bare(bars()).arg(way));
         assert_eq!(expected.matches("error 0x0").count(), 4, "{expected}");
         for atlas in ["side-by-side", "layers"] {

@@ -25,6 +25,32 @@ pub struct Rays {
     pub heights: [f32; 2],
 }
 
+/// What a draw of surfaces is made of.
+#[derive(Clone, Copy, Debug)]
+pub struct Drawing {
+    /// Of the primitives; none where they are several, and surfaces.
+    pub mode: Option<u32>,
+    /// How many there are at least.
+    pub vertices: u64,
+    /// It can be made with `GL_PATCHES` of three vertices, or of four in the place of quads.
+    pub cuts: bool,
+    /// It may change the material.
+    pub material: bool,
+}
+
+impl Drawing {
+    /// Its patches, and how many corners they have.
+    fn patches(&self) -> Option<(Primitive, i32)> {
+        match self.mode.filter(|_| self.cuts)? {
+            c::TRIANGLES | c::TRIANGLE_STRIP | c::TRIANGLE_FAN | c::POLYGON => {
+                Some((Primitive::Triangles, 3))
+            }
+            c::QUADS | c::QUAD_STRIP => Some((Primitive::Quads, 4)),
+            _ => None,
+        }
+    }
+}
+
 /// Pixels of a small triangle, on the average: half a square of those edges that triangles are cut to.
 const SMALL: u64 = 8;
 
@@ -56,7 +82,6 @@ struct Bound {
     unit: u32,
     active: u32,
     was: u32,
-    sampler: u32,
 }
 
 impl Bound {
@@ -65,29 +90,13 @@ impl Bound {
         gl.active_texture(c::TEXTURE0 + unit);
         let was = gl.get_integer(c::TEXTURE_BINDING_2D_ARRAY) as u32;
         gl.bind_texture(c::TEXTURE_2D_ARRAY, map);
-        // With one that wants mipmaps there is nothing in the map.
-        let sampler = match gl.since((3, 3), None) {
-            true => gl.get_integer(c::SAMPLER_BINDING) as u32,
-            false => 0,
-        };
-        if sampler != 0 {
-            gl.bind_sampler(unit, 0);
-        }
         gl.active_texture(active);
-        Bound {
-            unit,
-            active,
-            was,
-            sampler,
-        }
+        Bound { unit, active, was }
     }
 
     fn leave(self, gl: &Gl) {
         gl.active_texture(c::TEXTURE0 + self.unit);
         gl.bind_texture(c::TEXTURE_2D_ARRAY, self.was);
-        if self.sampler != 0 {
-            gl.bind_sampler(self.unit, self.sampler);
-        }
         gl.active_texture(self.active);
     }
 }
@@ -131,7 +140,7 @@ pub fn draw_bent(
 }
 
 impl Programs {
-    /// Draws triangles of fixed function into the reference image; all state is as before. Where their `vertices` are few for the picture they are cut
+    /// Draws surfaces of fixed function into the reference image; all state is as before. Where their vertices are few for the picture they are cut
     /// into small ones. `call` makes the draw, in a mode.
     ///
     /// # Errors
@@ -147,20 +156,20 @@ impl Programs {
         state: &State,
         rig: &Rig,
         shear: Option<Shear>,
-        (fixed, material): (&FixedState, bool),
-        (mode, vertices): (u32, u64),
+        fixed: &FixedState,
+        drawing: &Drawing,
         again: Again,
         rays: &Rays,
         call: &mut dyn FnMut(u32),
     ) -> Result<(), Reason> {
         let modelview = gl.get_floats::<16>(c::MODELVIEW_MATRIX);
-        let (mut key, around) = fixed.for_mode(mode, &modelview, material);
-        let few = few(vertices, atlas);
-        let patches = match (mode, few && self.limits.glsl >= 400) {
-            (c::TRIANGLES, true) => Some((Primitive::Triangles, 3)),
-            (c::QUADS, true) => Some((Primitive::Quads, 4)),
-            _ => None,
-        };
+        let mode = drawing.mode.unwrap_or(c::TRIANGLES);
+        let (mut key, around) = fixed.for_mode(mode, &modelview, drawing.material);
+        let few = few(drawing.vertices, atlas);
+        // Which corner colours a flat one of a strip goes by its place in the strip.
+        let alone = !key.flat || [c::TRIANGLES, c::QUADS].contains(&mode);
+        let cut = few && alone && self.limits.glsl >= 400;
+        let patches = drawing.patches().filter(|_| cut);
         key.target.amplifier = Amplifier::Instanced;
         if let Some((primitive, _)) = patches {
             key.target.amplifier = Amplifier::Tessellation;
@@ -182,7 +191,7 @@ impl Programs {
         let cut = patches.map(|(_, corners)| {
             gl.uniform_1f(
                 program.levels,
-                self.driver.level(vertices / corners as u64) as f32,
+                self.driver.level(drawing.vertices / corners as u64) as f32,
             );
             let was = gl.get_integer(c::PATCH_VERTICES);
             gl.patch_parameteri(c::PATCH_VERTICES, corners);

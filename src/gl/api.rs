@@ -571,7 +571,7 @@ fn text(p: Ptr) -> String {
 
 /// The index pointer of the program's draw: an address, or an offset into the element buffer.
 #[derive(Clone, Copy, Debug)]
-pub struct Indices(Ptr);
+pub struct Indices(pub(super) Ptr);
 
 impl Indices {
     /// # Safety

@@ -10,7 +10,7 @@ use super::programs::{Entered, With};
 use super::synthesis::Look;
 use super::{Layer, keep_bindings};
 use crate::config::Word;
-use crate::draw::{Again, Rays, draw_bent};
+use crate::draw::{Again, Drawing, Rays, draw_bent};
 use crate::gl::{Gl, consts as c};
 use crate::interleave::Heights;
 use crate::plan::{Flat, Kind, Plan, Reason};
@@ -61,10 +61,14 @@ impl Layer {
     pub(super) fn expect_bent(&mut self, kind: Kind, look: &Look) {
         let mode = match kind {
             Kind::Begin(mode) | Kind::Arrays(mode) | Kind::Elements(mode) => Some(mode),
-            Kind::Other => None,
+            Kind::Other | Kind::List => None,
             _ => return,
         };
-        let surfaces = || mode.is_some_and(|mode| (c::TRIANGLES..=c::POLYGON).contains(&mode));
+        // A list is drawn there if it has nothing but surfaces.
+        let surfaces = || match mode {
+            Some(mode) => (c::TRIANGLES..=c::POLYGON).contains(&mode),
+            None => kind == Kind::List,
+        };
         let bends = self.synthesis.bent.on
             && match (self.state.program, self.state.pipeline) {
                 (0, 0) => self.state.compatibility && surfaces(),
@@ -86,25 +90,27 @@ impl Layer {
         }
     }
 
-    /// Before such a draw, if it is one, of so many vertices, which may change the material; `call` makes it in a mode.
+    /// Before such a draw, if it is one; `drawing` is without its mode. `call` makes it in a mode.
     pub(super) fn draw_bent(
         &mut self,
         gl: &Gl,
         plan: &Plan,
         again: Again,
-        (vertices, material): (u64, bool),
+        drawing: Drawing,
         call: &mut dyn FnMut(u32),
     ) {
         let Some(next) = self.synthesis.bent.next.take() else {
             return;
         };
+        let drawing = Drawing {
+            mode: next.mode,
+            ..drawing
+        };
         if self.state.program != 0 {
-            return self.draw_bent_twin(gl, plan, again, vertices, &next, call);
+            return self.draw_bent_twin(gl, plan, again, &drawing, &next.rays, call);
         }
         self.read_fixed(gl);
-        let (Some(fixed), Some(mode)) = (self.fixed, next.mode) else {
-            return;
-        };
+        let Some(fixed) = self.fixed else { return };
         self.queries.pause(gl);
         let drawn = self.unblended(gl, |layer| {
             layer.programs.draw_bent(
@@ -113,8 +119,8 @@ impl Layer {
                 &layer.state,
                 &layer.rig,
                 plan.shear,
-                (&fixed, material),
-                (mode, vertices),
+                &fixed,
+                &drawing,
                 again,
                 &next.rays,
                 call,
@@ -134,8 +140,8 @@ impl Layer {
         gl: &Gl,
         plan: &Plan,
         again: Again,
-        vertices: u64,
-        next: &Next,
+        drawing: &Drawing,
+        rays: &Rays,
         call: &mut dyn FnMut(u32),
     ) {
         let (program, rig) = (self.state.program, self.rig);
@@ -154,7 +160,7 @@ impl Layer {
             };
             let tiles = self.atlas.tiles;
             twin.place(gl, shifts, &[rig.place(tiles.own())], tiles.stride);
-            let mode = next.mode.unwrap_or(c::TRIANGLES);
+            let mode = drawing.mode.unwrap_or(c::TRIANGLES);
             self.unblended(gl, |layer| {
                 draw_bent(
                     gl,
@@ -163,9 +169,9 @@ impl Layer {
                     &rig,
                     moved,
                     (twin, &units),
-                    vertices,
+                    drawing.vertices,
                     again,
-                    &next.rays,
+                    rays,
                     &mut || call(mode),
                 );
             });

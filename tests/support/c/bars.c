@@ -6,6 +6,9 @@
  *   coord      the same, the wall's colours from gl_FragCoord
  *   new        GLSL 3.30 in a core context, with a name like ours, and a texture and a sampler in the unit that the layer likes
  *   instanced  the same, by glDrawArraysInstanced
+ *   strips     fixed function, a strip for each column of the wall, as large as its squares; fans, polygons, quads: likewise
+ *   indexed    the same, by indices of the program's own
+ *   list       fixed function, in a display list
  *   several    GLSL 1.20, two colours are written
  *   geometry   GLSL 1.50, with a geometry shader */
 #define SURFACE_SIZE
@@ -20,6 +23,8 @@ struct corner { GLfloat place[3], colour[3]; };
 static struct corner corners[MOST];
 static GLsizei count, wall_count;
 static const char *way;
+
+static GLushort places[MOST]; /* of indexed strips */
 
 static int is(const char *name) { return !strcmp(way, name); }
 
@@ -43,6 +48,35 @@ static void patch(double left, double right, double low, double high, double nea
                     (i / cut + j / cut) % 2 ? dark : light);
             }
 }
+
+/* The wall in large squares: strips of a column with each corner as often as it has colours, or a fan for each square. */
+static GLsizei column;
+static void squares(void)
+{
+    int fan = is("fans") || is("polygons");
+    column = fan ? 4 : 4 * ROWS;
+    for (int i = 0; i < COLUMNS; i++)
+        for (int j = 0; j < ROWS; j++)
+            for (int k = 0; k < 4; k++) {
+                int right = fan ? k == 1 || k == 2 : k % 2;
+                double u = (double)(i + right) / COLUMNS, v = (double)(j + k / 2) / ROWS;
+                places[count] = (GLushort)count;
+                add(-30 + 60 * u, -20 + 40 * v, -(26 - 6 * u), (i + j) % 2 ? 0x506080 : 0x7080a0);
+            }
+}
+
+static void draw_squares(GLsizei number)
+{
+    GLenum mode = is("fans") ? GL_TRIANGLE_FAN : is("polygons") ? GL_POLYGON : is("quads") ? GL_QUAD_STRIP : GL_TRIANGLE_STRIP;
+    for (GLsizei i = 0; i < number; i += column) {
+        if (is("indexed"))
+            glDrawElements(mode, column, GL_UNSIGNED_SHORT, places + i);
+        else
+            glDrawArrays(mode, i, column);
+    }
+}
+
+static int in_squares(void) { return is("strips") || is("fans") || is("polygons") || is("quads") || is("indexed"); }
 
 static void box(double left, double right, double low, double high, double z, unsigned light, unsigned dark)
 {
@@ -105,9 +139,17 @@ static GLuint made(int core)
     return program;
 }
 
+static int listed;
 static void draw(GLint first, GLsizei number)
 {
-    if (is("begin")) {
+    if (is("list") && listed) {
+        if (!first)
+            glCallList(1);
+        return;
+    }
+    if (in_squares() && !first) {
+        draw_squares(number);
+    } else if (is("begin") || (is("list") && !listed)) {
         glBegin(GL_TRIANGLES);
         for (GLint i = first; i < first + number; i++) {
             glColor3fv(corners[i].colour);
@@ -156,7 +198,10 @@ int main(int argc, char **argv)
     EGLContext context = eglCreateContext(display, config, EGL_NO_CONTEXT, core ? attributes : NULL);
     if (!context || !eglMakeCurrent(display, surface, surface, context))
         return 2;
-    patch(-30, 30, -20, 20, 26, 20, COLUMNS, ROWS, is("old") ? CUT / 3 : CUT, 0x7080a0, 0x506080);
+    if (in_squares())
+        squares();
+    else
+        patch(-30, 30, -20, 20, 26, 20, COLUMNS, ROWS, is("old") ? CUT / 3 : CUT, 0x7080a0, 0x506080);
     wall_count = count;
     for (int k = 0; k < 9; k++)
         box(-5.2 + 0.35 * k, -5 + 0.35 * k, -3, 3, 7, 0xe0a040, 0xc08020);
@@ -178,25 +223,33 @@ int main(int argc, char **argv)
     glGenBuffers(1, &names[3]);
     glBindBuffer(GL_ARRAY_BUFFER, names[3]);
     glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)sizeof corners, corners, GL_STATIC_DRAW);
-    if (is("matrix")) {
+    if (is("matrix") || in_squares()) {
         glEnableClientState(GL_VERTEX_ARRAY);
         glEnableClientState(GL_COLOR_ARRAY);
         glVertexPointer(3, GL_FLOAT, sizeof *corners, (void *)0);
         glColorPointer(3, GL_FLOAT, sizeof *corners, (void *)12);
-    } else if (!is("begin")) {
+    } else if (!is("begin") && !is("list")) {
         glEnableVertexAttribArray(0);
         glEnableVertexAttribArray(3);
         glVertexAttribPointer(0, 3, GL_FLOAT, 0, sizeof *corners, (void *)0);
         glVertexAttribPointer(3, 3, GL_FLOAT, 0, sizeof *corners, (void *)12);
     }
-    GLuint program = made(core);
+    int fixed = in_squares() || is("list");
+    GLuint program = fixed ? 0 : made(core);
     glUseProgram(program);
-    if (is("matrix") || is("begin")) {
+    if (is("matrix") || is("begin") || fixed) {
         glMatrixMode(GL_PROJECTION);
         glLoadMatrixf(camera);
         glMatrixMode(GL_MODELVIEW);
     } else {
         glUniformMatrix4fv(glGetUniformLocation(program, "camera"), 1, 0, camera);
+    }
+    if (is("list")) {
+        glNewList(1, GL_COMPILE);
+        draw(0, wall_count);
+        draw(wall_count, count - wall_count);
+        glEndList();
+        listed = 1;
     }
     glEnable(GL_DEPTH_TEST);
     for (int frame = 1; frame <= 4; frame++) {
