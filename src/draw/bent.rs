@@ -1,17 +1,19 @@
-//! One draw for the reference image of an occlusion camera, with a generated program.
+//! One draw for the reference image of an occlusion camera, with a generated program or a twin of the program's own.
 
 use super::amplified::{Around, Programs};
 use super::fixed_state::FixedState;
 use super::fragment_state;
 use super::replay::{Again, replay};
 use super::tuned::Units;
+use super::twin::Twin;
 use crate::atlas::{Atlas, BentSurface};
 use crate::fixed::{Amplifier, Primitive, Tiles};
 use crate::gl::{Gl, consts as c};
 use crate::plan::{Reason, Rig, Shear};
 use crate::state::State;
 
-/// The texture unit of the map: the last one that all drivers with OpenGL 3.0 have.
+/// The texture unit of the map: the last one that all drivers with OpenGL 3.0 have, or where a program's own shaders have a use for it, the
+/// last one that they have none for.
 pub(super) const UNIT: u32 = 31;
 
 /// What the rays are bent by.
@@ -21,6 +23,32 @@ pub struct Rays {
     pub map: u32,
     /// Heights as in the map: factor of z in NDC, and what is added.
     pub heights: [f32; 2],
+}
+
+/// What a draw of surfaces is made of.
+#[derive(Clone, Copy, Debug)]
+pub struct Drawing {
+    /// Of the primitives; none where they are several, and surfaces.
+    pub mode: Option<u32>,
+    /// How many there are at least.
+    pub vertices: u64,
+    /// It can be made with `GL_PATCHES` of three vertices, or of four in the place of quads.
+    pub cuts: bool,
+    /// It may change the material.
+    pub material: bool,
+}
+
+impl Drawing {
+    /// Its patches, and how many corners they have.
+    fn patches(&self) -> Option<(Primitive, i32)> {
+        match self.mode.filter(|_| self.cuts)? {
+            c::TRIANGLES | c::TRIANGLE_STRIP | c::TRIANGLE_FAN | c::POLYGON => {
+                Some((Primitive::Triangles, 3))
+            }
+            c::QUADS | c::QUAD_STRIP => Some((Primitive::Quads, 4)),
+            _ => None,
+        }
+    }
 }
 
 /// Pixels of a small triangle, on the average: half a square of those edges that triangles are cut to.
@@ -51,29 +79,68 @@ impl Rays {
 
 /// The map in its unit.
 struct Bound {
+    unit: u32,
     active: u32,
     was: u32,
 }
 
 impl Bound {
-    fn enter(gl: &Gl, map: u32) -> Bound {
+    fn enter(gl: &Gl, unit: u32, map: u32) -> Bound {
         let active = gl.get_integer(c::ACTIVE_TEXTURE) as u32;
-        gl.active_texture(c::TEXTURE0 + UNIT);
+        gl.active_texture(c::TEXTURE0 + unit);
         let was = gl.get_integer(c::TEXTURE_BINDING_2D_ARRAY) as u32;
         gl.bind_texture(c::TEXTURE_2D_ARRAY, map);
         gl.active_texture(active);
-        Bound { active, was }
+        Bound { unit, active, was }
     }
 
     fn leave(self, gl: &Gl) {
-        gl.active_texture(c::TEXTURE0 + UNIT);
+        gl.active_texture(c::TEXTURE0 + self.unit);
         gl.bind_texture(c::TEXTURE_2D_ARRAY, self.was);
         gl.active_texture(self.active);
     }
 }
 
+/// Draws by a twin of the program's own shaders, which is in use, into the reference image; `units` are those that it samples. All state is as
+/// before, but for the program in use. What has no shift by the projection matrix of fixed function has that of the twin.
+#[allow(
+    clippy::too_many_arguments,
+    reason = "the parts of one draw; a struct of them would be built for this call alone"
+)]
+pub fn draw_bent(
+    gl: &Gl,
+    atlas: &mut Atlas,
+    state: &State,
+    rig: &Rig,
+    shear: Option<Shear>,
+    (twin, units): (&Twin, &[u32]),
+    vertices: u64,
+    again: Again,
+    rays: &Rays,
+    call: &mut dyn FnMut(),
+) {
+    let unit = (0..=UNIT).rev().find(|unit| !units.contains(unit));
+    let unit = unit.unwrap_or(UNIT);
+    let sparse = !few(vertices, atlas);
+    twin.bend(gl, unit, rays.uniforms(state, atlas, sparse));
+    let map = Bound::enter(gl, unit, rays.map);
+    let mut surface = BentSurface(atlas);
+    replay(
+        gl,
+        &mut surface,
+        state,
+        rig,
+        shear,
+        again,
+        false,
+        &mut |_| call(),
+    );
+    atlas.bind_row(gl, 0);
+    map.leave(gl);
+}
+
 impl Programs {
-    /// Draws triangles of fixed function into the reference image; all state is as before. Where their `vertices` are few for the picture they are cut
+    /// Draws surfaces of fixed function into the reference image; all state is as before. Where their vertices are few for the picture they are cut
     /// into small ones. `call` makes the draw, in a mode.
     ///
     /// # Errors
@@ -89,20 +156,20 @@ impl Programs {
         state: &State,
         rig: &Rig,
         shear: Option<Shear>,
-        (fixed, material): (&FixedState, bool),
-        (mode, vertices): (u32, u64),
+        fixed: &FixedState,
+        drawing: &Drawing,
         again: Again,
         rays: &Rays,
         call: &mut dyn FnMut(u32),
     ) -> Result<(), Reason> {
         let modelview = gl.get_floats::<16>(c::MODELVIEW_MATRIX);
-        let (mut key, around) = fixed.for_mode(mode, &modelview, material);
-        let few = few(vertices, atlas);
-        let patches = match (mode, few && self.limits.glsl >= 400) {
-            (c::TRIANGLES, true) => Some((Primitive::Triangles, 3)),
-            (c::QUADS, true) => Some((Primitive::Quads, 4)),
-            _ => None,
-        };
+        let mode = drawing.mode.unwrap_or(c::TRIANGLES);
+        let (mut key, around) = fixed.for_mode(mode, &modelview, drawing.material);
+        let few = few(drawing.vertices, atlas);
+        // Which corner colours a flat one of a strip goes by its place in the strip.
+        let alone = !key.flat || [c::TRIANGLES, c::QUADS].contains(&mode);
+        let cut = few && alone && self.limits.glsl >= 400;
+        let patches = drawing.patches().filter(|_| cut);
         key.target.amplifier = Amplifier::Instanced;
         if let Some((primitive, _)) = patches {
             key.target.amplifier = Amplifier::Tessellation;
@@ -116,7 +183,7 @@ impl Programs {
         let Some(Some(program)) = self.cache.get(&stages) else {
             return Err(Reason::Compile);
         };
-        let map = Bound::enter(gl, rays.map);
+        let map = Bound::enter(gl, UNIT, rays.map);
         let around = Around::enter(gl, state, atlas, &stages.0, program, Units::None, fixed);
         let [window, bend] = rays.uniforms(state, atlas, !few);
         gl.uniform_4fv(program.window, &[window]);
@@ -124,7 +191,7 @@ impl Programs {
         let cut = patches.map(|(_, corners)| {
             gl.uniform_1f(
                 program.levels,
-                self.driver.level(vertices / corners as u64) as f32,
+                self.driver.level(drawing.vertices / corners as u64) as f32,
             );
             let was = gl.get_integer(c::PATCH_VERTICES);
             gl.patch_parameteri(c::PATCH_VERTICES, corners);

@@ -11,7 +11,7 @@ mod tuned;
 mod twin;
 
 pub use amplified::{Amplified, Programs};
-pub use bent::Rays;
+pub use bent::{Drawing, Rays, draw_bent};
 pub use current::Current;
 pub use fixed_state::{Driver, FixedState, limits};
 pub use replay::{Again, cut, enter_own, others, place, replay, unplace};

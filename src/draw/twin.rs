@@ -1,7 +1,7 @@
 //! A twin of one of the program's own GLSL programs, linked from rewritten shaders: what draws the views. The program's own stays as
 //! it is, and everything that the program asks about it is answered by it.
 
-use crate::gl::{Active, Gl};
+use crate::gl::{Active, Gl, consts as c};
 use crate::plan::{Flat, Shear};
 use crate::rewrite::{
     Amplifier, Names, Options, Refusal, Stage, Target, Uniform, VertexLayer, facts, rewrite,
@@ -19,6 +19,8 @@ pub enum Way {
     Layer(VertexLayer),
     /// All at once, up to so many: an instance for each, to the layer of each.
     Instances(VertexLayer, u32),
+    /// To the reference image of an occlusion camera, by bent rays; also what the projection matrix of fixed function places.
+    Bent,
 }
 
 /// What a program draws the views by.
@@ -48,6 +50,21 @@ pub enum NoTwin {
     /// Nothing moves vertices that could be shifted.
     #[error("it has no vertex shader")]
     NoVertex,
+    /// Bent rays end at the vertex stage.
+    #[error("its vertices are placed after the vertex stage")]
+    Stages,
+    /// Colours come from fixed function.
+    #[error("it has no fragment shader")]
+    NoFragment,
+    /// Sent once more, it would do it once more.
+    #[error("it writes to images, buffers or counters")]
+    Effects,
+    /// There is no place for another output, or nobody says where one is.
+    #[error("the outputs of its fragment shader are several, or not known")]
+    Outputs,
+    /// What passes between the stages has no name that both leave free.
+    #[error("its shaders have names like ours")]
+    Names,
     /// The driver says no.
     #[error("the driver refused the rewritten shaders: {0}")]
     Driver(String),
@@ -62,6 +79,8 @@ pub struct Twin {
     views: i32,
     across: i32,
     up: i32,
+    /// The map, where its texels lie, heights.
+    bends: [i32; 3],
     /// Type, location in the program, location here; one for each element of arrays.
     uniforms: Vec<(u32, i32, i32)>,
     /// Index of each block in the program, here the index in the twin.
@@ -91,7 +110,12 @@ pub fn drawn(gl: &Gl, program: u32, texts: &[Text], way: Way) -> Result<Drawn, N
         Way::Alone => (Amplifier::Replay, Target::Whole, 1),
         Way::Layer(by) => (Amplifier::Replay, Target::Layer(by), 1),
         Way::Instances(by, views) => (Amplifier::Instanced, Target::Layer(by), views),
+        Way::Bent => (Amplifier::Replay, Target::Bent, 1),
     };
+    let bent = way == Way::Bent;
+    if bent && last != Stage::Vertex {
+        return Err(NoTwin::Stages);
+    }
     let options = Options {
         amplifier,
         target,
@@ -102,6 +126,7 @@ pub fn drawn(gl: &Gl, program: u32, texts: &[Text], way: Way) -> Result<Drawn, N
     let mut rewritten = Vec::with_capacity(texts.len());
     let mut shift = None;
     let mut place = None;
+    let mut built_in = false;
     for text in texts {
         let moves = text.stage == last;
         if !moves && text.stage != Stage::Fragment {
@@ -117,10 +142,17 @@ pub fn drawn(gl: &Gl, program: u32, texts: &[Text], way: Way) -> Result<Drawn, N
         if new.facts.subroutines {
             return Err(NoTwin::Subroutines);
         }
+        if bent && new.facts.side_effects {
+            return Err(NoTwin::Effects);
+        }
         let changed = matches!(new.text, Cow::Owned(_));
         match text.stage {
-            Stage::Fragment if changed => place = Some(new.names),
-            Stage::Fragment => {}
+            Stage::Fragment => {
+                built_in |= new.facts.writes_built_in();
+                if changed {
+                    place = Some(new.names);
+                }
+            }
             _ => {
                 projection |= new.facts.projection;
                 if changed {
@@ -130,10 +162,25 @@ pub fn drawn(gl: &Gl, program: u32, texts: &[Text], way: Way) -> Result<Drawn, N
         }
         rewritten.push((text.kind, new.text));
     }
-    if projection {
+    if projection && !bent {
         return Ok(Drawn::ByMatrix);
     }
     let shift = shift.ok_or(NoTwin::NoVertex)?;
+    let mut outputs = outputs(gl, program);
+    if bent {
+        let beside = place.as_ref().ok_or(NoTwin::NoFragment)?;
+        if *beside != shift {
+            return Err(NoTwin::Names);
+        }
+        let one = outputs.len() <= 1 && outputs.iter().all(|(_, at)| *at == 0);
+        let free = built_in || one && gl.tells_outputs();
+        if !free {
+            return Err(NoTwin::Outputs);
+        }
+        outputs.push((CString::new(beside.beside()).unwrap_or_default(), 1));
+        let bending = shift.bending().into_bytes();
+        rewritten.push((c::VERTEX_SHADER, bending.into()));
+    }
     let mut shaders = Vec::with_capacity(rewritten.len());
     for (kind, text) in &rewritten {
         match gl.compile(*kind, text) {
@@ -149,7 +196,6 @@ pub fn drawn(gl: &Gl, program: u32, texts: &[Text], way: Way) -> Result<Drawn, N
     let attributes = places(gl.active_attributes(program), |name| {
         gl.attribute_location(program, name)
     });
-    let outputs = outputs(gl, program);
     let name = gl
         .link_at(&shaders, &attributes, &outputs)
         .map_err(NoTwin::Driver)?;
@@ -204,6 +250,8 @@ impl Twin {
             views: ours(shift, Uniform::Views),
             across: window(Uniform::Across),
             up: window(Uniform::Up),
+            bends: [Uniform::Bends, Uniform::Window, Uniform::Bend]
+                .map(|uniform| ours(shift, uniform)),
             uniforms,
             blocks: (0..blocks)
                 .map(|at| gl.same_block(program, at, name))
@@ -244,6 +292,14 @@ impl Twin {
         if self.views >= 0 {
             gl.uniform_1i(self.views, layers.len() as i32);
         }
+    }
+
+    /// What rays are bent by: the texture unit of the map, where its texels lie, heights. The twin is in use, and bends.
+    pub(super) fn bend(&self, gl: &Gl, unit: u32, [window, heights]: [[f32; 4]; 2]) {
+        let [at_map, at_window, at_heights] = self.bends;
+        gl.uniform_1i(at_map, unit as i32);
+        gl.uniform_4fv(at_window, &[window]);
+        gl.uniform_4fv(at_heights, &[heights]);
     }
 
     /// The views that are drawn next; the twin is in use. `shear` of the scene, `flat` of what has no depth, both at the `places` of the

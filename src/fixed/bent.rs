@@ -12,6 +12,7 @@
 //! triangle is cut.
 
 use super::text::Text;
+use super::vertex::VERSION;
 
 /// Between the stages: pixels by which a sample is moved, times w; and what is below 1 where a corner is not moved.
 pub(super) const MOVED: &str = "mv_moved";
@@ -48,7 +49,7 @@ float mv_bent(vec4 p) {
     return side * max(radius - (from + radius) / (1.0 + exp2(-level)), 0.0) * depth;
 }
 
-void mv_place(vec4 p) {
+vec4 mv_bend_rays(vec4 p) {
     mv_moved.x = mv_bent(p) * p.w;
     p.x += mv_moved.x * mv_bend.z;
     mv_moved.y = 1.0;
@@ -56,10 +57,20 @@ void mv_place(vec4 p) {
         mv_moved.y = 0.0;
         p.z = -2.0 * sign(mv_bend.x) * p.w;
     }
-    gl_Position = p;
+    return p;
 }";
 
 /// `mv_place(p)`: position, and by how much it is moved.
 pub(super) fn write_place(text: &mut Text) {
     text.line(BODY);
+    text.line("");
+    text.open("void mv_place(vec4 p) {");
+    text.line("gl_Position = mv_bend_rays(p);");
+    text.close("}");
+}
+
+/// Text of a vertex shader object beside another's: `vec4 mv_bend_rays(vec4 p)` is the position of p, and by how much it is moved is handed on. Of
+/// a version of its own, which has what it calls. `prefix`: what its names begin with, in the place of `mv_`.
+pub fn bending(prefix: &str) -> String {
+    format!("#version {VERSION}\n{UNIFORMS}\nout vec2 {MOVED};\n\n{BODY}\n").replace("mv_", prefix)
 }

@@ -54,7 +54,7 @@ mod vertex;
 mod view;
 
 pub use crate::config::Clip;
-pub use bent::{UNIFORM_BEND, UNIFORM_BENDS, UNIFORM_WINDOW};
+pub use bent::{UNIFORM_BEND, UNIFORM_BENDS, UNIFORM_WINDOW, bending};
 pub use components::batch;
 pub use fragment::{generate_fragment, sampler};
 pub use fragment_key::{

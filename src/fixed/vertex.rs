@@ -10,7 +10,7 @@ use super::{UNIFORM_FIRST, lighting, texgen, view};
 /// Name of the block between vertex and geometry shader.
 pub(super) const BLOCK: &str = "mv_Vertex";
 /// Least shading language version: clip distances and `gl_InstanceID` in the compatibility profile.
-const VERSION: u32 = 150;
+pub(super) const VERSION: u32 = 150;
 
 /// Text of the vertex shader of a canonical key.
 pub(super) fn write(key: &FixedKey, limits: &Limits) -> Result<String, Unsupported> {

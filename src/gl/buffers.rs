@@ -1,6 +1,7 @@
 //! Buffer objects that pixels are read into.
 
 use super::Gl;
+use super::indices::Indices;
 use super::consts as c;
 use super::held::Held;
 use super::real::Ptr;
@@ -45,6 +46,56 @@ impl Gl {
         }
         Held::Buffer.count(1);
         names[names.len() - 1]
+    }
+
+    /// glDrawElements with indices of ours, which lie in no buffer.
+    pub fn draw_listed(&self, mode: u32, list: &[u32]) {
+        let bound = self.get_integer(c::ELEMENT_ARRAY_BUFFER_BINDING) as u32;
+        self.bind_buffer(c::ELEMENT_ARRAY_BUFFER, 0);
+        // SAFETY: no element buffer is bound, so this is an address.
+        // SAFETY: the driver has read as many indices as there are when it returns.
+        unsafe {
+            self.real.glDrawElements(
+                mode,
+                list.len() as i32,
+                c::UNSIGNED_INT,
+                list.as_ptr() as Ptr,
+            )
+        };
+        self.bind_buffer(c::ELEMENT_ARRAY_BUFFER, bound);
+    }
+
+    /// Whether the indices of the program's draw lie in its own memory.
+    pub fn has_own_indices(&self, indices: Indices) -> bool {
+        !indices.0.is_null() && self.get_integer(c::ELEMENT_ARRAY_BUFFER_BINDING) == 0
+    }
+
+    /// The indices, where they do: what is in a buffer has to be waited for.
+    pub fn own_indices(&self, count: u32, kind: u32, indices: Indices) -> Option<Vec<u32>> {
+        if !self.has_own_indices(indices) {
+            return None;
+        }
+        let at = |i: u32| {
+            let i = i as usize;
+            // SAFETY: no element buffer is bound, so this is an address.
+            // SAFETY: the program passed it for this count and type to its own draw (contract of `Indices::new`).
+            // SAFETY: it may lie anywhere; it is read without regard to that.
+            unsafe {
+                match kind {
+                    c::UNSIGNED_BYTE => u32::from(indices.0.cast::<u8>().add(i).read_unaligned()),
+                    c::UNSIGNED_SHORT => u32::from(indices.0.cast::<u16>().add(i).read_unaligned()),
+                    _ => indices.0.cast::<u32>().add(i).read_unaligned(),
+                }
+            }
+        };
+        let known = [c::UNSIGNED_BYTE, c::UNSIGNED_SHORT, c::UNSIGNED_INT].contains(&kind);
+        known.then(|| (0..count).map(at).collect())
+    }
+
+    /// Whether an index may end a primitive.
+    pub fn restarts(&self) -> bool {
+        let on = |since, name| self.since(since, None) && self.is_enabled(name);
+        on((3, 1), c::PRIMITIVE_RESTART) || on((4, 3), c::PRIMITIVE_RESTART_FIXED_INDEX)
     }
 
     /// glBufferData without contents, for pixels to be read into.

@@ -191,11 +191,15 @@ impl Gl {
         }
     }
 
+    /// Whether the context can tell what a program's fragment shader writes. The texts of OpenGL ES say where, if there is more than one.
+    pub fn tells_outputs(&self) -> bool {
+        let asks = self.since((4, 3), None) || self.has_extension("GL_ARB_program_interface_query");
+        asks && !self.is_es()
+    }
+
     /// The names of what a program's fragment shader writes; empty where the context cannot tell.
     pub fn program_outputs(&self, program: u32) -> Vec<CString> {
-        let asks = self.since((4, 3), None) || self.has_extension("GL_ARB_program_interface_query");
-        // The texts of OpenGL ES say where, if there is more than one.
-        if self.is_es() || !asks {
+        if !self.tells_outputs() {
             return Vec::new();
         }
         let ask = |name| {

@@ -1,16 +1,18 @@
 //! A draw call of the program: refresh, plan, execute, count.
 
+mod corners;
+
 use super::Layer;
 use super::programs::{Entered, With};
 use crate::atlas::Surface;
 use crate::config::{Class, Output, Projection, Strategy, Word};
-use crate::draw::{Again, Amplified, FixedState, Programs, replay};
-use crate::gl::Gl;
-use crate::gl::Indices;
+use crate::draw::{Again, Amplified, Drawing, FixedState, Programs, replay};
+use crate::gl::{Gl, Indices, consts as c};
 use crate::offscreen::Target;
 use crate::plan::class::Why;
 use crate::plan::{Classed, Kind, Method, Plan, Ramp, Shear, plan};
 use crate::state::{Command, Run, Touch};
+use corners::corners;
 
 /// A draw from arrays that may be instanced. Counts, types and modes are GL's.
 #[derive(Clone, Copy, Debug)]
@@ -36,6 +38,14 @@ pub enum Primitives {
         indices: Indices,
     },
 }
+
+/// Some draw, of which nothing is known.
+pub(super) const SURFACES: Drawing = Drawing {
+    mode: None,
+    vertices: 0,
+    cuts: false,
+    material: false,
+};
 
 /// The key of the report for a method.
 pub(super) fn method_name(m: Method) -> &'static str {
@@ -68,19 +78,52 @@ impl Primitives {
         }
     }
 
-    /// The number of vertices, and the draw in another mode.
-    fn drawn(self, gl: &Gl) -> (u64, impl FnMut(u32)) {
-        let (Primitives::Arrays { count, .. } | Primitives::Elements { count, .. }) = self;
-        let draw = move |mode| match self {
-            Primitives::Arrays { first, count, .. } => gl.draw_arrays(mode, first, count),
-            Primitives::Elements {
-                count,
-                kind,
-                indices,
-                ..
-            } => gl.draw_elements(mode, count, kind, indices),
+    /// What it is made of.
+    fn drawing(&self, gl: &Gl) -> Drawing {
+        let (Primitives::Arrays { count, .. } | Primitives::Elements { count, .. }) = *self;
+        let (mode, count) = (self.mode(), count.max(0).unsigned_abs());
+        let lists = || match *self {
+            Primitives::Arrays { first, .. } => first >= 0,
+            Primitives::Elements { indices, .. } => gl.has_own_indices(indices),
         };
-        (u64::from(count.max(0).unsigned_abs()), draw)
+        Drawing {
+            mode: Some(mode),
+            vertices: u64::from(count),
+            cuts: [c::TRIANGLES, c::QUADS].contains(&mode) || !gl.restarts() && lists(),
+            material: false,
+        }
+    }
+
+    /// The draw in another mode; as patches also if it is not of triangles or quads by themselves.
+    fn send(&self, gl: &Gl, mode: u32) {
+        let (Primitives::Arrays { count, .. } | Primitives::Elements { count, .. }) = *self;
+        let count_up = count.max(0).unsigned_abs();
+        let list = corners(self.mode(), count_up).filter(|_| mode == c::PATCHES);
+        match (*self, list) {
+            (Primitives::Arrays { first, count, .. }, None) => gl.draw_arrays(mode, first, count),
+            (Primitives::Arrays { first, .. }, Some(mut list)) => {
+                let first = first.max(0).unsigned_abs();
+                list.iter_mut()
+                    .for_each(|at| *at = at.saturating_add(first));
+                gl.draw_listed(mode, &list);
+            }
+            (
+                Primitives::Elements {
+                    count,
+                    kind,
+                    indices,
+                    ..
+                },
+                None,
+            ) => gl.draw_elements(mode, count, kind, indices),
+            (Primitives::Elements { kind, indices, .. }, Some(mut list)) => {
+                if let Some(own) = gl.own_indices(count_up, kind, indices) {
+                    list.iter_mut()
+                        .for_each(|at| *at = own.get(*at as usize).copied().unwrap_or(0));
+                    gl.draw_listed(mode, &list);
+                }
+            }
+        }
     }
 }
 
@@ -105,6 +148,7 @@ impl Layer {
             Kind::Pixels => Again::Raster(plan.shear.take()),
             _ => Again::Same,
         };
+        self.draw_bent(gl, &plan, again, SURFACES, &mut |_| call());
         self.replay(gl, &plan, again, &mut |_| call());
     }
 
@@ -123,8 +167,10 @@ impl Layer {
         match plan.method {
             Method::Once => self.once(gl, call),
             Method::Replay => {
-                let (count, mut bent) = primitives.drawn(gl);
-                self.draw_bent(gl, &plan, Again::Same, (count, false), &mut bent);
+                let drawing = primitives.drawing(gl);
+                self.draw_bent(gl, &plan, Again::Same, drawing, &mut |mode| {
+                    primitives.send(gl, mode);
+                });
                 self.replay(gl, &plan, Again::Same, &mut |_| call());
             }
             Method::Instanced if plan.twin => {

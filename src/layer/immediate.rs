@@ -4,7 +4,7 @@ use super::Layer;
 use super::lists::settle;
 use crate::atlas::Shown;
 use crate::config::Saving;
-use crate::draw::{Again, Current};
+use crate::draw::{Again, Current, Drawing};
 use crate::gl::consts as c;
 use crate::gl::{Ends, Gl, Recording};
 use crate::plan::{Bounds, Kind, Method, Plan};
@@ -97,8 +97,12 @@ impl Layer {
             None => {
                 let all = self.atlas.tiles.shown;
                 self.atlas.tiles.shown = self.seeing(gl, mode, &plan, &recording);
-                let vertices = recording.calls() as u64;
-                let bent = (vertices, self.immediate.changes_material());
+                let bent = Drawing {
+                    mode: Some(mode),
+                    vertices: recording.calls() as u64,
+                    cuts: [c::TRIANGLES, c::QUADS].contains(&mode),
+                    material: self.immediate.changes_material(),
+                };
                 self.draw_bent(gl, &plan, again, bent, &mut |mode| {
                     gl.replay(mode, &recording, ends);
                 });

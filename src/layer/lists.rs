@@ -1,7 +1,8 @@
 //! Display lists: compiled in runs, executed run by run.
 
 use super::Layer;
-use crate::draw::Again;
+use super::drawing::SURFACES;
+use crate::draw::{Again, Drawing};
 use crate::gl::{Gl, consts as c, slot};
 use crate::plan::{Kind, Method};
 use crate::state::{Begin, Body, Command, Compiling, Effect, Run, Segment, Start, Touch};
@@ -220,7 +221,9 @@ impl Layer {
             let current = segments().fold(Effect::NONE, |e, s| e | s.immediate.sets());
             let primitives = segments().all(|s| s.primitives);
             let thin = segments().any(|s| s.thin);
-            return self.run(gl, run, touch, (current, primitives, thin), &mut || {
+            let material = segments().any(|s| s.immediate.changes_material());
+            let drawing = (current, primitives, thin, material);
+            return self.run(gl, run, touch, drawing, &mut || {
                 settle(gl, current);
                 call();
             });
@@ -311,6 +314,7 @@ impl Layer {
                         segment.immediate.must_restore(),
                         segment.primitives,
                         segment.thin,
+                        segment.immediate.changes_material(),
                     ),
                     &mut || {
                         settle(gl, sets);
@@ -396,13 +400,13 @@ impl Layer {
     }
 
     /// Executes one run, or several of a kind. `drawing`: the current values that it starts from and changes, and whether it is
-    /// nothing but primitives, with lines and points among them.
+    /// nothing but primitives, with lines and points among them, with changes of the material.
     fn run(
         &mut self,
         gl: &Gl,
         run: Run,
         touch: Touch,
-        drawing: (Effect, bool, bool),
+        drawing: (Effect, bool, bool, bool),
         call: &mut dyn FnMut(),
     ) {
         match run {
@@ -435,14 +439,22 @@ impl Layer {
                     return self.state.touch(touch);
                 }
                 let again = match drawing {
-                    (Effect::NONE, true, _) => Again::Same,
-                    (current, true, _) => Again::Current(current),
-                    (current, false, _) => Again::Anything {
+                    (Effect::NONE, true, ..) => Again::Same,
+                    (current, true, ..) => Again::Current(current),
+                    (current, false, ..) => Again::Anything {
                         rects: touch.has(Touch::RECTS),
                         projection,
                         current,
                     },
                 };
+                // What else changes the state is not in the generated shaders.
+                if let (_, true, false, material) = drawing {
+                    let bent = Drawing {
+                        material,
+                        ..SURFACES
+                    };
+                    self.draw_bent(gl, &plan, again, bent, &mut |_| call());
+                }
                 self.replay(gl, &plan, again, &mut |_| call());
             }
             Run::Clear => self.draw(

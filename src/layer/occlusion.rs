@@ -6,13 +6,14 @@
 //!
 //! Draws that cannot be bent are missing there: what they hide stays unknown, as it is without this strategy.
 
+use super::programs::{Entered, With};
 use super::synthesis::Look;
 use super::{Layer, keep_bindings};
 use crate::config::Word;
-use crate::draw::{Again, Rays};
+use crate::draw::{Again, Drawing, Rays, draw_bent};
 use crate::gl::{Gl, consts as c};
 use crate::interleave::Heights;
-use crate::plan::{Kind, Plan};
+use crate::plan::{Flat, Kind, Plan, Reason};
 use crate::present::capture::read_rgb;
 use crate::synthesis::Passes;
 use image::RgbImage;
@@ -36,7 +37,8 @@ pub(super) struct Bent {
 /// A draw that is about to be made.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Next {
-    mode: u32,
+    /// Of the primitives, where that is known.
+    mode: Option<u32>,
     rays: Rays,
 }
 
@@ -55,16 +57,23 @@ impl Layer {
         }
     }
 
-    /// A draw of the scene is about to be made; those of surfaces by fixed function can be bent.
+    /// A draw of the scene is about to be made; those of surfaces by fixed function can be bent, and of programs with shaders all.
     pub(super) fn expect_bent(&mut self, kind: Kind, look: &Look) {
-        let (Kind::Begin(mode) | Kind::Arrays(mode) | Kind::Elements(mode)) = kind else {
-            return;
+        let mode = match kind {
+            Kind::Begin(mode) | Kind::Arrays(mode) | Kind::Elements(mode) => Some(mode),
+            Kind::Other | Kind::List => None,
+            _ => return,
+        };
+        // A list is drawn there if it has nothing but surfaces.
+        let surfaces = || match mode {
+            Some(mode) => (c::TRIANGLES..=c::POLYGON).contains(&mode),
+            None => kind == Kind::List,
         };
         let bends = self.synthesis.bent.on
-            && self.state.compatibility
-            && self.state.program == 0
-            && self.state.pipeline == 0
-            && (c::TRIANGLES..=c::POLYGON).contains(&mode);
+            && match (self.state.program, self.state.pipeline) {
+                (0, 0) => self.state.compatibility && surfaces(),
+                (program, _) => program != 0,
+            };
         let map = self.atlas.bent().map(|bent| bent.map);
         if let (true, Some(map)) = (bends, map) {
             let [near, far] = self.state.look.depths;
@@ -81,46 +90,109 @@ impl Layer {
         }
     }
 
-    /// Before such a draw, if it is one, of so many vertices, which may change the material; `call` makes it in a mode.
+    /// Before such a draw, if it is one; `drawing` is without its mode. `call` makes it in a mode.
     pub(super) fn draw_bent(
         &mut self,
         gl: &Gl,
         plan: &Plan,
         again: Again,
-        (vertices, material): (u64, bool),
+        drawing: Drawing,
         call: &mut dyn FnMut(u32),
     ) {
         let Some(next) = self.synthesis.bent.next.take() else {
             return;
         };
+        let drawing = Drawing {
+            mode: next.mode,
+            ..drawing
+        };
+        if self.state.program != 0 {
+            return self.draw_bent_twin(gl, plan, again, &drawing, &next.rays, call);
+        }
         self.read_fixed(gl);
-        let Some(fixed) = &self.fixed else { return };
+        let Some(fixed) = self.fixed else { return };
         self.queries.pause(gl);
-        let blends = self.state.look.blends;
-        if blends {
-            gl.disablei(c::BLEND, 1);
-        }
-        let drawn = self.programs.draw_bent(
-            gl,
-            &mut self.atlas,
-            &self.state,
-            &self.rig,
-            plan.shear,
-            (fixed, material),
-            (next.mode, vertices),
-            again,
-            &next.rays,
-            call,
-        );
-        if blends {
-            gl.enablei(c::BLEND, 1);
-        }
+        let drawn = self.unblended(gl, |layer| {
+            layer.programs.draw_bent(
+                gl,
+                &mut layer.atlas,
+                &layer.state,
+                &layer.rig,
+                plan.shear,
+                &fixed,
+                &drawing,
+                again,
+                &next.rays,
+                call,
+            )
+        });
         self.report.shaders(self.programs.compiled);
         match drawn {
             Ok(()) => self.report.draw("reference", plan.class.word()),
             Err(reason) => self.fallbacks.add(reason),
         }
         self.queries.resume(gl);
+    }
+
+    /// Such a draw with the program's own shaders.
+    fn draw_bent_twin(
+        &mut self,
+        gl: &Gl,
+        plan: &Plan,
+        again: Again,
+        drawing: &Drawing,
+        rays: &Rays,
+        call: &mut dyn FnMut(u32),
+    ) {
+        let (program, rig) = (self.state.program, self.rig);
+        if let Err(why) = self.know_bent(gl, program) {
+            return self.fallbacks.add(Reason::Unbent(why));
+        }
+        let units = self.units_of(gl, program);
+        let units: Vec<u32> = units.into_iter().map(|(unit, _)| unit).collect();
+        let mut twins = std::mem::take(&mut self.twins);
+        if let Some(Entered { twin, .. }) = twins.enter(gl, program, With::Rays) {
+            self.queries.pause(gl);
+            // What the projection matrix places is shifted by that.
+            let (moved, shifts) = match plan.twin {
+                true => (None, (plan.shear, plan.flat)),
+                false => (plan.shear, (None, Flat::Still)),
+            };
+            let tiles = self.atlas.tiles;
+            twin.place(gl, shifts, &[rig.place(tiles.own())], tiles.stride);
+            let mode = drawing.mode.unwrap_or(c::TRIANGLES);
+            self.unblended(gl, |layer| {
+                draw_bent(
+                    gl,
+                    &mut layer.atlas,
+                    &layer.state,
+                    &rig,
+                    moved,
+                    (twin, &units),
+                    drawing.vertices,
+                    again,
+                    rays,
+                    &mut || call(mode),
+                );
+            });
+            gl.use_program(program);
+            self.report.draw("reference", plan.class.word());
+            self.queries.resume(gl);
+        }
+        self.twins = twins;
+    }
+
+    /// By how much samples are moved is not blended.
+    fn unblended<R>(&mut self, gl: &Gl, draw: impl FnOnce(&mut Self) -> R) -> R {
+        let blends = self.state.look.blends;
+        if blends {
+            gl.disablei(c::BLEND, 1);
+        }
+        let done = draw(self);
+        if blends {
+            gl.enablei(c::BLEND, 1);
+        }
+        done
     }
 
     /// The reference image, row 0 on top. Changes the read framebuffer.

@@ -30,6 +30,8 @@ pub(super) enum With {
     Layers,
     /// All views in their layers.
     Instances,
+    /// The reference image of an occlusion camera.
+    Rays,
 }
 
 /// A twin in use.
@@ -60,6 +62,8 @@ struct Known {
     how: Result<Drawn, NoTwin>,
     /// The twins that choose layers, once they have been wanted: for one view, and for all.
     layered: [Option<Option<Twin>>; 2],
+    /// The twin that bends rays, once it has been wanted.
+    bent: Option<Result<Twin, NoTwin>>,
     matrices: Matrices,
     samplers: Samplers,
     /// Their units, and the changes of uniforms up to which they are known.
@@ -72,7 +76,7 @@ struct Known {
     lost: bool,
     /// The changes of uniforms up to which its camera was looked for, and its values follow.
     seen: u64,
-    followed: [u64; 3],
+    followed: [u64; 4],
 }
 
 impl Known {
@@ -83,7 +87,8 @@ impl Known {
             _ => None,
         };
         let layered = self.layered.iter().flatten().flatten();
-        whole.into_iter().chain(layered).map(Twin::name)
+        let bent = self.bent.iter().flatten();
+        whole.into_iter().chain(layered).chain(bent).map(Twin::name)
     }
 }
 
@@ -92,9 +97,11 @@ impl Twins {
     /// them.
     pub(super) fn enter(&mut self, gl: &Gl, program: u32, with: With) -> Option<Entered<'_>> {
         let known = self.known.get_mut(&program)?;
-        let [alone, layer, instances] = &mut known.followed;
+        let [alone, layer, instances, rays] = &mut known.followed;
         let [by_layer, by_instances] = known.layered.each_ref().map(|t| t.as_ref()?.as_ref());
+        let bent = known.bent.as_ref().and_then(|bent| bent.as_ref().ok());
         let (twin, followed, layers) = match (with, by_layer, by_instances, &known.how) {
+            (With::Rays, ..) => (bent?, rays, false),
             (With::Instances, _, Some(twin), _) => (twin, instances, true),
             (With::Layers, Some(twin), _, _) => (twin, layer, true),
             (With::Layers | With::Views, _, _, Ok(Drawn::ByTwin(twin))) => (twin, alone, false),
@@ -427,12 +434,45 @@ impl Layer {
             camera: None,
             lost: true,
             seen: 0,
-            followed: [0; 3],
+            followed: [0; 4],
             layered: [None, None],
+            bent: None,
         };
         if let Some(old) = self.twins.known.insert(program, new) {
             old.twins().for_each(|twin| gl.delete_program(twin));
         }
+    }
+
+    /// Makes the twin that bends rays, once for each link; or why there is none.
+    pub(super) fn know_bent(&mut self, gl: &Gl, program: u32) -> Result<(), String> {
+        let told = |made: &Result<Twin, NoTwin>| match made {
+            Ok(_) => Ok(()),
+            Err(reason) => Err(reason.to_string()),
+        };
+        let known = self.twins.known.get(&program);
+        if let Some(made) = known.and_then(|known| known.bent.as_ref()) {
+            return told(made);
+        }
+        let linked = self.linked_from(program);
+        self.state.keep_errors(gl);
+        let made = match linked {
+            Some(linked) => drawn(gl, program, &linked.texts, Way::Bent),
+            None => Err(NoTwin::NoText),
+        };
+        self.drain_own_errors(gl);
+        let twin = made.and_then(|made| match made {
+            Drawn::ByTwin(twin) => Ok(twin),
+            Drawn::ByMatrix => Err(NoTwin::NoVertex),
+        });
+        let answer = told(&twin);
+        if answer.is_ok() {
+            self.programs.compiled += 1;
+            self.report.shaders(self.programs.compiled);
+        }
+        if let Some(known) = self.twins.known.get_mut(&program) {
+            known.bent = Some(twin);
+        }
+        answer
     }
 
     /// Makes the twin that chooses layers, for one view or for all, where the driver can and once for each link; whether it is there.

@@ -59,6 +59,8 @@ pub enum Reason {
     Driver(&'static str),
     /// The driver refused a generated shader.
     Compile,
+    /// A draw that an occlusion camera's rays do not meet.
+    Unbent(String),
     /// Views were made of the scene before something that has to be drawn in each.
     Parted(&'static str),
 }
@@ -71,6 +73,7 @@ impl core::fmt::Display for Reason {
             Reason::Fixed(u) => write!(f, "{u}"),
             Reason::Driver(what) => write!(f, "the driver has no {what}"),
             Reason::Compile => f.write_str("the driver refused the generated shader"),
+            Reason::Unbent(why) => write!(f, "no rays are bent for a program: {why}"),
             Reason::Parted(what) => write!(f, "views are made before {what}"),
         }
     }

@@ -46,7 +46,7 @@ pub(super) fn wrap(
         instance::declare(edits, names, facts.version, facts.instance);
     }
     let first = match options.target {
-        Target::Whole => None,
+        Target::Whole | Target::Bent => None,
         Target::Tiles => Some(target::grow(edits, scan, &outputs)?),
         Target::Layer(extension) => {
             target::layer(edits, scan, &outputs, extension);
@@ -67,7 +67,7 @@ pub(super) fn wrap(
     Ok(first)
 }
 
-fn rename(edits: &mut Edits, scan: &Scan, names: &Names) -> Result<(), Refusal> {
+pub(super) fn rename(edits: &mut Edits, scan: &Scan, names: &Names) -> Result<(), Refusal> {
     let member = |at: usize| *scan.name(at) == *b"main" && scan.is(at.wrapping_sub(1), b'.');
     if (0..scan.tokens.len()).any(member) {
         return Err(Refusal::MainMember);

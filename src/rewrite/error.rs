@@ -24,7 +24,9 @@ pub enum Refusal {
     #[error("the shader has an #extension behind the start of the condition that holds its code")]
     NoPlace,
     /// OpenGL ES has neither layers nor clip distances in the vertex shader without extensions: only whole tiles, by replay.
-    #[error("views in one draw need desktop OpenGL, and the shader is of OpenGL ES")]
+    #[error(
+        "layers, clip distances and bent rays need desktop OpenGL, and the shader is of OpenGL ES"
+    )]
     Es,
     /// `Target::Tiles` below GLSL 1.30.
     #[error("clip distances need GLSL 1.30, and the shader is of an earlier version")]
@@ -47,6 +49,9 @@ pub enum Refusal {
     /// A geometry shader has its place in the atlas by the viewport only.
     #[error("a geometry shader is drawn once per view, into its tile")]
     GeometryTarget,
+    /// `gl_FragData` with an index that is not a plain 0, or as a whole.
+    #[error("the shader writes to more than one image")]
+    Outputs,
     /// `EmitStreamVertex` of another stream than the plain 0.
     #[error("the shader emits vertices to streams")]
     Streams,

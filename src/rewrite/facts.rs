@@ -18,6 +18,8 @@ pub struct Facts {
     pub upper_left: bool,
     /// `pixel_center_integer`: `gl_FragCoord` is whole in the middle of a pixel.
     pub whole_centre: bool,
+    /// `gl_FragColor` or `gl_FragData`
+    pub frag_data: bool,
     /// `gl_InstanceID`, also as `gl_InstanceIDARB`.
     pub instance: bool,
     /// `gl_Layer`
@@ -61,6 +63,11 @@ fn writes(name: &[u8], version: Version) -> bool {
 }
 
 impl Facts {
+    /// Whether a fragment shader writes to outputs of GLSL's, if to any; else under names of its own.
+    pub fn writes_built_in(&self) -> bool {
+        self.frag_data || !self.version.desktop(130)
+    }
+
     pub(super) fn of(scan: &Scan, version: Version) -> Self {
         let mut facts = Self {
             version,
@@ -69,6 +76,7 @@ impl Facts {
             frag_coord: false,
             upper_left: false,
             whole_centre: false,
+            frag_data: false,
             instance: false,
             layer: false,
             viewport_index: false,
@@ -87,6 +95,7 @@ impl Facts {
                 b"main" => facts.main = true,
                 b"ftransform" => facts.projection = true,
                 b"gl_FragCoord" => facts.frag_coord = true,
+                b"gl_FragColor" | b"gl_FragData" => facts.frag_data = true,
                 b"origin_upper_left" => facts.upper_left = true,
                 b"pixel_center_integer" => facts.whole_centre = true,
                 b"gl_InstanceID" | b"gl_InstanceIDARB" => facts.instance = true,

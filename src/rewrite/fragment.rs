@@ -3,11 +3,14 @@
 //! ```text
 //! (X, Y) = (x − stride·⌊x/stride⌋)·across + y·up + origin        z and w as they are
 //! ```
-//! x and y are pixels of the atlas, X and Y of the window. Written out where it is used, so that it is right in the values of globals
+//! x and y are pixels of the atlas, X and Y of the window. By bent rays there are no strides, and a pixel shows what lies as much to the side as
+//! it was moved. Written out where it is used, so that it is right in the values of globals
 //! and in helpers as well. The quotient is not negative, so its whole part is its floor, and no function of GLSL is called under a
 //! name that the program may have given to its own.
 
+use super::Target;
 use super::edit::Edits;
+use super::moved;
 use super::names::{Names, Uniform};
 use super::scan::Scan;
 use super::version::Version;
@@ -24,10 +27,19 @@ fn stays(scan: &Scan, at: usize) -> bool {
             && members.iter().all(|c| b"zwbapq".contains(c)))
 }
 
-/// Rewrites a fragment shader that uses `gl_FragCoord`.
-pub(super) fn rewrite(edits: &mut Edits, scan: &Scan, names: &Names, version: Version) {
+/// Rewrites a fragment shader that uses `gl_FragCoord`; whether it does.
+pub(super) fn rewrite(
+    edits: &mut Edits,
+    scan: &Scan,
+    names: &Names,
+    version: Version,
+    target: Target,
+) -> bool {
     let (across, up) = (names.uniform(Uniform::Across), names.uniform(Uniform::Up));
-    let local = format!("(gl_FragCoord.x - {across}.z * float(int(gl_FragCoord.x / {across}.z)))");
+    let local = match target {
+        Target::Bent => moved::place(names),
+        _ => format!("(gl_FragCoord.x - {across}.z * float(int(gl_FragCoord.x / {across}.z)))"),
+    };
     let coord = format!(
         "vec4({local} * {across}.xy + gl_FragCoord.y * {up}.xy + {up}.zw, gl_FragCoord.zw)"
     );
@@ -39,7 +51,7 @@ pub(super) fn rewrite(edits: &mut Edits, scan: &Scan, names: &Names, version: Ve
         }
     }
     let Some(first) = first else {
-        return;
+        return false;
     };
     let uniforms = |precision: &str| format!("uniform {precision}vec4 {across}, {up};");
     // The first ES has no more than mediump in fragment shaders of some hardware, and says so by a macro.
@@ -49,8 +61,11 @@ pub(super) fn rewrite(edits: &mut Edits, scan: &Scan, names: &Names, version: Ve
             uniforms("highp "),
             uniforms("mediump ")
         )
+    } else if target == Target::Bent {
+        format!("{} {}", uniforms(""), moved::declaration(names, version))
     } else {
         uniforms(version.highp())
     };
     edits.declare(declaration, first);
+    true
 }

@@ -9,7 +9,8 @@
 //!              facts         │    ├─ instance   views by instances
 //!              names         │    └─ target     layer, or tile and clip distances
 //!                            ├─ emit       geometry: each vertex as it is emitted
-//!                            └─ fragment   gl_FragCoord
+//!                            ├─ fragment   gl_FragCoord
+//!                            └─ moved      fragment: by how much bent rays have moved a sample
 //!                                 └──► edit ──► text
 //! ```
 //! Programs' GLSL is of many versions and dialects, and only what is edited is understood: names and a few patterns of tokens. What the
@@ -24,6 +25,7 @@ mod error;
 mod facts;
 mod fragment;
 mod instance;
+mod moved;
 mod names;
 mod outputs;
 mod position;
@@ -78,6 +80,8 @@ pub enum Target {
     Layer(VertexLayer),
     /// Tiles side by side under one viewport, kept apart by two clip distances. The program's draw has no clip plane of fixed function.
     Tiles,
+    /// Nothing: rays are bent, by a function of [`Names::bending`], and the fragment shader says by how much.
+    Bent,
 }
 
 /// What the rewritten shader is for.
@@ -137,7 +141,10 @@ pub fn rewrite<'a>(
         Stage::Geometry => emit::wrap(&mut edits, &scan, &names, &facts, options)?,
         Stage::Fragment => {
             target::check_fragment(&facts, options.target)?;
-            fragment::rewrite(&mut edits, &scan, &names, version);
+            let declared = fragment::rewrite(&mut edits, &scan, &names, version, options.target);
+            if options.target == Target::Bent {
+                moved::wrap(&mut edits, &scan, &names, &facts, declared)?;
+            }
         }
         Stage::TessControl | Stage::Compute => {}
     }

@@ -1,6 +1,7 @@
 //! Names of ours that the program does not have.
 
 use super::scan::Scan;
+use crate::fixed::bending;
 use std::collections::HashSet;
 
 /// A uniform of the rewritten shaders.
@@ -20,11 +21,17 @@ pub enum Uniform {
     Across,
     /// `vec4 mv_up`: x and y in the window of a step upwards in the tile; where the tile begins in the window, x and y.
     Up,
+    /// `sampler2DArray mv_bends`: the map of an occlusion camera; see [`crate::fixed::bending`].
+    Bends,
+    /// `vec4 mv_window`: where its texels lie.
+    Window,
+    /// `vec4 mv_bend`: its heights, and a pixel in NDC.
+    Bend,
 }
 
 impl Uniform {
     /// Each of them once.
-    pub const ALL: [Uniform; 7] = [
+    pub const ALL: [Uniform; 10] = [
         Uniform::Shift,
         Uniform::Tile,
         Uniform::Map,
@@ -32,6 +39,9 @@ impl Uniform {
         Uniform::Views,
         Uniform::Across,
         Uniform::Up,
+        Uniform::Bends,
+        Uniform::Window,
+        Uniform::Bend,
     ];
 
     const fn word(self) -> &'static str {
@@ -43,12 +53,25 @@ impl Uniform {
             Uniform::Views => "views",
             Uniform::Across => "across",
             Uniform::Up => "up",
+            Uniform::Bends => "bends",
+            Uniform::Window => "window",
+            Uniform::Bend => "bend",
         }
     }
 }
 
 /// Names that are not uniforms.
-const OTHERS: [&str; 5] = ["main", "EmitVertex", "view", "by", "position"];
+const OTHERS: [&str; 9] = [
+    "main",
+    "EmitVertex",
+    "view",
+    "by",
+    "position",
+    "bent",
+    "bend_rays",
+    "moved",
+    "beside",
+];
 
 /// The names in one shader: `mv_…`, and where the program has one of those, all with the next prefix that it has none of.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -81,6 +104,16 @@ impl Names {
     /// What a uniform is called. A shader that has no use for it does not have it (location −1).
     pub fn uniform(&self, uniform: Uniform) -> String {
         self.other(uniform.word())
+    }
+
+    /// The output of a fragment shader that says by how much a sample is moved, where that has a name.
+    pub fn beside(&self) -> String {
+        self.other("beside")
+    }
+
+    /// The text of the vertex shader object that bends rays for these names.
+    pub fn bending(&self) -> String {
+        bending(&self.prefix)
     }
 
     pub(super) fn other(&self, word: &str) -> String {

@@ -51,6 +51,7 @@ pub(super) fn check_fragment(facts: &Facts, target: Target) -> Result<(), Refusa
         Target::Layer(_) if facts.layer => Err(Refusal::Uses("gl_Layer")),
         // Its array has to be as long as that of the vertex shader.
         Target::Tiles if facts.clip_distance => Err(Refusal::Uses("gl_ClipDistance")),
+        Target::Bent if facts.version.es => Err(Refusal::Es),
         _ => Ok(()),
     }
 }
@@ -132,6 +133,10 @@ pub(super) fn grow(edits: &mut Edits, scan: &Scan, outputs: &Outputs) -> Result<
 
 /// The uniforms of the place.
 pub(super) fn declare(edits: &mut Edits, names: &Names, target: Target, views: u32) {
+    if target == Target::Bent {
+        let bend = names.other("bend_rays");
+        return edits.append(format!("vec4 {bend}(vec4);"));
+    }
     if target == Target::Whole {
         return;
     }
@@ -149,6 +154,10 @@ pub(super) fn place(edits: &mut Edits, names: &Names, target: Target, view: &str
     let tile = names.uniform(Uniform::Tile);
     match target {
         Target::Whole => {}
+        Target::Bent => {
+            let bend = names.other("bend_rays");
+            edits.append(format!("    gl_Position = {bend}(gl_Position);"));
+        }
         Target::Layer(_) => edits.append(format!("    gl_Layer = int({tile}[{view}].z);")),
         Target::Tiles => {
             let (map, clip) = (names.uniform(Uniform::Map), names.uniform(Uniform::Clip));

@@ -23,6 +23,10 @@ const TILES: Options = Options {
     target: Target::Tiles,
     ..LAYERS
 };
+const BENT: Options = Options {
+    target: Target::Bent,
+    ..REPLAY
+};
 const ES: Options = Options { es: true, ..REPLAY };
 
 fn folder() -> PathBuf {
@@ -58,7 +62,10 @@ fn real_shaders() {
     let every: [(&str, &[(&str, Options)]); 19] = [
         ("light-110.vert", &[("replay", REPLAY), ("layers", LAYERS)]),
         ("sized-150.vert", &[("layers", LAYERS), ("tiles", TILES)]),
-        ("toon-120.vert", &[("replay", REPLAY), ("layers", LAYERS)]),
+        (
+            "toon-120.vert",
+            &[("replay", REPLAY), ("layers", LAYERS), ("bent", BENT)],
+        ),
         ("water-130.vert", &[("replay", REPLAY), ("tiles", TILES)]),
         ("wave-150.vert", &[("layers", LAYERS)]),
         ("crowd-330.vert", &[("layers", LAYERS), ("tiles", TILES)]),
@@ -68,9 +75,9 @@ fn real_shaders() {
         ("fur-150.geom", &[("replay", REPLAY)]),
         ("streams-400.geom", &[("replay", REPLAY)]),
         ("edges-150.frag", &[("replay", REPLAY)]),
-        ("haze-110.frag", &[("replay", REPLAY)]),
-        ("help-110.frag", &[("replay", REPLAY)]),
-        ("shared-330.frag", &[("replay", REPLAY)]),
+        ("haze-110.frag", &[("replay", REPLAY), ("bent", BENT)]),
+        ("help-110.frag", &[("replay", REPLAY), ("bent", BENT)]),
+        ("shared-330.frag", &[("replay", REPLAY), ("bent", BENT)]),
         ("web-100.vert", &[("es", ES)]),
         ("web-100.frag", &[("es", ES)]),
         ("phone-300.vert", &[("es", ES)]),
@@ -134,7 +141,7 @@ fn odd_layouts() {
 fn refusals_are_sentences() {
     let main = "void main() { }\n";
     let with = |text: &str| format!("#version 430\n{text}\n{main}");
-    let every: [(Stage, Options, String); 20] = [
+    let every: [(Stage, Options, String); 23] = [
         (Stage::Vertex, REPLAY, "void main() { }\0 int a;".to_owned()),
         (Stage::Vertex, REPLAY, with("#include \"common.glsl\"")),
         (Stage::Vertex, REPLAY, with("#define JOIN(a, b) a##b")),
@@ -154,6 +161,9 @@ fn refusals_are_sentences() {
         (Stage::Geometry, Options { target: Target::Tiles, ..REPLAY }, main.to_owned()),
         (Stage::Geometry, REPLAY, with("void f() { EmitStreamVertex(1); }")),
         (Stage::Fragment, TILES, with("float f() { return gl_ClipDistance[0]; }")),
+        (Stage::Fragment, BENT, with("void f() { gl_FragData[1] = vec4(1.); }")),
+        (Stage::Fragment, BENT, with("layout(early_fragment_tests) in;")),
+        (Stage::Fragment, BENT, format!("#version 300 es\n{main}")),
         (
             Stage::Fragment,
             REPLAY,

@@ -1,4 +1,5 @@
-/* A surface of 64 x 48 pixels without a window system, for small programs. */
+/* A surface without a window system, for small programs: of 64 x 48 pixels, or where SURFACE_SIZE is defined of those that the program says, with colours of
+ * 8 bits. */
 #define GL_GLEXT_PROTOTYPES 1
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
@@ -6,7 +7,12 @@
 #include <GL/glext.h>
 #include <stdio.h>
 
+#ifndef SURFACE_SIZE
+#define SURFACE_COLOURS
 enum { WIDTH = 64, HEIGHT = 48 };
+#else
+#define SURFACE_COLOURS EGL_RED_SIZE, 8, EGL_GREEN_SIZE, 8, EGL_BLUE_SIZE, 8, EGL_ALPHA_SIZE, 8,
+#endif
 
 static EGLDisplay display;
 static EGLConfig config;
@@ -17,7 +23,8 @@ static int open_surface(void)
 {
     PFNEGLGETPLATFORMDISPLAYEXTPROC get =
         (PFNEGLGETPLATFORMDISPLAYEXTPROC)eglGetProcAddress("eglGetPlatformDisplayEXT");
-    const EGLint wanted[] = {EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_DEPTH_SIZE, 24, EGL_NONE};
+    const EGLint wanted[] = {EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_DEPTH_SIZE, 24,
+                             SURFACE_COLOURS EGL_NONE};
     const EGLint size[] = {EGL_WIDTH, WIDTH, EGL_HEIGHT, HEIGHT, EGL_NONE};
     EGLint count;
     display = get(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, NULL);
@@ -30,7 +37,7 @@ static int open_surface(void)
 }
 
 /* A context, current; EGL_NO_CONTEXT if there is none. */
-static EGLContext new_context(EGLContext share)
+static inline EGLContext new_context(EGLContext share)
 {
     EGLContext context = eglCreateContext(display, config, share, NULL);
     return context && eglMakeCurrent(display, surface, surface, context) ? context : EGL_NO_CONTEXT;
