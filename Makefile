@@ -31,7 +31,7 @@ SHADER_PACKAGES := colobot-common glmark2-data goxel ioquake3 kodi-data libopens
 	mgba-common minetest-data openmw-data openscad openscenegraph pymol-data python3-vispy qtbase5-examples solvespace \
 	trackballs-data xmoto xscreensaver-gl xscreensaver-gl-extra
 
-.PHONY: help build demos demo bench overhead pictures gallery test test-long test-full programs soak openarena openarena-pictures shaders lint packages \
+.PHONY: help build demos demo bench overhead pictures gallery test test-long test-full programs soak openarena openarena-walk openarena-pictures shaders lint packages \
 	install uninstall clean
 
 help: ## list the targets
@@ -104,6 +104,12 @@ soak: packages build ## play a game's demo for SOAK_MINUTES (240) and watch memo
 openarena: packages build ## play OpenArena's timedemo with and without the layer; prints the frame rates (423 MB, half an hour)
 	@sh scripts/packages.sh $(OPENARENA_PACKAGES)
 	@sh scripts/openarena.sh $(BIN) $(TARGET)/openarena
+
+openarena-walk: packages build ## hold OpenArena in 8 views at a rate by `hybrid`, plotted, and show it by every strategy (half an hour)
+	@sh scripts/packages.sh $(OPENARENA_PACKAGES) $(PICTURE_PACKAGES) apitrace
+	@sh scripts/openarena.sh $(BIN) $(TARGET)/openarena walk
+	cp $(TARGET)/openarena/walk.png docs/openarena-walk.png
+	cp $(TARGET)/openarena/strategies.png docs/openarena-strategies.png
 
 openarena-pictures: packages build ## make the pictures of OpenArena in the README
 	@sh scripts/packages.sh $(OPENARENA_PACKAGES) $(PICTURE_PACKAGES)

@@ -3,6 +3,7 @@
 #
 #   scripts/openarena.sh BIN WORK            the table, on stdout and in WORK/openarena.txt
 #   scripts/openarena.sh BIN WORK pictures   those of the documents, in WORK
+#   scripts/openarena.sh BIN WORK walk       its first frames as a trace, held at FPS (7) by `hybrid`, and all strategies beside each other
 #
 # BIN has the command and the library, WORK is a folder for what it makes. Variables: ROUNDS (2) is how often each row is played,
 # in turns; KIB (140, some 400 frames) how much of the recording is played, 0 for all of it (3388 frames); MODE (3, 640x480) the
@@ -54,6 +55,40 @@ if [ "$what" = pictures ]; then
             --display lenticular-4 -- >"$work/$output.log" 2>&1 || { say "no picture, see $work/$output.log"; exit 1; }
         pngtopnm "$large" | pamdepth 63 | pnmtopng -compression 9 >"$work/$output.png"
     done
+    exit 0
+fi
+
+# sheet OUT OPTIONS...: the eight views of frame 100 of the trace, small, beside each other.
+sheet() {
+    out=$1
+    shift
+    say "$out"
+    "$bin/manyview" capture --frame 100 --timeout 900 --what atlas --out "$work/large.png" --views 8 --display slanted8 "$@" -- \
+        glretrace -b "$work/walk.trace" >"$work/$out.log" 2>&1 || { say "no picture, see $work/$out.log"; exit 1; }
+    pngtopnm "$work/large.png" | pamscale -xsize 1600 >"$work/$out.ppm"
+}
+
+if [ "$what" = walk ]; then
+    cut_to 48
+    say "recording"
+    play apitrace trace -a gl -o "$work/walk.trace" >"$work/recording.log" 2>&1 || { say "it failed, see $work/recording.log"; exit 1; }
+    "$bin/manyview" bench --fps "${FPS:-7}" --frames 60..240 --views 8 --display slanted8 --csv "$work/walk.csv" --json "$work/walk.json" \
+        --chart "$work/walk.png" -- glretrace -b "$work/walk.trace" | tee "$work/walk.txt"
+    rows=
+    for strategy in replay instanced geometry depth-image occlusion hybrid; do
+        true_views=$([ $strategy = hybrid ] && echo "--true-views 3" || true)
+        # shellcheck disable=SC2086 # two words
+        sheet $strategy --strategy $strategy $true_views
+        rows="$rows $work/$strategy.ppm"
+        case $strategy in depth-image | occlusion | hybrid)
+            # shellcheck disable=SC2086 # two words
+            sheet $strategy-holes --strategy $strategy $true_views --holes mark
+            rows="$rows $work/$strategy-holes.ppm"
+            ;;
+        esac
+    done
+    # shellcheck disable=SC2086 # several files
+    pnmcat -tb $rows | pamdepth 63 | pnmtopng -compression 9 >"$work/strategies.png"
     exit 0
 fi
 

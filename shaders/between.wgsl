@@ -47,21 +47,29 @@ fn enter(i: i32, view: f32) -> f32 {
 
 fn see(view: f32, x: f32, row: i32, range: vec2<f32>) -> Seen {
     let both = pair(view);
-    let lever = enter(both.x, view);
-    var seen = seek(x, row, lever, range_of(u32(x), row));
-    if seen.hole && both.x != both.y {
-        let first = picture;
-        let other_lever = enter(both.y, view);
-        let other = seek(x, row, other_lever, range_of(u32(x), row));
+    var i = both.x;
+    var seen = Seen(0, 0, 0.0, true, false, -1);
+    var deepest = 1.0e9;
+    var held = picture;
+    // The second time only for holes. Left at its end: llvmpipe goes through a loop once more to see at its beginning that it is over.
+    loop {
+        let lever = enter(i, view);
+        let other = seek(x, row, lever, range_of(u32(x), row));
         // What lies deeper is behind.
-        let deeper = height(other.low, row);
-        let second = picture;
-        picture = first;
-        if !other.hole || deeper < height(seen.low, row) {
+        let deep = height(other.low, row);
+        let better = !other.hole || deep < deepest;
+        if better {
             seen = other;
-            picture = second;
+            held = picture;
+            deepest = deep;
+        }
+        let over = !seen.hole || i == both.y;
+        i = both.y;
+        if over {
+            break;
         }
     }
+    picture = held;
     return seen;
 }
 

@@ -170,11 +170,12 @@ fn views_are_those_of_the_reference() {
 #[test]
 fn a_panel_s_picture_is_that_of_its_views() {
     let hybrid = ["--strategy", "hybrid", "--true-views"];
-    let [two, three] = ["2", "3"].map(|count| [&hybrid[..], &[count]].concat());
+    let [two, three, six] = ["2", "3", "6"].map(|count| [&hybrid[..], &[count]].concat());
     for (display, count, way) in [
         ("slanted8", "8", WAYS[0]),
         ("lenticular-5", "5", WAYS[0]),
         ("slanted8", "8", &two),
+        ("slanted8", "8", &six),
         ("lenticular-5", "5", &three),
     ] {
         let folder = tempfile::tempdir().expect("a folder");
@@ -328,11 +329,11 @@ fn hard_scenes_are_right_outside_of_holes() {
             );
             let pixels = f64::from(exact[0].width() * exact[0].height());
             match APART.iter().find(|(apart, _)| *apart == name) {
-                // Two views know more than one.
-                Some((_, why)) => assert!(
-                    worst as f64 > OUTSIDE * pixels || way.contains(&"hybrid"),
-                    "{name}: {why}"
-                ),
+                // Two views know more than one, and may hold it.
+                Some((_, why)) if !way.contains(&"hybrid") => {
+                    assert!(worst as f64 > OUTSIDE * pixels, "{name}: {why}");
+                }
+                Some((_, why)) => assert!(worst as f64 <= 0.05 * pixels, "{name}: {why}"),
                 None => assert!(
                     worst as f64 <= OUTSIDE * pixels,
                     "{name} by {way:?}: {worst}"
@@ -392,14 +393,22 @@ fn a_program_that_does_not_clear_draws_on() {
 }
 
 /// Quake's engines blend light with a surface by drawing it again, and draw the weapon in the hand in a part of the depth range: all of
-/// that belongs to the scene. Glass from the same arrays does not.
+/// that belongs to the scene. Glass by other vertices, or by the same ones that stand elsewhere now, or of which the other side is seen, does not.
 #[test]
 fn another_pass_over_a_surface_has_its_depths() {
     let program = support::compiled("over", support::Compiled::Program, &["-lEGL", "-lGL"]);
     let folder = tempfile::tempdir().expect("a folder");
     let expected = support::lines(&mut support::bare(&program));
     assert_eq!(expected.matches("error 0x0").count(), 4, "{expected}");
-    for (argument, reason) in [("", None), ("glass", Some("what is transparent"))] {
+    let glass = Some("what is transparent");
+    let ways = [
+        ("", None),
+        ("copied", None),
+        ("glass", glass),
+        ("moved", glass),
+        ("sides", glass),
+    ];
+    for (argument, reason) in ways {
         let picture = |strategy: &str, holes: &str| {
             let out = folder.path().join("views.png");
             let report = folder.path().join("report.json");

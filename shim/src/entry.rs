@@ -7,7 +7,7 @@ use manyview_core::gl::{Ptr, slot};
 use manyview_core::state::Effect;
 
 /// Where each exported function jumps to, by slot: at first its resolver, then the driver's function or the hook.
-pub(crate) static ENTRY: [AtomicPtr<()>; 1437] = [
+pub(crate) static ENTRY: [AtomicPtr<()>; 1435] = [
     AtomicPtr::new(first_glVertex2d as *mut ()),
     AtomicPtr::new(first_glVertex2dv as *mut ()),
     AtomicPtr::new(first_glVertex2f as *mut ()),
@@ -677,8 +677,6 @@ pub(crate) static ENTRY: [AtomicPtr<()>; 1437] = [
     AtomicPtr::new(first_glWindowPos3sv as *mut ()),
     AtomicPtr::new(first_glWindowPos3svARB as *mut ()),
     AtomicPtr::new(first_glWindowPos3svMESA as *mut ()),
-    AtomicPtr::new(first_glLockArraysEXT as *mut ()),
-    AtomicPtr::new(first_glUnlockArraysEXT as *mut ()),
     AtomicPtr::new(first_glRenderMode as *mut ()),
     AtomicPtr::new(first_glBeginTransformFeedback as *mut ()),
     AtomicPtr::new(first_glBeginTransformFeedbackEXT as *mut ()),
@@ -1448,7 +1446,7 @@ pub(crate) static ENTRY: [AtomicPtr<()>; 1437] = [
 ];
 
 /// The hook of each exported function, by slot.
-pub(crate) static HOOK: [Option<crate::Address>; 1437] = [
+pub(crate) static HOOK: [Option<crate::Address>; 1435] = [
     Some(crate::Address(hook_glVertex2d as *const ())),
     Some(crate::Address(hook_glVertex2dv as *const ())),
     Some(crate::Address(hook_glVertex2f as *const ())),
@@ -2118,8 +2116,6 @@ pub(crate) static HOOK: [Option<crate::Address>; 1437] = [
     Some(crate::Address(hook_glWindowPos3sv as *const ())),
     Some(crate::Address(hook_glWindowPos3svARB as *const ())),
     Some(crate::Address(hook_glWindowPos3svMESA as *const ())),
-    Some(crate::Address(hook_glLockArraysEXT as *const ())),
-    Some(crate::Address(hook_glUnlockArraysEXT as *const ())),
     Some(crate::Address(hook_glRenderMode as *const ())),
     Some(crate::Address(hook_glBeginTransformFeedback as *const ())),
     Some(crate::Address(hook_glBeginTransformFeedbackEXT as *const ())),
@@ -2889,130 +2885,130 @@ pub(crate) static HOOK: [Option<crate::Address>; 1437] = [
 ];
 
 /// Exported names in order, their slots and addresses: what dlsym and the GetProcAddress family hand out.
-pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1384] = [
-    (b"OSMesaCreateContext", 1384, crate::Address(OSMesaCreateContext as *const ())),
-    (b"OSMesaCreateContextAttribs", 1386, crate::Address(OSMesaCreateContextAttribs as *const ())),
-    (b"OSMesaCreateContextExt", 1385, crate::Address(OSMesaCreateContextExt as *const ())),
-    (b"OSMesaDestroyContext", 1387, crate::Address(OSMesaDestroyContext as *const ())),
-    (b"OSMesaGetProcAddress", 1388, crate::Address(OSMesaGetProcAddress as *const ())),
-    (b"OSMesaMakeCurrent", 1383, crate::Address(OSMesaMakeCurrent as *const ())),
-    (b"eglCreateContext", 1368, crate::Address(eglCreateContext as *const ())),
-    (b"eglCreatePlatformWindowSurface", 1375, crate::Address(eglCreatePlatformWindowSurface as *const ())),
-    (b"eglCreatePlatformWindowSurfaceEXT", 1376, crate::Address(eglCreatePlatformWindowSurfaceEXT as *const ())),
-    (b"eglCreateWindowSurface", 1374, crate::Address(eglCreateWindowSurface as *const ())),
-    (b"eglDestroyContext", 1369, crate::Address(eglDestroyContext as *const ())),
-    (b"eglDestroySurface", 1377, crate::Address(eglDestroySurface as *const ())),
-    (b"eglGetDisplay", 1371, crate::Address(eglGetDisplay as *const ())),
-    (b"eglGetPlatformDisplay", 1372, crate::Address(eglGetPlatformDisplay as *const ())),
-    (b"eglGetPlatformDisplayEXT", 1373, crate::Address(eglGetPlatformDisplayEXT as *const ())),
-    (b"eglGetProcAddress", 1378, crate::Address(eglGetProcAddress as *const ())),
-    (b"eglMakeCurrent", 1367, crate::Address(eglMakeCurrent as *const ())),
-    (b"eglReleaseThread", 1370, crate::Address(eglReleaseThread as *const ())),
-    (b"eglSwapBuffers", 1364, crate::Address(eglSwapBuffers as *const ())),
-    (b"eglSwapBuffersWithDamageEXT", 1366, crate::Address(eglSwapBuffersWithDamageEXT as *const ())),
-    (b"eglSwapBuffersWithDamageKHR", 1365, crate::Address(eglSwapBuffersWithDamageKHR as *const ())),
-    (b"glAccum", 1107, crate::Address(glAccum as *const ())),
+pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1382] = [
+    (b"OSMesaCreateContext", 1382, crate::Address(OSMesaCreateContext as *const ())),
+    (b"OSMesaCreateContextAttribs", 1384, crate::Address(OSMesaCreateContextAttribs as *const ())),
+    (b"OSMesaCreateContextExt", 1383, crate::Address(OSMesaCreateContextExt as *const ())),
+    (b"OSMesaDestroyContext", 1385, crate::Address(OSMesaDestroyContext as *const ())),
+    (b"OSMesaGetProcAddress", 1386, crate::Address(OSMesaGetProcAddress as *const ())),
+    (b"OSMesaMakeCurrent", 1381, crate::Address(OSMesaMakeCurrent as *const ())),
+    (b"eglCreateContext", 1366, crate::Address(eglCreateContext as *const ())),
+    (b"eglCreatePlatformWindowSurface", 1373, crate::Address(eglCreatePlatformWindowSurface as *const ())),
+    (b"eglCreatePlatformWindowSurfaceEXT", 1374, crate::Address(eglCreatePlatformWindowSurfaceEXT as *const ())),
+    (b"eglCreateWindowSurface", 1372, crate::Address(eglCreateWindowSurface as *const ())),
+    (b"eglDestroyContext", 1367, crate::Address(eglDestroyContext as *const ())),
+    (b"eglDestroySurface", 1375, crate::Address(eglDestroySurface as *const ())),
+    (b"eglGetDisplay", 1369, crate::Address(eglGetDisplay as *const ())),
+    (b"eglGetPlatformDisplay", 1370, crate::Address(eglGetPlatformDisplay as *const ())),
+    (b"eglGetPlatformDisplayEXT", 1371, crate::Address(eglGetPlatformDisplayEXT as *const ())),
+    (b"eglGetProcAddress", 1376, crate::Address(eglGetProcAddress as *const ())),
+    (b"eglMakeCurrent", 1365, crate::Address(eglMakeCurrent as *const ())),
+    (b"eglReleaseThread", 1368, crate::Address(eglReleaseThread as *const ())),
+    (b"eglSwapBuffers", 1362, crate::Address(eglSwapBuffers as *const ())),
+    (b"eglSwapBuffersWithDamageEXT", 1364, crate::Address(eglSwapBuffersWithDamageEXT as *const ())),
+    (b"eglSwapBuffersWithDamageKHR", 1363, crate::Address(eglSwapBuffersWithDamageKHR as *const ())),
+    (b"glAccum", 1105, crate::Address(glAccum as *const ())),
     (b"glActiveTexture", 537, crate::Address(glActiveTexture as *const ())),
     (b"glActiveTextureARB", 538, crate::Address(glActiveTextureARB as *const ())),
-    (b"glAlphaFunc", 678, crate::Address(glAlphaFunc as *const ())),
+    (b"glAlphaFunc", 676, crate::Address(glAlphaFunc as *const ())),
     (b"glArrayElement", 260, crate::Address(glArrayElement as *const ())),
     (b"glArrayElementEXT", 261, crate::Address(glArrayElementEXT as *const ())),
     (b"glBegin", 454, crate::Address(glBegin as *const ())),
-    (b"glBeginConditionalRender", 1222, crate::Address(glBeginConditionalRender as *const ())),
-    (b"glBeginConditionalRenderNV", 1223, crate::Address(glBeginConditionalRenderNV as *const ())),
-    (b"glBeginQuery", 1227, crate::Address(glBeginQuery as *const ())),
-    (b"glBeginQueryARB", 1228, crate::Address(glBeginQueryARB as *const ())),
-    (b"glBeginQueryEXT", 1215, crate::Address(glBeginQueryEXT as *const ())),
-    (b"glBeginTransformFeedback", 672, crate::Address(glBeginTransformFeedback as *const ())),
-    (b"glBeginTransformFeedbackEXT", 673, crate::Address(glBeginTransformFeedbackEXT as *const ())),
-    (b"glBeginTransformFeedbackNV", 674, crate::Address(glBeginTransformFeedbackNV as *const ())),
-    (b"glBindBuffer", 1313, crate::Address(glBindBuffer as *const ())),
-    (b"glBindBufferARB", 1314, crate::Address(glBindBufferARB as *const ())),
-    (b"glBindFramebuffer", 1124, crate::Address(glBindFramebuffer as *const ())),
-    (b"glBindFramebufferEXT", 1125, crate::Address(glBindFramebufferEXT as *const ())),
-    (b"glBindImageTexture", 847, crate::Address(glBindImageTexture as *const ())),
-    (b"glBindImageTextures", 848, crate::Address(glBindImageTextures as *const ())),
+    (b"glBeginConditionalRender", 1220, crate::Address(glBeginConditionalRender as *const ())),
+    (b"glBeginConditionalRenderNV", 1221, crate::Address(glBeginConditionalRenderNV as *const ())),
+    (b"glBeginQuery", 1225, crate::Address(glBeginQuery as *const ())),
+    (b"glBeginQueryARB", 1226, crate::Address(glBeginQueryARB as *const ())),
+    (b"glBeginQueryEXT", 1213, crate::Address(glBeginQueryEXT as *const ())),
+    (b"glBeginTransformFeedback", 670, crate::Address(glBeginTransformFeedback as *const ())),
+    (b"glBeginTransformFeedbackEXT", 671, crate::Address(glBeginTransformFeedbackEXT as *const ())),
+    (b"glBeginTransformFeedbackNV", 672, crate::Address(glBeginTransformFeedbackNV as *const ())),
+    (b"glBindBuffer", 1311, crate::Address(glBindBuffer as *const ())),
+    (b"glBindBufferARB", 1312, crate::Address(glBindBufferARB as *const ())),
+    (b"glBindFramebuffer", 1122, crate::Address(glBindFramebuffer as *const ())),
+    (b"glBindFramebufferEXT", 1123, crate::Address(glBindFramebufferEXT as *const ())),
+    (b"glBindImageTexture", 845, crate::Address(glBindImageTexture as *const ())),
+    (b"glBindImageTextures", 846, crate::Address(glBindImageTextures as *const ())),
     (b"glBindMultiTextureEXT", 541, crate::Address(glBindMultiTextureEXT as *const ())),
     (b"glBindProgramARB", 587, crate::Address(glBindProgramARB as *const ())),
     (b"glBindProgramNV", 588, crate::Address(glBindProgramNV as *const ())),
     (b"glBindProgramPipeline", 593, crate::Address(glBindProgramPipeline as *const ())),
     (b"glBindProgramPipelineEXT", 594, crate::Address(glBindProgramPipelineEXT as *const ())),
-    (b"glBindRenderbuffer", 1304, crate::Address(glBindRenderbuffer as *const ())),
-    (b"glBindTexture", 1118, crate::Address(glBindTexture as *const ())),
-    (b"glBindTextureEXT", 1119, crate::Address(glBindTextureEXT as *const ())),
+    (b"glBindRenderbuffer", 1302, crate::Address(glBindRenderbuffer as *const ())),
+    (b"glBindTexture", 1116, crate::Address(glBindTexture as *const ())),
+    (b"glBindTextureEXT", 1117, crate::Address(glBindTextureEXT as *const ())),
     (b"glBindTextureUnit", 540, crate::Address(glBindTextureUnit as *const ())),
     (b"glBindTextures", 539, crate::Address(glBindTextures as *const ())),
-    (b"glBitmap", 1108, crate::Address(glBitmap as *const ())),
-    (b"glBlendColor", 707, crate::Address(glBlendColor as *const ())),
-    (b"glBlendColorEXT", 708, crate::Address(glBlendColorEXT as *const ())),
-    (b"glBlendEquation", 693, crate::Address(glBlendEquation as *const ())),
-    (b"glBlendEquationEXT", 694, crate::Address(glBlendEquationEXT as *const ())),
-    (b"glBlendEquationIndexedAMD", 703, crate::Address(glBlendEquationIndexedAMD as *const ())),
-    (b"glBlendEquationSeparate", 695, crate::Address(glBlendEquationSeparate as *const ())),
-    (b"glBlendEquationSeparateEXT", 696, crate::Address(glBlendEquationSeparateEXT as *const ())),
-    (b"glBlendEquationSeparateIndexedAMD", 698, crate::Address(glBlendEquationSeparateIndexedAMD as *const ())),
-    (b"glBlendEquationSeparatei", 697, crate::Address(glBlendEquationSeparatei as *const ())),
-    (b"glBlendEquationSeparateiARB", 699, crate::Address(glBlendEquationSeparateiARB as *const ())),
-    (b"glBlendEquationSeparateiEXT", 700, crate::Address(glBlendEquationSeparateiEXT as *const ())),
-    (b"glBlendEquationSeparateiOES", 701, crate::Address(glBlendEquationSeparateiOES as *const ())),
-    (b"glBlendEquationi", 702, crate::Address(glBlendEquationi as *const ())),
-    (b"glBlendEquationiARB", 704, crate::Address(glBlendEquationiARB as *const ())),
-    (b"glBlendEquationiEXT", 705, crate::Address(glBlendEquationiEXT as *const ())),
-    (b"glBlendEquationiOES", 706, crate::Address(glBlendEquationiOES as *const ())),
-    (b"glBlendFunc", 679, crate::Address(glBlendFunc as *const ())),
-    (b"glBlendFuncIndexedAMD", 689, crate::Address(glBlendFuncIndexedAMD as *const ())),
-    (b"glBlendFuncSeparate", 680, crate::Address(glBlendFuncSeparate as *const ())),
-    (b"glBlendFuncSeparateEXT", 681, crate::Address(glBlendFuncSeparateEXT as *const ())),
-    (b"glBlendFuncSeparateINGR", 682, crate::Address(glBlendFuncSeparateINGR as *const ())),
-    (b"glBlendFuncSeparateIndexedAMD", 684, crate::Address(glBlendFuncSeparateIndexedAMD as *const ())),
-    (b"glBlendFuncSeparatei", 683, crate::Address(glBlendFuncSeparatei as *const ())),
-    (b"glBlendFuncSeparateiARB", 685, crate::Address(glBlendFuncSeparateiARB as *const ())),
-    (b"glBlendFuncSeparateiEXT", 686, crate::Address(glBlendFuncSeparateiEXT as *const ())),
-    (b"glBlendFuncSeparateiOES", 687, crate::Address(glBlendFuncSeparateiOES as *const ())),
-    (b"glBlendFunci", 688, crate::Address(glBlendFunci as *const ())),
-    (b"glBlendFunciARB", 690, crate::Address(glBlendFunciARB as *const ())),
-    (b"glBlendFunciEXT", 691, crate::Address(glBlendFunciEXT as *const ())),
-    (b"glBlendFunciOES", 692, crate::Address(glBlendFunciOES as *const ())),
-    (b"glBlitFramebuffer", 1140, crate::Address(glBlitFramebuffer as *const ())),
-    (b"glBlitFramebufferANGLE", 1214, crate::Address(glBlitFramebufferANGLE as *const ())),
-    (b"glBlitFramebufferEXT", 1141, crate::Address(glBlitFramebufferEXT as *const ())),
-    (b"glBlitFramebufferNV", 1142, crate::Address(glBlitFramebufferNV as *const ())),
-    (b"glBlitNamedFramebuffer", 1143, crate::Address(glBlitNamedFramebuffer as *const ())),
-    (b"glBufferData", 1315, crate::Address(glBufferData as *const ())),
-    (b"glBufferDataARB", 1316, crate::Address(glBufferDataARB as *const ())),
-    (b"glBufferSubData", 1317, crate::Address(glBufferSubData as *const ())),
-    (b"glBufferSubDataARB", 1318, crate::Address(glBufferSubDataARB as *const ())),
-    (b"glCallList", 1113, crate::Address(glCallList as *const ())),
-    (b"glCallLists", 1114, crate::Address(glCallLists as *const ())),
-    (b"glCheckFramebufferStatus", 1177, crate::Address(glCheckFramebufferStatus as *const ())),
-    (b"glCheckFramebufferStatusEXT", 1178, crate::Address(glCheckFramebufferStatusEXT as *const ())),
+    (b"glBitmap", 1106, crate::Address(glBitmap as *const ())),
+    (b"glBlendColor", 705, crate::Address(glBlendColor as *const ())),
+    (b"glBlendColorEXT", 706, crate::Address(glBlendColorEXT as *const ())),
+    (b"glBlendEquation", 691, crate::Address(glBlendEquation as *const ())),
+    (b"glBlendEquationEXT", 692, crate::Address(glBlendEquationEXT as *const ())),
+    (b"glBlendEquationIndexedAMD", 701, crate::Address(glBlendEquationIndexedAMD as *const ())),
+    (b"glBlendEquationSeparate", 693, crate::Address(glBlendEquationSeparate as *const ())),
+    (b"glBlendEquationSeparateEXT", 694, crate::Address(glBlendEquationSeparateEXT as *const ())),
+    (b"glBlendEquationSeparateIndexedAMD", 696, crate::Address(glBlendEquationSeparateIndexedAMD as *const ())),
+    (b"glBlendEquationSeparatei", 695, crate::Address(glBlendEquationSeparatei as *const ())),
+    (b"glBlendEquationSeparateiARB", 697, crate::Address(glBlendEquationSeparateiARB as *const ())),
+    (b"glBlendEquationSeparateiEXT", 698, crate::Address(glBlendEquationSeparateiEXT as *const ())),
+    (b"glBlendEquationSeparateiOES", 699, crate::Address(glBlendEquationSeparateiOES as *const ())),
+    (b"glBlendEquationi", 700, crate::Address(glBlendEquationi as *const ())),
+    (b"glBlendEquationiARB", 702, crate::Address(glBlendEquationiARB as *const ())),
+    (b"glBlendEquationiEXT", 703, crate::Address(glBlendEquationiEXT as *const ())),
+    (b"glBlendEquationiOES", 704, crate::Address(glBlendEquationiOES as *const ())),
+    (b"glBlendFunc", 677, crate::Address(glBlendFunc as *const ())),
+    (b"glBlendFuncIndexedAMD", 687, crate::Address(glBlendFuncIndexedAMD as *const ())),
+    (b"glBlendFuncSeparate", 678, crate::Address(glBlendFuncSeparate as *const ())),
+    (b"glBlendFuncSeparateEXT", 679, crate::Address(glBlendFuncSeparateEXT as *const ())),
+    (b"glBlendFuncSeparateINGR", 680, crate::Address(glBlendFuncSeparateINGR as *const ())),
+    (b"glBlendFuncSeparateIndexedAMD", 682, crate::Address(glBlendFuncSeparateIndexedAMD as *const ())),
+    (b"glBlendFuncSeparatei", 681, crate::Address(glBlendFuncSeparatei as *const ())),
+    (b"glBlendFuncSeparateiARB", 683, crate::Address(glBlendFuncSeparateiARB as *const ())),
+    (b"glBlendFuncSeparateiEXT", 684, crate::Address(glBlendFuncSeparateiEXT as *const ())),
+    (b"glBlendFuncSeparateiOES", 685, crate::Address(glBlendFuncSeparateiOES as *const ())),
+    (b"glBlendFunci", 686, crate::Address(glBlendFunci as *const ())),
+    (b"glBlendFunciARB", 688, crate::Address(glBlendFunciARB as *const ())),
+    (b"glBlendFunciEXT", 689, crate::Address(glBlendFunciEXT as *const ())),
+    (b"glBlendFunciOES", 690, crate::Address(glBlendFunciOES as *const ())),
+    (b"glBlitFramebuffer", 1138, crate::Address(glBlitFramebuffer as *const ())),
+    (b"glBlitFramebufferANGLE", 1212, crate::Address(glBlitFramebufferANGLE as *const ())),
+    (b"glBlitFramebufferEXT", 1139, crate::Address(glBlitFramebufferEXT as *const ())),
+    (b"glBlitFramebufferNV", 1140, crate::Address(glBlitFramebufferNV as *const ())),
+    (b"glBlitNamedFramebuffer", 1141, crate::Address(glBlitNamedFramebuffer as *const ())),
+    (b"glBufferData", 1313, crate::Address(glBufferData as *const ())),
+    (b"glBufferDataARB", 1314, crate::Address(glBufferDataARB as *const ())),
+    (b"glBufferSubData", 1315, crate::Address(glBufferSubData as *const ())),
+    (b"glBufferSubDataARB", 1316, crate::Address(glBufferSubDataARB as *const ())),
+    (b"glCallList", 1111, crate::Address(glCallList as *const ())),
+    (b"glCallLists", 1112, crate::Address(glCallLists as *const ())),
+    (b"glCheckFramebufferStatus", 1175, crate::Address(glCheckFramebufferStatus as *const ())),
+    (b"glCheckFramebufferStatusEXT", 1176, crate::Address(glCheckFramebufferStatusEXT as *const ())),
     (b"glClampColor", 591, crate::Address(glClampColor as *const ())),
     (b"glClampColorARB", 592, crate::Address(glClampColorARB as *const ())),
-    (b"glClear", 1041, crate::Address(glClear as *const ())),
-    (b"glClearAccum", 709, crate::Address(glClearAccum as *const ())),
-    (b"glClearBufferfi", 1042, crate::Address(glClearBufferfi as *const ())),
-    (b"glClearBufferfv", 1043, crate::Address(glClearBufferfv as *const ())),
-    (b"glClearBufferiv", 1044, crate::Address(glClearBufferiv as *const ())),
-    (b"glClearBufferuiv", 1045, crate::Address(glClearBufferuiv as *const ())),
-    (b"glClearColor", 710, crate::Address(glClearColor as *const ())),
-    (b"glClearDepth", 711, crate::Address(glClearDepth as *const ())),
-    (b"glClearDepthf", 712, crate::Address(glClearDepthf as *const ())),
-    (b"glClearDepthfOES", 713, crate::Address(glClearDepthfOES as *const ())),
-    (b"glClearIndex", 714, crate::Address(glClearIndex as *const ())),
-    (b"glClearNamedFramebufferfi", 1147, crate::Address(glClearNamedFramebufferfi as *const ())),
-    (b"glClearNamedFramebufferfv", 1144, crate::Address(glClearNamedFramebufferfv as *const ())),
-    (b"glClearNamedFramebufferiv", 1145, crate::Address(glClearNamedFramebufferiv as *const ())),
-    (b"glClearNamedFramebufferuiv", 1146, crate::Address(glClearNamedFramebufferuiv as *const ())),
-    (b"glClearStencil", 715, crate::Address(glClearStencil as *const ())),
-    (b"glClearTexImage", 816, crate::Address(glClearTexImage as *const ())),
-    (b"glClearTexImageEXT", 817, crate::Address(glClearTexImageEXT as *const ())),
-    (b"glClearTexSubImage", 818, crate::Address(glClearTexSubImage as *const ())),
-    (b"glClearTexSubImageEXT", 819, crate::Address(glClearTexSubImageEXT as *const ())),
-    (b"glClientActiveTexture", 1327, crate::Address(glClientActiveTexture as *const ())),
-    (b"glClientActiveTextureARB", 1328, crate::Address(glClientActiveTextureARB as *const ())),
+    (b"glClear", 1039, crate::Address(glClear as *const ())),
+    (b"glClearAccum", 707, crate::Address(glClearAccum as *const ())),
+    (b"glClearBufferfi", 1040, crate::Address(glClearBufferfi as *const ())),
+    (b"glClearBufferfv", 1041, crate::Address(glClearBufferfv as *const ())),
+    (b"glClearBufferiv", 1042, crate::Address(glClearBufferiv as *const ())),
+    (b"glClearBufferuiv", 1043, crate::Address(glClearBufferuiv as *const ())),
+    (b"glClearColor", 708, crate::Address(glClearColor as *const ())),
+    (b"glClearDepth", 709, crate::Address(glClearDepth as *const ())),
+    (b"glClearDepthf", 710, crate::Address(glClearDepthf as *const ())),
+    (b"glClearDepthfOES", 711, crate::Address(glClearDepthfOES as *const ())),
+    (b"glClearIndex", 712, crate::Address(glClearIndex as *const ())),
+    (b"glClearNamedFramebufferfi", 1145, crate::Address(glClearNamedFramebufferfi as *const ())),
+    (b"glClearNamedFramebufferfv", 1142, crate::Address(glClearNamedFramebufferfv as *const ())),
+    (b"glClearNamedFramebufferiv", 1143, crate::Address(glClearNamedFramebufferiv as *const ())),
+    (b"glClearNamedFramebufferuiv", 1144, crate::Address(glClearNamedFramebufferuiv as *const ())),
+    (b"glClearStencil", 713, crate::Address(glClearStencil as *const ())),
+    (b"glClearTexImage", 814, crate::Address(glClearTexImage as *const ())),
+    (b"glClearTexImageEXT", 815, crate::Address(glClearTexImageEXT as *const ())),
+    (b"glClearTexSubImage", 816, crate::Address(glClearTexSubImage as *const ())),
+    (b"glClearTexSubImageEXT", 817, crate::Address(glClearTexSubImageEXT as *const ())),
+    (b"glClientActiveTexture", 1325, crate::Address(glClientActiveTexture as *const ())),
+    (b"glClientActiveTextureARB", 1326, crate::Address(glClientActiveTextureARB as *const ())),
     (b"glClipControl", 585, crate::Address(glClipControl as *const ())),
     (b"glClipControlEXT", 586, crate::Address(glClipControlEXT as *const ())),
-    (b"glClipPlane", 716, crate::Address(glClipPlane as *const ())),
+    (b"glClipPlane", 714, crate::Address(glClipPlane as *const ())),
     (b"glColor3b", 30, crate::Address(glColor3b as *const ())),
     (b"glColor3bv", 31, crate::Address(glColor3bv as *const ())),
     (b"glColor3d", 32, crate::Address(glColor3d as *const ())),
@@ -3049,75 +3045,75 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1384] = [
     (b"glColor4uiv", 59, crate::Address(glColor4uiv as *const ())),
     (b"glColor4us", 60, crate::Address(glColor4us as *const ())),
     (b"glColor4usv", 61, crate::Address(glColor4usv as *const ())),
-    (b"glColorMask", 717, crate::Address(glColorMask as *const ())),
-    (b"glColorMaskIndexedEXT", 719, crate::Address(glColorMaskIndexedEXT as *const ())),
-    (b"glColorMaski", 718, crate::Address(glColorMaski as *const ())),
-    (b"glColorMaskiEXT", 720, crate::Address(glColorMaskiEXT as *const ())),
-    (b"glColorMaskiOES", 721, crate::Address(glColorMaskiOES as *const ())),
+    (b"glColorMask", 715, crate::Address(glColorMask as *const ())),
+    (b"glColorMaskIndexedEXT", 717, crate::Address(glColorMaskIndexedEXT as *const ())),
+    (b"glColorMaski", 716, crate::Address(glColorMaski as *const ())),
+    (b"glColorMaskiEXT", 718, crate::Address(glColorMaskiEXT as *const ())),
+    (b"glColorMaskiOES", 719, crate::Address(glColorMaskiOES as *const ())),
     (b"glColorMaterial", 550, crate::Address(glColorMaterial as *const ())),
     (b"glColorP3ui", 440, crate::Address(glColorP3ui as *const ())),
     (b"glColorP3uiv", 441, crate::Address(glColorP3uiv as *const ())),
     (b"glColorP4ui", 442, crate::Address(glColorP4ui as *const ())),
     (b"glColorP4uiv", 443, crate::Address(glColorP4uiv as *const ())),
-    (b"glColorPointer", 1330, crate::Address(glColorPointer as *const ())),
-    (b"glCompressedTexImage1D", 777, crate::Address(glCompressedTexImage1D as *const ())),
-    (b"glCompressedTexImage1DARB", 778, crate::Address(glCompressedTexImage1DARB as *const ())),
-    (b"glCompressedTexImage2D", 779, crate::Address(glCompressedTexImage2D as *const ())),
-    (b"glCompressedTexImage2DARB", 780, crate::Address(glCompressedTexImage2DARB as *const ())),
-    (b"glCompressedTexImage3D", 781, crate::Address(glCompressedTexImage3D as *const ())),
-    (b"glCompressedTexImage3DARB", 782, crate::Address(glCompressedTexImage3DARB as *const ())),
-    (b"glCompressedTexImage3DOES", 802, crate::Address(glCompressedTexImage3DOES as *const ())),
-    (b"glCompressedTexSubImage1D", 783, crate::Address(glCompressedTexSubImage1D as *const ())),
-    (b"glCompressedTexSubImage1DARB", 784, crate::Address(glCompressedTexSubImage1DARB as *const ())),
-    (b"glCompressedTexSubImage2D", 785, crate::Address(glCompressedTexSubImage2D as *const ())),
-    (b"glCompressedTexSubImage2DARB", 786, crate::Address(glCompressedTexSubImage2DARB as *const ())),
-    (b"glCompressedTexSubImage3D", 787, crate::Address(glCompressedTexSubImage3D as *const ())),
-    (b"glCompressedTexSubImage3DARB", 788, crate::Address(glCompressedTexSubImage3DARB as *const ())),
-    (b"glCompressedTexSubImage3DOES", 803, crate::Address(glCompressedTexSubImage3DOES as *const ())),
-    (b"glCompressedTextureSubImage1D", 808, crate::Address(glCompressedTextureSubImage1D as *const ())),
-    (b"glCompressedTextureSubImage2D", 809, crate::Address(glCompressedTextureSubImage2D as *const ())),
-    (b"glCompressedTextureSubImage3D", 810, crate::Address(glCompressedTextureSubImage3D as *const ())),
-    (b"glCopyColorTable", 1207, crate::Address(glCopyColorTable as *const ())),
-    (b"glCopyColorTableSGI", 1208, crate::Address(glCopyColorTableSGI as *const ())),
-    (b"glCopyConvolutionFilter1D", 1209, crate::Address(glCopyConvolutionFilter1D as *const ())),
-    (b"glCopyConvolutionFilter1DEXT", 1210, crate::Address(glCopyConvolutionFilter1DEXT as *const ())),
-    (b"glCopyConvolutionFilter2D", 1211, crate::Address(glCopyConvolutionFilter2D as *const ())),
-    (b"glCopyConvolutionFilter2DEXT", 1212, crate::Address(glCopyConvolutionFilter2DEXT as *const ())),
-    (b"glCopyImageSubData", 841, crate::Address(glCopyImageSubData as *const ())),
-    (b"glCopyImageSubDataEXT", 842, crate::Address(glCopyImageSubDataEXT as *const ())),
-    (b"glCopyImageSubDataOES", 843, crate::Address(glCopyImageSubDataOES as *const ())),
-    (b"glCopyMultiTexImage1DEXT", 1203, crate::Address(glCopyMultiTexImage1DEXT as *const ())),
-    (b"glCopyMultiTexImage2DEXT", 1204, crate::Address(glCopyMultiTexImage2DEXT as *const ())),
-    (b"glCopyPixels", 1110, crate::Address(glCopyPixels as *const ())),
-    (b"glCopyTexImage1D", 1184, crate::Address(glCopyTexImage1D as *const ())),
-    (b"glCopyTexImage1DEXT", 1185, crate::Address(glCopyTexImage1DEXT as *const ())),
-    (b"glCopyTexImage2D", 1186, crate::Address(glCopyTexImage2D as *const ())),
-    (b"glCopyTexImage2DEXT", 1187, crate::Address(glCopyTexImage2DEXT as *const ())),
-    (b"glCopyTexSubImage1D", 1188, crate::Address(glCopyTexSubImage1D as *const ())),
-    (b"glCopyTexSubImage1DEXT", 1189, crate::Address(glCopyTexSubImage1DEXT as *const ())),
-    (b"glCopyTexSubImage2D", 1190, crate::Address(glCopyTexSubImage2D as *const ())),
-    (b"glCopyTexSubImage2DEXT", 1191, crate::Address(glCopyTexSubImage2DEXT as *const ())),
-    (b"glCopyTexSubImage3D", 1197, crate::Address(glCopyTexSubImage3D as *const ())),
-    (b"glCopyTexSubImage3DEXT", 1198, crate::Address(glCopyTexSubImage3DEXT as *const ())),
-    (b"glCopyTexSubImage3DOES", 1199, crate::Address(glCopyTexSubImage3DOES as *const ())),
-    (b"glCopyTextureImage1DEXT", 1205, crate::Address(glCopyTextureImage1DEXT as *const ())),
-    (b"glCopyTextureImage2DEXT", 1206, crate::Address(glCopyTextureImage2DEXT as *const ())),
-    (b"glCopyTextureSubImage1D", 1200, crate::Address(glCopyTextureSubImage1D as *const ())),
-    (b"glCopyTextureSubImage2D", 1201, crate::Address(glCopyTextureSubImage2D as *const ())),
-    (b"glCopyTextureSubImage3D", 1202, crate::Address(glCopyTextureSubImage3D as *const ())),
-    (b"glCullFace", 722, crate::Address(glCullFace as *const ())),
-    (b"glDeleteBuffers", 1319, crate::Address(glDeleteBuffers as *const ())),
-    (b"glDeleteBuffersARB", 1320, crate::Address(glDeleteBuffersARB as *const ())),
-    (b"glDeleteFramebuffers", 1126, crate::Address(glDeleteFramebuffers as *const ())),
-    (b"glDeleteFramebuffersEXT", 1127, crate::Address(glDeleteFramebuffersEXT as *const ())),
-    (b"glDeleteLists", 1115, crate::Address(glDeleteLists as *const ())),
-    (b"glDeleteProgram", 1039, crate::Address(glDeleteProgram as *const ())),
-    (b"glDeleteQueries", 1231, crate::Address(glDeleteQueries as *const ())),
-    (b"glDeleteQueriesARB", 1232, crate::Address(glDeleteQueriesARB as *const ())),
-    (b"glDeleteRenderbuffers", 1311, crate::Address(glDeleteRenderbuffers as *const ())),
-    (b"glDeleteRenderbuffersEXT", 1312, crate::Address(glDeleteRenderbuffersEXT as *const ())),
-    (b"glDeleteTextures", 1120, crate::Address(glDeleteTextures as *const ())),
-    (b"glDepthBoundsEXT", 723, crate::Address(glDepthBoundsEXT as *const ())),
+    (b"glColorPointer", 1328, crate::Address(glColorPointer as *const ())),
+    (b"glCompressedTexImage1D", 775, crate::Address(glCompressedTexImage1D as *const ())),
+    (b"glCompressedTexImage1DARB", 776, crate::Address(glCompressedTexImage1DARB as *const ())),
+    (b"glCompressedTexImage2D", 777, crate::Address(glCompressedTexImage2D as *const ())),
+    (b"glCompressedTexImage2DARB", 778, crate::Address(glCompressedTexImage2DARB as *const ())),
+    (b"glCompressedTexImage3D", 779, crate::Address(glCompressedTexImage3D as *const ())),
+    (b"glCompressedTexImage3DARB", 780, crate::Address(glCompressedTexImage3DARB as *const ())),
+    (b"glCompressedTexImage3DOES", 800, crate::Address(glCompressedTexImage3DOES as *const ())),
+    (b"glCompressedTexSubImage1D", 781, crate::Address(glCompressedTexSubImage1D as *const ())),
+    (b"glCompressedTexSubImage1DARB", 782, crate::Address(glCompressedTexSubImage1DARB as *const ())),
+    (b"glCompressedTexSubImage2D", 783, crate::Address(glCompressedTexSubImage2D as *const ())),
+    (b"glCompressedTexSubImage2DARB", 784, crate::Address(glCompressedTexSubImage2DARB as *const ())),
+    (b"glCompressedTexSubImage3D", 785, crate::Address(glCompressedTexSubImage3D as *const ())),
+    (b"glCompressedTexSubImage3DARB", 786, crate::Address(glCompressedTexSubImage3DARB as *const ())),
+    (b"glCompressedTexSubImage3DOES", 801, crate::Address(glCompressedTexSubImage3DOES as *const ())),
+    (b"glCompressedTextureSubImage1D", 806, crate::Address(glCompressedTextureSubImage1D as *const ())),
+    (b"glCompressedTextureSubImage2D", 807, crate::Address(glCompressedTextureSubImage2D as *const ())),
+    (b"glCompressedTextureSubImage3D", 808, crate::Address(glCompressedTextureSubImage3D as *const ())),
+    (b"glCopyColorTable", 1205, crate::Address(glCopyColorTable as *const ())),
+    (b"glCopyColorTableSGI", 1206, crate::Address(glCopyColorTableSGI as *const ())),
+    (b"glCopyConvolutionFilter1D", 1207, crate::Address(glCopyConvolutionFilter1D as *const ())),
+    (b"glCopyConvolutionFilter1DEXT", 1208, crate::Address(glCopyConvolutionFilter1DEXT as *const ())),
+    (b"glCopyConvolutionFilter2D", 1209, crate::Address(glCopyConvolutionFilter2D as *const ())),
+    (b"glCopyConvolutionFilter2DEXT", 1210, crate::Address(glCopyConvolutionFilter2DEXT as *const ())),
+    (b"glCopyImageSubData", 839, crate::Address(glCopyImageSubData as *const ())),
+    (b"glCopyImageSubDataEXT", 840, crate::Address(glCopyImageSubDataEXT as *const ())),
+    (b"glCopyImageSubDataOES", 841, crate::Address(glCopyImageSubDataOES as *const ())),
+    (b"glCopyMultiTexImage1DEXT", 1201, crate::Address(glCopyMultiTexImage1DEXT as *const ())),
+    (b"glCopyMultiTexImage2DEXT", 1202, crate::Address(glCopyMultiTexImage2DEXT as *const ())),
+    (b"glCopyPixels", 1108, crate::Address(glCopyPixels as *const ())),
+    (b"glCopyTexImage1D", 1182, crate::Address(glCopyTexImage1D as *const ())),
+    (b"glCopyTexImage1DEXT", 1183, crate::Address(glCopyTexImage1DEXT as *const ())),
+    (b"glCopyTexImage2D", 1184, crate::Address(glCopyTexImage2D as *const ())),
+    (b"glCopyTexImage2DEXT", 1185, crate::Address(glCopyTexImage2DEXT as *const ())),
+    (b"glCopyTexSubImage1D", 1186, crate::Address(glCopyTexSubImage1D as *const ())),
+    (b"glCopyTexSubImage1DEXT", 1187, crate::Address(glCopyTexSubImage1DEXT as *const ())),
+    (b"glCopyTexSubImage2D", 1188, crate::Address(glCopyTexSubImage2D as *const ())),
+    (b"glCopyTexSubImage2DEXT", 1189, crate::Address(glCopyTexSubImage2DEXT as *const ())),
+    (b"glCopyTexSubImage3D", 1195, crate::Address(glCopyTexSubImage3D as *const ())),
+    (b"glCopyTexSubImage3DEXT", 1196, crate::Address(glCopyTexSubImage3DEXT as *const ())),
+    (b"glCopyTexSubImage3DOES", 1197, crate::Address(glCopyTexSubImage3DOES as *const ())),
+    (b"glCopyTextureImage1DEXT", 1203, crate::Address(glCopyTextureImage1DEXT as *const ())),
+    (b"glCopyTextureImage2DEXT", 1204, crate::Address(glCopyTextureImage2DEXT as *const ())),
+    (b"glCopyTextureSubImage1D", 1198, crate::Address(glCopyTextureSubImage1D as *const ())),
+    (b"glCopyTextureSubImage2D", 1199, crate::Address(glCopyTextureSubImage2D as *const ())),
+    (b"glCopyTextureSubImage3D", 1200, crate::Address(glCopyTextureSubImage3D as *const ())),
+    (b"glCullFace", 720, crate::Address(glCullFace as *const ())),
+    (b"glDeleteBuffers", 1317, crate::Address(glDeleteBuffers as *const ())),
+    (b"glDeleteBuffersARB", 1318, crate::Address(glDeleteBuffersARB as *const ())),
+    (b"glDeleteFramebuffers", 1124, crate::Address(glDeleteFramebuffers as *const ())),
+    (b"glDeleteFramebuffersEXT", 1125, crate::Address(glDeleteFramebuffersEXT as *const ())),
+    (b"glDeleteLists", 1113, crate::Address(glDeleteLists as *const ())),
+    (b"glDeleteProgram", 1037, crate::Address(glDeleteProgram as *const ())),
+    (b"glDeleteQueries", 1229, crate::Address(glDeleteQueries as *const ())),
+    (b"glDeleteQueriesARB", 1230, crate::Address(glDeleteQueriesARB as *const ())),
+    (b"glDeleteRenderbuffers", 1309, crate::Address(glDeleteRenderbuffers as *const ())),
+    (b"glDeleteRenderbuffersEXT", 1310, crate::Address(glDeleteRenderbuffersEXT as *const ())),
+    (b"glDeleteTextures", 1118, crate::Address(glDeleteTextures as *const ())),
+    (b"glDepthBoundsEXT", 721, crate::Address(glDepthBoundsEXT as *const ())),
     (b"glDepthFunc", 531, crate::Address(glDepthFunc as *const ())),
     (b"glDepthMask", 530, crate::Address(glDepthMask as *const ())),
     (b"glDepthRange", 532, crate::Address(glDepthRange as *const ())),
@@ -3126,87 +3122,87 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1384] = [
     (b"glDepthRangef", 533, crate::Address(glDepthRangef as *const ())),
     (b"glDepthRangefOES", 534, crate::Address(glDepthRangefOES as *const ())),
     (b"glDisable", 519, crate::Address(glDisable as *const ())),
-    (b"glDisableClientState", 1326, crate::Address(glDisableClientState as *const ())),
+    (b"glDisableClientState", 1324, crate::Address(glDisableClientState as *const ())),
     (b"glDisableIndexedEXT", 526, crate::Address(glDisableIndexedEXT as *const ())),
-    (b"glDisableVertexAttribArray", 1344, crate::Address(glDisableVertexAttribArray as *const ())),
-    (b"glDisableVertexAttribArrayARB", 1345, crate::Address(glDisableVertexAttribArrayARB as *const ())),
+    (b"glDisableVertexAttribArray", 1342, crate::Address(glDisableVertexAttribArray as *const ())),
+    (b"glDisableVertexAttribArrayARB", 1343, crate::Address(glDisableVertexAttribArrayARB as *const ())),
     (b"glDisablei", 525, crate::Address(glDisablei as *const ())),
     (b"glDisableiEXT", 527, crate::Address(glDisableiEXT as *const ())),
     (b"glDisableiNV", 528, crate::Address(glDisableiNV as *const ())),
     (b"glDisableiOES", 529, crate::Address(glDisableiOES as *const ())),
-    (b"glDiscardFramebufferEXT", 1183, crate::Address(glDiscardFramebufferEXT as *const ())),
-    (b"glDispatchCompute", 849, crate::Address(glDispatchCompute as *const ())),
-    (b"glDispatchComputeIndirect", 850, crate::Address(glDispatchComputeIndirect as *const ())),
-    (b"glDrawArrays", 1046, crate::Address(glDrawArrays as *const ())),
-    (b"glDrawArraysEXT", 1047, crate::Address(glDrawArraysEXT as *const ())),
-    (b"glDrawArraysIndirect", 1082, crate::Address(glDrawArraysIndirect as *const ())),
-    (b"glDrawArraysInstanced", 1063, crate::Address(glDrawArraysInstanced as *const ())),
-    (b"glDrawArraysInstancedANGLE", 1064, crate::Address(glDrawArraysInstancedANGLE as *const ())),
-    (b"glDrawArraysInstancedARB", 1065, crate::Address(glDrawArraysInstancedARB as *const ())),
-    (b"glDrawArraysInstancedBaseInstance", 1076, crate::Address(glDrawArraysInstancedBaseInstance as *const ())),
-    (b"glDrawArraysInstancedBaseInstanceEXT", 1077, crate::Address(glDrawArraysInstancedBaseInstanceEXT as *const ())),
-    (b"glDrawArraysInstancedEXT", 1066, crate::Address(glDrawArraysInstancedEXT as *const ())),
-    (b"glDrawArraysInstancedNV", 1067, crate::Address(glDrawArraysInstancedNV as *const ())),
-    (b"glDrawBuffer", 1128, crate::Address(glDrawBuffer as *const ())),
-    (b"glDrawBuffers", 1129, crate::Address(glDrawBuffers as *const ())),
-    (b"glDrawBuffersARB", 1130, crate::Address(glDrawBuffersARB as *const ())),
-    (b"glDrawBuffersATI", 1131, crate::Address(glDrawBuffersATI as *const ())),
-    (b"glDrawBuffersEXT", 1132, crate::Address(glDrawBuffersEXT as *const ())),
-    (b"glDrawElements", 1048, crate::Address(glDrawElements as *const ())),
-    (b"glDrawElementsBaseVertex", 1055, crate::Address(glDrawElementsBaseVertex as *const ())),
-    (b"glDrawElementsBaseVertexEXT", 1056, crate::Address(glDrawElementsBaseVertexEXT as *const ())),
-    (b"glDrawElementsBaseVertexOES", 1057, crate::Address(glDrawElementsBaseVertexOES as *const ())),
-    (b"glDrawElementsIndirect", 1083, crate::Address(glDrawElementsIndirect as *const ())),
-    (b"glDrawElementsInstanced", 1068, crate::Address(glDrawElementsInstanced as *const ())),
-    (b"glDrawElementsInstancedANGLE", 1069, crate::Address(glDrawElementsInstancedANGLE as *const ())),
-    (b"glDrawElementsInstancedARB", 1070, crate::Address(glDrawElementsInstancedARB as *const ())),
-    (b"glDrawElementsInstancedBaseInstance", 1078, crate::Address(glDrawElementsInstancedBaseInstance as *const ())),
-    (b"glDrawElementsInstancedBaseInstanceEXT", 1079, crate::Address(glDrawElementsInstancedBaseInstanceEXT as *const ())),
-    (b"glDrawElementsInstancedBaseVertex", 1073, crate::Address(glDrawElementsInstancedBaseVertex as *const ())),
-    (b"glDrawElementsInstancedBaseVertexBaseInstance", 1080, crate::Address(glDrawElementsInstancedBaseVertexBaseInstance as *const ())),
-    (b"glDrawElementsInstancedBaseVertexBaseInstanceEXT", 1081, crate::Address(glDrawElementsInstancedBaseVertexBaseInstanceEXT as *const ())),
-    (b"glDrawElementsInstancedBaseVertexEXT", 1074, crate::Address(glDrawElementsInstancedBaseVertexEXT as *const ())),
-    (b"glDrawElementsInstancedBaseVertexOES", 1075, crate::Address(glDrawElementsInstancedBaseVertexOES as *const ())),
-    (b"glDrawElementsInstancedEXT", 1071, crate::Address(glDrawElementsInstancedEXT as *const ())),
-    (b"glDrawElementsInstancedNV", 1072, crate::Address(glDrawElementsInstancedNV as *const ())),
-    (b"glDrawPixels", 1109, crate::Address(glDrawPixels as *const ())),
-    (b"glDrawRangeElements", 1049, crate::Address(glDrawRangeElements as *const ())),
-    (b"glDrawRangeElementsBaseVertex", 1058, crate::Address(glDrawRangeElementsBaseVertex as *const ())),
-    (b"glDrawRangeElementsBaseVertexEXT", 1059, crate::Address(glDrawRangeElementsBaseVertexEXT as *const ())),
-    (b"glDrawRangeElementsBaseVertexOES", 1060, crate::Address(glDrawRangeElementsBaseVertexOES as *const ())),
-    (b"glDrawRangeElementsEXT", 1050, crate::Address(glDrawRangeElementsEXT as *const ())),
-    (b"glDrawTransformFeedback", 1090, crate::Address(glDrawTransformFeedback as *const ())),
-    (b"glDrawTransformFeedbackEXT", 1091, crate::Address(glDrawTransformFeedbackEXT as *const ())),
-    (b"glDrawTransformFeedbackInstanced", 1093, crate::Address(glDrawTransformFeedbackInstanced as *const ())),
-    (b"glDrawTransformFeedbackInstancedEXT", 1094, crate::Address(glDrawTransformFeedbackInstancedEXT as *const ())),
-    (b"glDrawTransformFeedbackNV", 1092, crate::Address(glDrawTransformFeedbackNV as *const ())),
-    (b"glDrawTransformFeedbackStream", 1095, crate::Address(glDrawTransformFeedbackStream as *const ())),
-    (b"glDrawTransformFeedbackStreamInstanced", 1096, crate::Address(glDrawTransformFeedbackStreamInstanced as *const ())),
-    (b"glEGLImageTargetRenderbufferStorageOES", 1310, crate::Address(glEGLImageTargetRenderbufferStorageOES as *const ())),
-    (b"glEGLImageTargetTexture2DOES", 804, crate::Address(glEGLImageTargetTexture2DOES as *const ())),
+    (b"glDiscardFramebufferEXT", 1181, crate::Address(glDiscardFramebufferEXT as *const ())),
+    (b"glDispatchCompute", 847, crate::Address(glDispatchCompute as *const ())),
+    (b"glDispatchComputeIndirect", 848, crate::Address(glDispatchComputeIndirect as *const ())),
+    (b"glDrawArrays", 1044, crate::Address(glDrawArrays as *const ())),
+    (b"glDrawArraysEXT", 1045, crate::Address(glDrawArraysEXT as *const ())),
+    (b"glDrawArraysIndirect", 1080, crate::Address(glDrawArraysIndirect as *const ())),
+    (b"glDrawArraysInstanced", 1061, crate::Address(glDrawArraysInstanced as *const ())),
+    (b"glDrawArraysInstancedANGLE", 1062, crate::Address(glDrawArraysInstancedANGLE as *const ())),
+    (b"glDrawArraysInstancedARB", 1063, crate::Address(glDrawArraysInstancedARB as *const ())),
+    (b"glDrawArraysInstancedBaseInstance", 1074, crate::Address(glDrawArraysInstancedBaseInstance as *const ())),
+    (b"glDrawArraysInstancedBaseInstanceEXT", 1075, crate::Address(glDrawArraysInstancedBaseInstanceEXT as *const ())),
+    (b"glDrawArraysInstancedEXT", 1064, crate::Address(glDrawArraysInstancedEXT as *const ())),
+    (b"glDrawArraysInstancedNV", 1065, crate::Address(glDrawArraysInstancedNV as *const ())),
+    (b"glDrawBuffer", 1126, crate::Address(glDrawBuffer as *const ())),
+    (b"glDrawBuffers", 1127, crate::Address(glDrawBuffers as *const ())),
+    (b"glDrawBuffersARB", 1128, crate::Address(glDrawBuffersARB as *const ())),
+    (b"glDrawBuffersATI", 1129, crate::Address(glDrawBuffersATI as *const ())),
+    (b"glDrawBuffersEXT", 1130, crate::Address(glDrawBuffersEXT as *const ())),
+    (b"glDrawElements", 1046, crate::Address(glDrawElements as *const ())),
+    (b"glDrawElementsBaseVertex", 1053, crate::Address(glDrawElementsBaseVertex as *const ())),
+    (b"glDrawElementsBaseVertexEXT", 1054, crate::Address(glDrawElementsBaseVertexEXT as *const ())),
+    (b"glDrawElementsBaseVertexOES", 1055, crate::Address(glDrawElementsBaseVertexOES as *const ())),
+    (b"glDrawElementsIndirect", 1081, crate::Address(glDrawElementsIndirect as *const ())),
+    (b"glDrawElementsInstanced", 1066, crate::Address(glDrawElementsInstanced as *const ())),
+    (b"glDrawElementsInstancedANGLE", 1067, crate::Address(glDrawElementsInstancedANGLE as *const ())),
+    (b"glDrawElementsInstancedARB", 1068, crate::Address(glDrawElementsInstancedARB as *const ())),
+    (b"glDrawElementsInstancedBaseInstance", 1076, crate::Address(glDrawElementsInstancedBaseInstance as *const ())),
+    (b"glDrawElementsInstancedBaseInstanceEXT", 1077, crate::Address(glDrawElementsInstancedBaseInstanceEXT as *const ())),
+    (b"glDrawElementsInstancedBaseVertex", 1071, crate::Address(glDrawElementsInstancedBaseVertex as *const ())),
+    (b"glDrawElementsInstancedBaseVertexBaseInstance", 1078, crate::Address(glDrawElementsInstancedBaseVertexBaseInstance as *const ())),
+    (b"glDrawElementsInstancedBaseVertexBaseInstanceEXT", 1079, crate::Address(glDrawElementsInstancedBaseVertexBaseInstanceEXT as *const ())),
+    (b"glDrawElementsInstancedBaseVertexEXT", 1072, crate::Address(glDrawElementsInstancedBaseVertexEXT as *const ())),
+    (b"glDrawElementsInstancedBaseVertexOES", 1073, crate::Address(glDrawElementsInstancedBaseVertexOES as *const ())),
+    (b"glDrawElementsInstancedEXT", 1069, crate::Address(glDrawElementsInstancedEXT as *const ())),
+    (b"glDrawElementsInstancedNV", 1070, crate::Address(glDrawElementsInstancedNV as *const ())),
+    (b"glDrawPixels", 1107, crate::Address(glDrawPixels as *const ())),
+    (b"glDrawRangeElements", 1047, crate::Address(glDrawRangeElements as *const ())),
+    (b"glDrawRangeElementsBaseVertex", 1056, crate::Address(glDrawRangeElementsBaseVertex as *const ())),
+    (b"glDrawRangeElementsBaseVertexEXT", 1057, crate::Address(glDrawRangeElementsBaseVertexEXT as *const ())),
+    (b"glDrawRangeElementsBaseVertexOES", 1058, crate::Address(glDrawRangeElementsBaseVertexOES as *const ())),
+    (b"glDrawRangeElementsEXT", 1048, crate::Address(glDrawRangeElementsEXT as *const ())),
+    (b"glDrawTransformFeedback", 1088, crate::Address(glDrawTransformFeedback as *const ())),
+    (b"glDrawTransformFeedbackEXT", 1089, crate::Address(glDrawTransformFeedbackEXT as *const ())),
+    (b"glDrawTransformFeedbackInstanced", 1091, crate::Address(glDrawTransformFeedbackInstanced as *const ())),
+    (b"glDrawTransformFeedbackInstancedEXT", 1092, crate::Address(glDrawTransformFeedbackInstancedEXT as *const ())),
+    (b"glDrawTransformFeedbackNV", 1090, crate::Address(glDrawTransformFeedbackNV as *const ())),
+    (b"glDrawTransformFeedbackStream", 1093, crate::Address(glDrawTransformFeedbackStream as *const ())),
+    (b"glDrawTransformFeedbackStreamInstanced", 1094, crate::Address(glDrawTransformFeedbackStreamInstanced as *const ())),
+    (b"glEGLImageTargetRenderbufferStorageOES", 1308, crate::Address(glEGLImageTargetRenderbufferStorageOES as *const ())),
+    (b"glEGLImageTargetTexture2DOES", 802, crate::Address(glEGLImageTargetTexture2DOES as *const ())),
     (b"glEdgeFlag", 234, crate::Address(glEdgeFlag as *const ())),
-    (b"glEdgeFlagPointer", 1335, crate::Address(glEdgeFlagPointer as *const ())),
+    (b"glEdgeFlagPointer", 1333, crate::Address(glEdgeFlagPointer as *const ())),
     (b"glEdgeFlagv", 235, crate::Address(glEdgeFlagv as *const ())),
     (b"glEnable", 518, crate::Address(glEnable as *const ())),
-    (b"glEnableClientState", 1325, crate::Address(glEnableClientState as *const ())),
+    (b"glEnableClientState", 1323, crate::Address(glEnableClientState as *const ())),
     (b"glEnableIndexedEXT", 521, crate::Address(glEnableIndexedEXT as *const ())),
-    (b"glEnableVertexAttribArray", 1342, crate::Address(glEnableVertexAttribArray as *const ())),
-    (b"glEnableVertexAttribArrayARB", 1343, crate::Address(glEnableVertexAttribArrayARB as *const ())),
+    (b"glEnableVertexAttribArray", 1340, crate::Address(glEnableVertexAttribArray as *const ())),
+    (b"glEnableVertexAttribArrayARB", 1341, crate::Address(glEnableVertexAttribArrayARB as *const ())),
     (b"glEnablei", 520, crate::Address(glEnablei as *const ())),
     (b"glEnableiEXT", 522, crate::Address(glEnableiEXT as *const ())),
     (b"glEnableiNV", 523, crate::Address(glEnableiNV as *const ())),
     (b"glEnableiOES", 524, crate::Address(glEnableiOES as *const ())),
     (b"glEnd", 455, crate::Address(glEnd as *const ())),
-    (b"glEndConditionalRender", 1224, crate::Address(glEndConditionalRender as *const ())),
-    (b"glEndConditionalRenderNV", 1225, crate::Address(glEndConditionalRenderNV as *const ())),
-    (b"glEndConditionalRenderNVX", 1226, crate::Address(glEndConditionalRenderNVX as *const ())),
-    (b"glEndList", 1112, crate::Address(glEndList as *const ())),
-    (b"glEndQuery", 1229, crate::Address(glEndQuery as *const ())),
-    (b"glEndQueryARB", 1230, crate::Address(glEndQueryARB as *const ())),
-    (b"glEndQueryEXT", 1216, crate::Address(glEndQueryEXT as *const ())),
-    (b"glEndTransformFeedback", 675, crate::Address(glEndTransformFeedback as *const ())),
-    (b"glEndTransformFeedbackEXT", 676, crate::Address(glEndTransformFeedbackEXT as *const ())),
-    (b"glEndTransformFeedbackNV", 677, crate::Address(glEndTransformFeedbackNV as *const ())),
+    (b"glEndConditionalRender", 1222, crate::Address(glEndConditionalRender as *const ())),
+    (b"glEndConditionalRenderNV", 1223, crate::Address(glEndConditionalRenderNV as *const ())),
+    (b"glEndConditionalRenderNVX", 1224, crate::Address(glEndConditionalRenderNVX as *const ())),
+    (b"glEndList", 1110, crate::Address(glEndList as *const ())),
+    (b"glEndQuery", 1227, crate::Address(glEndQuery as *const ())),
+    (b"glEndQueryARB", 1228, crate::Address(glEndQueryARB as *const ())),
+    (b"glEndQueryEXT", 1214, crate::Address(glEndQueryEXT as *const ())),
+    (b"glEndTransformFeedback", 673, crate::Address(glEndTransformFeedback as *const ())),
+    (b"glEndTransformFeedbackEXT", 674, crate::Address(glEndTransformFeedbackEXT as *const ())),
+    (b"glEndTransformFeedbackNV", 675, crate::Address(glEndTransformFeedbackNV as *const ())),
     (b"glEvalCoord1d", 250, crate::Address(glEvalCoord1d as *const ())),
     (b"glEvalCoord1dv", 251, crate::Address(glEvalCoord1dv as *const ())),
     (b"glEvalCoord1f", 252, crate::Address(glEvalCoord1f as *const ())),
@@ -3215,15 +3211,15 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1384] = [
     (b"glEvalCoord2dv", 255, crate::Address(glEvalCoord2dv as *const ())),
     (b"glEvalCoord2f", 256, crate::Address(glEvalCoord2f as *const ())),
     (b"glEvalCoord2fv", 257, crate::Address(glEvalCoord2fv as *const ())),
-    (b"glEvalMesh1", 1105, crate::Address(glEvalMesh1 as *const ())),
-    (b"glEvalMesh2", 1106, crate::Address(glEvalMesh2 as *const ())),
+    (b"glEvalMesh1", 1103, crate::Address(glEvalMesh1 as *const ())),
+    (b"glEvalMesh2", 1104, crate::Address(glEvalMesh2 as *const ())),
     (b"glEvalPoint1", 258, crate::Address(glEvalPoint1 as *const ())),
     (b"glEvalPoint2", 259, crate::Address(glEvalPoint2 as *const ())),
-    (b"glFeedbackBuffer", 1297, crate::Address(glFeedbackBuffer as *const ())),
-    (b"glFinish", 1219, crate::Address(glFinish as *const ())),
-    (b"glFlush", 1220, crate::Address(glFlush as *const ())),
-    (b"glFogCoordPointer", 1336, crate::Address(glFogCoordPointer as *const ())),
-    (b"glFogCoordPointerEXT", 1337, crate::Address(glFogCoordPointerEXT as *const ())),
+    (b"glFeedbackBuffer", 1295, crate::Address(glFeedbackBuffer as *const ())),
+    (b"glFinish", 1217, crate::Address(glFinish as *const ())),
+    (b"glFlush", 1218, crate::Address(glFlush as *const ())),
+    (b"glFogCoordPointer", 1334, crate::Address(glFogCoordPointer as *const ())),
+    (b"glFogCoordPointerEXT", 1335, crate::Address(glFogCoordPointerEXT as *const ())),
     (b"glFogCoordd", 224, crate::Address(glFogCoordd as *const ())),
     (b"glFogCoorddEXT", 225, crate::Address(glFogCoorddEXT as *const ())),
     (b"glFogCoorddv", 226, crate::Address(glFogCoorddv as *const ())),
@@ -3238,116 +3234,116 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1384] = [
     (b"glFogfv", 558, crate::Address(glFogfv as *const ())),
     (b"glFogi", 559, crate::Address(glFogi as *const ())),
     (b"glFogiv", 560, crate::Address(glFogiv as *const ())),
-    (b"glFramebufferDrawBufferEXT", 1137, crate::Address(glFramebufferDrawBufferEXT as *const ())),
-    (b"glFramebufferDrawBuffersEXT", 1138, crate::Address(glFramebufferDrawBuffersEXT as *const ())),
-    (b"glFramebufferParameteri", 1179, crate::Address(glFramebufferParameteri as *const ())),
-    (b"glFramebufferReadBufferEXT", 1139, crate::Address(glFramebufferReadBufferEXT as *const ())),
-    (b"glFramebufferRenderbuffer", 1170, crate::Address(glFramebufferRenderbuffer as *const ())),
-    (b"glFramebufferRenderbufferEXT", 1171, crate::Address(glFramebufferRenderbufferEXT as *const ())),
-    (b"glFramebufferTexture", 1157, crate::Address(glFramebufferTexture as *const ())),
-    (b"glFramebufferTexture1D", 1161, crate::Address(glFramebufferTexture1D as *const ())),
-    (b"glFramebufferTexture1DEXT", 1162, crate::Address(glFramebufferTexture1DEXT as *const ())),
-    (b"glFramebufferTexture2D", 1163, crate::Address(glFramebufferTexture2D as *const ())),
-    (b"glFramebufferTexture2DEXT", 1164, crate::Address(glFramebufferTexture2DEXT as *const ())),
-    (b"glFramebufferTexture2DMultisampleEXT", 1156, crate::Address(glFramebufferTexture2DMultisampleEXT as *const ())),
-    (b"glFramebufferTexture3D", 1165, crate::Address(glFramebufferTexture3D as *const ())),
-    (b"glFramebufferTexture3DEXT", 1166, crate::Address(glFramebufferTexture3DEXT as *const ())),
-    (b"glFramebufferTexture3DOES", 1155, crate::Address(glFramebufferTexture3DOES as *const ())),
-    (b"glFramebufferTextureARB", 1158, crate::Address(glFramebufferTextureARB as *const ())),
-    (b"glFramebufferTextureEXT", 1159, crate::Address(glFramebufferTextureEXT as *const ())),
-    (b"glFramebufferTextureLayer", 1167, crate::Address(glFramebufferTextureLayer as *const ())),
-    (b"glFramebufferTextureLayerARB", 1168, crate::Address(glFramebufferTextureLayerARB as *const ())),
-    (b"glFramebufferTextureLayerEXT", 1169, crate::Address(glFramebufferTextureLayerEXT as *const ())),
-    (b"glFramebufferTextureOES", 1160, crate::Address(glFramebufferTextureOES as *const ())),
-    (b"glFrontFace", 724, crate::Address(glFrontFace as *const ())),
+    (b"glFramebufferDrawBufferEXT", 1135, crate::Address(glFramebufferDrawBufferEXT as *const ())),
+    (b"glFramebufferDrawBuffersEXT", 1136, crate::Address(glFramebufferDrawBuffersEXT as *const ())),
+    (b"glFramebufferParameteri", 1177, crate::Address(glFramebufferParameteri as *const ())),
+    (b"glFramebufferReadBufferEXT", 1137, crate::Address(glFramebufferReadBufferEXT as *const ())),
+    (b"glFramebufferRenderbuffer", 1168, crate::Address(glFramebufferRenderbuffer as *const ())),
+    (b"glFramebufferRenderbufferEXT", 1169, crate::Address(glFramebufferRenderbufferEXT as *const ())),
+    (b"glFramebufferTexture", 1155, crate::Address(glFramebufferTexture as *const ())),
+    (b"glFramebufferTexture1D", 1159, crate::Address(glFramebufferTexture1D as *const ())),
+    (b"glFramebufferTexture1DEXT", 1160, crate::Address(glFramebufferTexture1DEXT as *const ())),
+    (b"glFramebufferTexture2D", 1161, crate::Address(glFramebufferTexture2D as *const ())),
+    (b"glFramebufferTexture2DEXT", 1162, crate::Address(glFramebufferTexture2DEXT as *const ())),
+    (b"glFramebufferTexture2DMultisampleEXT", 1154, crate::Address(glFramebufferTexture2DMultisampleEXT as *const ())),
+    (b"glFramebufferTexture3D", 1163, crate::Address(glFramebufferTexture3D as *const ())),
+    (b"glFramebufferTexture3DEXT", 1164, crate::Address(glFramebufferTexture3DEXT as *const ())),
+    (b"glFramebufferTexture3DOES", 1153, crate::Address(glFramebufferTexture3DOES as *const ())),
+    (b"glFramebufferTextureARB", 1156, crate::Address(glFramebufferTextureARB as *const ())),
+    (b"glFramebufferTextureEXT", 1157, crate::Address(glFramebufferTextureEXT as *const ())),
+    (b"glFramebufferTextureLayer", 1165, crate::Address(glFramebufferTextureLayer as *const ())),
+    (b"glFramebufferTextureLayerARB", 1166, crate::Address(glFramebufferTextureLayerARB as *const ())),
+    (b"glFramebufferTextureLayerEXT", 1167, crate::Address(glFramebufferTextureLayerEXT as *const ())),
+    (b"glFramebufferTextureOES", 1158, crate::Address(glFramebufferTextureOES as *const ())),
+    (b"glFrontFace", 722, crate::Address(glFrontFace as *const ())),
     (b"glFrustum", 476, crate::Address(glFrustum as *const ())),
-    (b"glGenFramebuffers", 1300, crate::Address(glGenFramebuffers as *const ())),
-    (b"glGenFramebuffersEXT", 1301, crate::Address(glGenFramebuffersEXT as *const ())),
-    (b"glGenLists", 1116, crate::Address(glGenLists as *const ())),
-    (b"glGenRenderbuffers", 1302, crate::Address(glGenRenderbuffers as *const ())),
-    (b"glGenRenderbuffersEXT", 1303, crate::Address(glGenRenderbuffersEXT as *const ())),
-    (b"glGenTextures", 1299, crate::Address(glGenTextures as *const ())),
-    (b"glGenerateMipmap", 838, crate::Address(glGenerateMipmap as *const ())),
-    (b"glGenerateMipmapEXT", 839, crate::Address(glGenerateMipmapEXT as *const ())),
-    (b"glGenerateTextureMipmap", 840, crate::Address(glGenerateTextureMipmap as *const ())),
-    (b"glGetBooleanv", 1149, crate::Address(glGetBooleanv as *const ())),
-    (b"glGetClipPlane", 1263, crate::Address(glGetClipPlane as *const ())),
-    (b"glGetCompressedTexImage", 1278, crate::Address(glGetCompressedTexImage as *const ())),
-    (b"glGetCompressedTexImageARB", 1279, crate::Address(glGetCompressedTexImageARB as *const ())),
-    (b"glGetCompressedTextureImage", 846, crate::Address(glGetCompressedTextureImage as *const ())),
-    (b"glGetDoublev", 1151, crate::Address(glGetDoublev as *const ())),
-    (b"glGetError", 1221, crate::Address(glGetError as *const ())),
-    (b"glGetFloatv", 1150, crate::Address(glGetFloatv as *const ())),
-    (b"glGetFramebufferAttachmentParameteriv", 1175, crate::Address(glGetFramebufferAttachmentParameteriv as *const ())),
-    (b"glGetFramebufferAttachmentParameterivEXT", 1176, crate::Address(glGetFramebufferAttachmentParameterivEXT as *const ())),
-    (b"glGetFramebufferParameteriv", 1180, crate::Address(glGetFramebufferParameteriv as *const ())),
-    (b"glGetInteger64v", 1152, crate::Address(glGetInteger64v as *const ())),
-    (b"glGetInteger64vAPPLE", 1153, crate::Address(glGetInteger64vAPPLE as *const ())),
-    (b"glGetInteger64vEXT", 1154, crate::Address(glGetInteger64vEXT as *const ())),
-    (b"glGetIntegerIndexedvEXT", 1275, crate::Address(glGetIntegerIndexedvEXT as *const ())),
-    (b"glGetIntegeri_v", 1274, crate::Address(glGetIntegeri_v as *const ())),
-    (b"glGetIntegerv", 1148, crate::Address(glGetIntegerv as *const ())),
-    (b"glGetLightfv", 1255, crate::Address(glGetLightfv as *const ())),
-    (b"glGetLightiv", 1256, crate::Address(glGetLightiv as *const ())),
-    (b"glGetMapdv", 1264, crate::Address(glGetMapdv as *const ())),
-    (b"glGetMapfv", 1265, crate::Address(glGetMapfv as *const ())),
-    (b"glGetMapiv", 1266, crate::Address(glGetMapiv as *const ())),
-    (b"glGetMaterialfv", 1257, crate::Address(glGetMaterialfv as *const ())),
-    (b"glGetMaterialiv", 1258, crate::Address(glGetMaterialiv as *const ())),
-    (b"glGetPixelMapfv", 1267, crate::Address(glGetPixelMapfv as *const ())),
-    (b"glGetPixelMapuiv", 1268, crate::Address(glGetPixelMapuiv as *const ())),
-    (b"glGetPixelMapusv", 1269, crate::Address(glGetPixelMapusv as *const ())),
-    (b"glGetPointerv", 1271, crate::Address(glGetPointerv as *const ())),
-    (b"glGetPointervEXT", 1272, crate::Address(glGetPointervEXT as *const ())),
-    (b"glGetPointervKHR", 1273, crate::Address(glGetPointervKHR as *const ())),
-    (b"glGetPolygonStipple", 1270, crate::Address(glGetPolygonStipple as *const ())),
-    (b"glGetProgramiv", 1040, crate::Address(glGetProgramiv as *const ())),
-    (b"glGetQueryObjecti64v", 1240, crate::Address(glGetQueryObjecti64v as *const ())),
-    (b"glGetQueryObjecti64vEXT", 1241, crate::Address(glGetQueryObjecti64vEXT as *const ())),
-    (b"glGetQueryObjectiv", 1235, crate::Address(glGetQueryObjectiv as *const ())),
-    (b"glGetQueryObjectivARB", 1236, crate::Address(glGetQueryObjectivARB as *const ())),
-    (b"glGetQueryObjectivEXT", 1237, crate::Address(glGetQueryObjectivEXT as *const ())),
-    (b"glGetQueryObjectui64v", 1242, crate::Address(glGetQueryObjectui64v as *const ())),
-    (b"glGetQueryObjectui64vEXT", 1243, crate::Address(glGetQueryObjectui64vEXT as *const ())),
-    (b"glGetQueryObjectuiv", 1238, crate::Address(glGetQueryObjectuiv as *const ())),
-    (b"glGetQueryObjectuivARB", 1239, crate::Address(glGetQueryObjectuivARB as *const ())),
-    (b"glGetQueryObjectuivEXT", 1218, crate::Address(glGetQueryObjectuivEXT as *const ())),
-    (b"glGetQueryiv", 1233, crate::Address(glGetQueryiv as *const ())),
-    (b"glGetQueryivARB", 1234, crate::Address(glGetQueryivARB as *const ())),
-    (b"glGetQueryivEXT", 1217, crate::Address(glGetQueryivEXT as *const ())),
-    (b"glGetTexEnvfv", 1253, crate::Address(glGetTexEnvfv as *const ())),
-    (b"glGetTexEnviv", 1254, crate::Address(glGetTexEnviv as *const ())),
-    (b"glGetTexGendv", 1250, crate::Address(glGetTexGendv as *const ())),
-    (b"glGetTexGenfv", 1251, crate::Address(glGetTexGenfv as *const ())),
-    (b"glGetTexGeniv", 1252, crate::Address(glGetTexGeniv as *const ())),
-    (b"glGetTexImage", 1276, crate::Address(glGetTexImage as *const ())),
-    (b"glGetTexLevelParameterfv", 1261, crate::Address(glGetTexLevelParameterfv as *const ())),
-    (b"glGetTexLevelParameteriv", 1262, crate::Address(glGetTexLevelParameteriv as *const ())),
-    (b"glGetTexParameterfv", 1259, crate::Address(glGetTexParameterfv as *const ())),
-    (b"glGetTexParameteriv", 1260, crate::Address(glGetTexParameteriv as *const ())),
-    (b"glGetTextureImage", 844, crate::Address(glGetTextureImage as *const ())),
-    (b"glGetTextureSubImage", 845, crate::Address(glGetTextureSubImage as *const ())),
-    (b"glGetUniformfv", 1281, crate::Address(glGetUniformfv as *const ())),
-    (b"glGetUniformfvARB", 1282, crate::Address(glGetUniformfvARB as *const ())),
-    (b"glGetUniformiv", 1283, crate::Address(glGetUniformiv as *const ())),
-    (b"glGetUniformivARB", 1284, crate::Address(glGetUniformivARB as *const ())),
-    (b"glGetVertexAttribPointerv", 1294, crate::Address(glGetVertexAttribPointerv as *const ())),
-    (b"glGetVertexAttribPointervARB", 1295, crate::Address(glGetVertexAttribPointervARB as *const ())),
-    (b"glGetVertexAttribPointervNV", 1296, crate::Address(glGetVertexAttribPointervNV as *const ())),
-    (b"glGetVertexAttribdv", 1285, crate::Address(glGetVertexAttribdv as *const ())),
-    (b"glGetVertexAttribdvARB", 1286, crate::Address(glGetVertexAttribdvARB as *const ())),
-    (b"glGetVertexAttribdvNV", 1287, crate::Address(glGetVertexAttribdvNV as *const ())),
-    (b"glGetVertexAttribfv", 1288, crate::Address(glGetVertexAttribfv as *const ())),
-    (b"glGetVertexAttribfvARB", 1289, crate::Address(glGetVertexAttribfvARB as *const ())),
-    (b"glGetVertexAttribfvNV", 1290, crate::Address(glGetVertexAttribfvNV as *const ())),
-    (b"glGetVertexAttribiv", 1291, crate::Address(glGetVertexAttribiv as *const ())),
-    (b"glGetVertexAttribivARB", 1292, crate::Address(glGetVertexAttribivARB as *const ())),
-    (b"glGetVertexAttribivNV", 1293, crate::Address(glGetVertexAttribivNV as *const ())),
-    (b"glGetnCompressedTexImage", 1280, crate::Address(glGetnCompressedTexImage as *const ())),
-    (b"glGetnTexImage", 1277, crate::Address(glGetnTexImage as *const ())),
+    (b"glGenFramebuffers", 1298, crate::Address(glGenFramebuffers as *const ())),
+    (b"glGenFramebuffersEXT", 1299, crate::Address(glGenFramebuffersEXT as *const ())),
+    (b"glGenLists", 1114, crate::Address(glGenLists as *const ())),
+    (b"glGenRenderbuffers", 1300, crate::Address(glGenRenderbuffers as *const ())),
+    (b"glGenRenderbuffersEXT", 1301, crate::Address(glGenRenderbuffersEXT as *const ())),
+    (b"glGenTextures", 1297, crate::Address(glGenTextures as *const ())),
+    (b"glGenerateMipmap", 836, crate::Address(glGenerateMipmap as *const ())),
+    (b"glGenerateMipmapEXT", 837, crate::Address(glGenerateMipmapEXT as *const ())),
+    (b"glGenerateTextureMipmap", 838, crate::Address(glGenerateTextureMipmap as *const ())),
+    (b"glGetBooleanv", 1147, crate::Address(glGetBooleanv as *const ())),
+    (b"glGetClipPlane", 1261, crate::Address(glGetClipPlane as *const ())),
+    (b"glGetCompressedTexImage", 1276, crate::Address(glGetCompressedTexImage as *const ())),
+    (b"glGetCompressedTexImageARB", 1277, crate::Address(glGetCompressedTexImageARB as *const ())),
+    (b"glGetCompressedTextureImage", 844, crate::Address(glGetCompressedTextureImage as *const ())),
+    (b"glGetDoublev", 1149, crate::Address(glGetDoublev as *const ())),
+    (b"glGetError", 1219, crate::Address(glGetError as *const ())),
+    (b"glGetFloatv", 1148, crate::Address(glGetFloatv as *const ())),
+    (b"glGetFramebufferAttachmentParameteriv", 1173, crate::Address(glGetFramebufferAttachmentParameteriv as *const ())),
+    (b"glGetFramebufferAttachmentParameterivEXT", 1174, crate::Address(glGetFramebufferAttachmentParameterivEXT as *const ())),
+    (b"glGetFramebufferParameteriv", 1178, crate::Address(glGetFramebufferParameteriv as *const ())),
+    (b"glGetInteger64v", 1150, crate::Address(glGetInteger64v as *const ())),
+    (b"glGetInteger64vAPPLE", 1151, crate::Address(glGetInteger64vAPPLE as *const ())),
+    (b"glGetInteger64vEXT", 1152, crate::Address(glGetInteger64vEXT as *const ())),
+    (b"glGetIntegerIndexedvEXT", 1273, crate::Address(glGetIntegerIndexedvEXT as *const ())),
+    (b"glGetIntegeri_v", 1272, crate::Address(glGetIntegeri_v as *const ())),
+    (b"glGetIntegerv", 1146, crate::Address(glGetIntegerv as *const ())),
+    (b"glGetLightfv", 1253, crate::Address(glGetLightfv as *const ())),
+    (b"glGetLightiv", 1254, crate::Address(glGetLightiv as *const ())),
+    (b"glGetMapdv", 1262, crate::Address(glGetMapdv as *const ())),
+    (b"glGetMapfv", 1263, crate::Address(glGetMapfv as *const ())),
+    (b"glGetMapiv", 1264, crate::Address(glGetMapiv as *const ())),
+    (b"glGetMaterialfv", 1255, crate::Address(glGetMaterialfv as *const ())),
+    (b"glGetMaterialiv", 1256, crate::Address(glGetMaterialiv as *const ())),
+    (b"glGetPixelMapfv", 1265, crate::Address(glGetPixelMapfv as *const ())),
+    (b"glGetPixelMapuiv", 1266, crate::Address(glGetPixelMapuiv as *const ())),
+    (b"glGetPixelMapusv", 1267, crate::Address(glGetPixelMapusv as *const ())),
+    (b"glGetPointerv", 1269, crate::Address(glGetPointerv as *const ())),
+    (b"glGetPointervEXT", 1270, crate::Address(glGetPointervEXT as *const ())),
+    (b"glGetPointervKHR", 1271, crate::Address(glGetPointervKHR as *const ())),
+    (b"glGetPolygonStipple", 1268, crate::Address(glGetPolygonStipple as *const ())),
+    (b"glGetProgramiv", 1038, crate::Address(glGetProgramiv as *const ())),
+    (b"glGetQueryObjecti64v", 1238, crate::Address(glGetQueryObjecti64v as *const ())),
+    (b"glGetQueryObjecti64vEXT", 1239, crate::Address(glGetQueryObjecti64vEXT as *const ())),
+    (b"glGetQueryObjectiv", 1233, crate::Address(glGetQueryObjectiv as *const ())),
+    (b"glGetQueryObjectivARB", 1234, crate::Address(glGetQueryObjectivARB as *const ())),
+    (b"glGetQueryObjectivEXT", 1235, crate::Address(glGetQueryObjectivEXT as *const ())),
+    (b"glGetQueryObjectui64v", 1240, crate::Address(glGetQueryObjectui64v as *const ())),
+    (b"glGetQueryObjectui64vEXT", 1241, crate::Address(glGetQueryObjectui64vEXT as *const ())),
+    (b"glGetQueryObjectuiv", 1236, crate::Address(glGetQueryObjectuiv as *const ())),
+    (b"glGetQueryObjectuivARB", 1237, crate::Address(glGetQueryObjectuivARB as *const ())),
+    (b"glGetQueryObjectuivEXT", 1216, crate::Address(glGetQueryObjectuivEXT as *const ())),
+    (b"glGetQueryiv", 1231, crate::Address(glGetQueryiv as *const ())),
+    (b"glGetQueryivARB", 1232, crate::Address(glGetQueryivARB as *const ())),
+    (b"glGetQueryivEXT", 1215, crate::Address(glGetQueryivEXT as *const ())),
+    (b"glGetTexEnvfv", 1251, crate::Address(glGetTexEnvfv as *const ())),
+    (b"glGetTexEnviv", 1252, crate::Address(glGetTexEnviv as *const ())),
+    (b"glGetTexGendv", 1248, crate::Address(glGetTexGendv as *const ())),
+    (b"glGetTexGenfv", 1249, crate::Address(glGetTexGenfv as *const ())),
+    (b"glGetTexGeniv", 1250, crate::Address(glGetTexGeniv as *const ())),
+    (b"glGetTexImage", 1274, crate::Address(glGetTexImage as *const ())),
+    (b"glGetTexLevelParameterfv", 1259, crate::Address(glGetTexLevelParameterfv as *const ())),
+    (b"glGetTexLevelParameteriv", 1260, crate::Address(glGetTexLevelParameteriv as *const ())),
+    (b"glGetTexParameterfv", 1257, crate::Address(glGetTexParameterfv as *const ())),
+    (b"glGetTexParameteriv", 1258, crate::Address(glGetTexParameteriv as *const ())),
+    (b"glGetTextureImage", 842, crate::Address(glGetTextureImage as *const ())),
+    (b"glGetTextureSubImage", 843, crate::Address(glGetTextureSubImage as *const ())),
+    (b"glGetUniformfv", 1279, crate::Address(glGetUniformfv as *const ())),
+    (b"glGetUniformfvARB", 1280, crate::Address(glGetUniformfvARB as *const ())),
+    (b"glGetUniformiv", 1281, crate::Address(glGetUniformiv as *const ())),
+    (b"glGetUniformivARB", 1282, crate::Address(glGetUniformivARB as *const ())),
+    (b"glGetVertexAttribPointerv", 1292, crate::Address(glGetVertexAttribPointerv as *const ())),
+    (b"glGetVertexAttribPointervARB", 1293, crate::Address(glGetVertexAttribPointervARB as *const ())),
+    (b"glGetVertexAttribPointervNV", 1294, crate::Address(glGetVertexAttribPointervNV as *const ())),
+    (b"glGetVertexAttribdv", 1283, crate::Address(glGetVertexAttribdv as *const ())),
+    (b"glGetVertexAttribdvARB", 1284, crate::Address(glGetVertexAttribdvARB as *const ())),
+    (b"glGetVertexAttribdvNV", 1285, crate::Address(glGetVertexAttribdvNV as *const ())),
+    (b"glGetVertexAttribfv", 1286, crate::Address(glGetVertexAttribfv as *const ())),
+    (b"glGetVertexAttribfvARB", 1287, crate::Address(glGetVertexAttribfvARB as *const ())),
+    (b"glGetVertexAttribfvNV", 1288, crate::Address(glGetVertexAttribfvNV as *const ())),
+    (b"glGetVertexAttribiv", 1289, crate::Address(glGetVertexAttribiv as *const ())),
+    (b"glGetVertexAttribivARB", 1290, crate::Address(glGetVertexAttribivARB as *const ())),
+    (b"glGetVertexAttribivNV", 1291, crate::Address(glGetVertexAttribivNV as *const ())),
+    (b"glGetnCompressedTexImage", 1278, crate::Address(glGetnCompressedTexImage as *const ())),
+    (b"glGetnTexImage", 1275, crate::Address(glGetnTexImage as *const ())),
     (b"glHint", 581, crate::Address(glHint as *const ())),
-    (b"glIndexMask", 725, crate::Address(glIndexMask as *const ())),
-    (b"glIndexPointer", 1338, crate::Address(glIndexPointer as *const ())),
+    (b"glIndexMask", 723, crate::Address(glIndexMask as *const ())),
+    (b"glIndexPointer", 1336, crate::Address(glIndexPointer as *const ())),
     (b"glIndexd", 236, crate::Address(glIndexd as *const ())),
     (b"glIndexdv", 237, crate::Address(glIndexdv as *const ())),
     (b"glIndexf", 238, crate::Address(glIndexf as *const ())),
@@ -3358,20 +3354,20 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1384] = [
     (b"glIndexsv", 243, crate::Address(glIndexsv as *const ())),
     (b"glIndexub", 244, crate::Address(glIndexub as *const ())),
     (b"glIndexubv", 245, crate::Address(glIndexubv as *const ())),
-    (b"glInitNames", 726, crate::Address(glInitNames as *const ())),
-    (b"glInterleavedArrays", 1329, crate::Address(glInterleavedArrays as *const ())),
-    (b"glInvalidateFramebuffer", 1181, crate::Address(glInvalidateFramebuffer as *const ())),
-    (b"glInvalidateSubFramebuffer", 1182, crate::Address(glInvalidateSubFramebuffer as *const ())),
-    (b"glIsEnabled", 1244, crate::Address(glIsEnabled as *const ())),
-    (b"glIsEnabledIndexedEXT", 1246, crate::Address(glIsEnabledIndexedEXT as *const ())),
-    (b"glIsEnabledi", 1245, crate::Address(glIsEnabledi as *const ())),
-    (b"glIsEnablediEXT", 1247, crate::Address(glIsEnablediEXT as *const ())),
-    (b"glIsEnablediNV", 1248, crate::Address(glIsEnablediNV as *const ())),
-    (b"glIsEnablediOES", 1249, crate::Address(glIsEnablediOES as *const ())),
-    (b"glIsFramebuffer", 1122, crate::Address(glIsFramebuffer as *const ())),
-    (b"glIsFramebufferEXT", 1123, crate::Address(glIsFramebufferEXT as *const ())),
-    (b"glIsList", 1117, crate::Address(glIsList as *const ())),
-    (b"glIsTexture", 1121, crate::Address(glIsTexture as *const ())),
+    (b"glInitNames", 724, crate::Address(glInitNames as *const ())),
+    (b"glInterleavedArrays", 1327, crate::Address(glInterleavedArrays as *const ())),
+    (b"glInvalidateFramebuffer", 1179, crate::Address(glInvalidateFramebuffer as *const ())),
+    (b"glInvalidateSubFramebuffer", 1180, crate::Address(glInvalidateSubFramebuffer as *const ())),
+    (b"glIsEnabled", 1242, crate::Address(glIsEnabled as *const ())),
+    (b"glIsEnabledIndexedEXT", 1244, crate::Address(glIsEnabledIndexedEXT as *const ())),
+    (b"glIsEnabledi", 1243, crate::Address(glIsEnabledi as *const ())),
+    (b"glIsEnablediEXT", 1245, crate::Address(glIsEnablediEXT as *const ())),
+    (b"glIsEnablediNV", 1246, crate::Address(glIsEnablediNV as *const ())),
+    (b"glIsEnablediOES", 1247, crate::Address(glIsEnablediOES as *const ())),
+    (b"glIsFramebuffer", 1120, crate::Address(glIsFramebuffer as *const ())),
+    (b"glIsFramebufferEXT", 1121, crate::Address(glIsFramebufferEXT as *const ())),
+    (b"glIsList", 1115, crate::Address(glIsList as *const ())),
+    (b"glIsTexture", 1119, crate::Address(glIsTexture as *const ())),
     (b"glLightModelf", 546, crate::Address(glLightModelf as *const ())),
     (b"glLightModelfv", 547, crate::Address(glLightModelfv as *const ())),
     (b"glLightModeli", 548, crate::Address(glLightModeli as *const ())),
@@ -3380,29 +3376,28 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1384] = [
     (b"glLightfv", 543, crate::Address(glLightfv as *const ())),
     (b"glLighti", 544, crate::Address(glLighti as *const ())),
     (b"glLightiv", 545, crate::Address(glLightiv as *const ())),
-    (b"glLineStipple", 731, crate::Address(glLineStipple as *const ())),
+    (b"glLineStipple", 729, crate::Address(glLineStipple as *const ())),
     (b"glLineWidth", 582, crate::Address(glLineWidth as *const ())),
-    (b"glLinkProgram", 1033, crate::Address(glLinkProgram as *const ())),
-    (b"glLinkProgramARB", 1034, crate::Address(glLinkProgramARB as *const ())),
-    (b"glListBase", 732, crate::Address(glListBase as *const ())),
+    (b"glLinkProgram", 1031, crate::Address(glLinkProgram as *const ())),
+    (b"glLinkProgramARB", 1032, crate::Address(glLinkProgramARB as *const ())),
+    (b"glListBase", 730, crate::Address(glListBase as *const ())),
     (b"glLoadIdentity", 457, crate::Address(glLoadIdentity as *const ())),
     (b"glLoadMatrixd", 458, crate::Address(glLoadMatrixd as *const ())),
     (b"glLoadMatrixf", 459, crate::Address(glLoadMatrixf as *const ())),
-    (b"glLoadName", 727, crate::Address(glLoadName as *const ())),
+    (b"glLoadName", 725, crate::Address(glLoadName as *const ())),
     (b"glLoadTransposeMatrixd", 460, crate::Address(glLoadTransposeMatrixd as *const ())),
     (b"glLoadTransposeMatrixdARB", 461, crate::Address(glLoadTransposeMatrixdARB as *const ())),
     (b"glLoadTransposeMatrixf", 462, crate::Address(glLoadTransposeMatrixf as *const ())),
     (b"glLoadTransposeMatrixfARB", 463, crate::Address(glLoadTransposeMatrixfARB as *const ())),
-    (b"glLockArraysEXT", 669, crate::Address(glLockArraysEXT as *const ())),
-    (b"glLogicOp", 733, crate::Address(glLogicOp as *const ())),
-    (b"glMap1d", 734, crate::Address(glMap1d as *const ())),
-    (b"glMap1f", 735, crate::Address(glMap1f as *const ())),
-    (b"glMap2d", 736, crate::Address(glMap2d as *const ())),
-    (b"glMap2f", 737, crate::Address(glMap2f as *const ())),
-    (b"glMapGrid1d", 738, crate::Address(glMapGrid1d as *const ())),
-    (b"glMapGrid1f", 739, crate::Address(glMapGrid1f as *const ())),
-    (b"glMapGrid2d", 740, crate::Address(glMapGrid2d as *const ())),
-    (b"glMapGrid2f", 741, crate::Address(glMapGrid2f as *const ())),
+    (b"glLogicOp", 731, crate::Address(glLogicOp as *const ())),
+    (b"glMap1d", 732, crate::Address(glMap1d as *const ())),
+    (b"glMap1f", 733, crate::Address(glMap1f as *const ())),
+    (b"glMap2d", 734, crate::Address(glMap2d as *const ())),
+    (b"glMap2f", 735, crate::Address(glMap2f as *const ())),
+    (b"glMapGrid1d", 736, crate::Address(glMapGrid1d as *const ())),
+    (b"glMapGrid1f", 737, crate::Address(glMapGrid1f as *const ())),
+    (b"glMapGrid2d", 738, crate::Address(glMapGrid2d as *const ())),
+    (b"glMapGrid2f", 739, crate::Address(glMapGrid2f as *const ())),
     (b"glMaterialf", 246, crate::Address(glMaterialf as *const ())),
     (b"glMaterialfv", 247, crate::Address(glMaterialfv as *const ())),
     (b"glMateriali", 248, crate::Address(glMateriali as *const ())),
@@ -3426,27 +3421,27 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1384] = [
     (b"glMatrixScalefEXT", 491, crate::Address(glMatrixScalefEXT as *const ())),
     (b"glMatrixTranslatedEXT", 492, crate::Address(glMatrixTranslatedEXT as *const ())),
     (b"glMatrixTranslatefEXT", 493, crate::Address(glMatrixTranslatefEXT as *const ())),
-    (b"glMinSampleShading", 756, crate::Address(glMinSampleShading as *const ())),
-    (b"glMinSampleShadingARB", 757, crate::Address(glMinSampleShadingARB as *const ())),
-    (b"glMinSampleShadingOES", 758, crate::Address(glMinSampleShadingOES as *const ())),
+    (b"glMinSampleShading", 754, crate::Address(glMinSampleShading as *const ())),
+    (b"glMinSampleShadingARB", 755, crate::Address(glMinSampleShadingARB as *const ())),
+    (b"glMinSampleShadingOES", 756, crate::Address(glMinSampleShadingOES as *const ())),
     (b"glMultMatrixd", 464, crate::Address(glMultMatrixd as *const ())),
     (b"glMultMatrixf", 465, crate::Address(glMultMatrixf as *const ())),
     (b"glMultTransposeMatrixd", 466, crate::Address(glMultTransposeMatrixd as *const ())),
     (b"glMultTransposeMatrixdARB", 467, crate::Address(glMultTransposeMatrixdARB as *const ())),
     (b"glMultTransposeMatrixf", 468, crate::Address(glMultTransposeMatrixf as *const ())),
     (b"glMultTransposeMatrixfARB", 469, crate::Address(glMultTransposeMatrixfARB as *const ())),
-    (b"glMultiDrawArrays", 1051, crate::Address(glMultiDrawArrays as *const ())),
-    (b"glMultiDrawArraysEXT", 1052, crate::Address(glMultiDrawArraysEXT as *const ())),
-    (b"glMultiDrawArraysIndirect", 1084, crate::Address(glMultiDrawArraysIndirect as *const ())),
-    (b"glMultiDrawArraysIndirectAMD", 1085, crate::Address(glMultiDrawArraysIndirectAMD as *const ())),
-    (b"glMultiDrawArraysIndirectEXT", 1086, crate::Address(glMultiDrawArraysIndirectEXT as *const ())),
-    (b"glMultiDrawElements", 1053, crate::Address(glMultiDrawElements as *const ())),
-    (b"glMultiDrawElementsBaseVertex", 1061, crate::Address(glMultiDrawElementsBaseVertex as *const ())),
-    (b"glMultiDrawElementsBaseVertexEXT", 1062, crate::Address(glMultiDrawElementsBaseVertexEXT as *const ())),
-    (b"glMultiDrawElementsEXT", 1054, crate::Address(glMultiDrawElementsEXT as *const ())),
-    (b"glMultiDrawElementsIndirect", 1087, crate::Address(glMultiDrawElementsIndirect as *const ())),
-    (b"glMultiDrawElementsIndirectAMD", 1088, crate::Address(glMultiDrawElementsIndirectAMD as *const ())),
-    (b"glMultiDrawElementsIndirectEXT", 1089, crate::Address(glMultiDrawElementsIndirectEXT as *const ())),
+    (b"glMultiDrawArrays", 1049, crate::Address(glMultiDrawArrays as *const ())),
+    (b"glMultiDrawArraysEXT", 1050, crate::Address(glMultiDrawArraysEXT as *const ())),
+    (b"glMultiDrawArraysIndirect", 1082, crate::Address(glMultiDrawArraysIndirect as *const ())),
+    (b"glMultiDrawArraysIndirectAMD", 1083, crate::Address(glMultiDrawArraysIndirectAMD as *const ())),
+    (b"glMultiDrawArraysIndirectEXT", 1084, crate::Address(glMultiDrawArraysIndirectEXT as *const ())),
+    (b"glMultiDrawElements", 1051, crate::Address(glMultiDrawElements as *const ())),
+    (b"glMultiDrawElementsBaseVertex", 1059, crate::Address(glMultiDrawElementsBaseVertex as *const ())),
+    (b"glMultiDrawElementsBaseVertexEXT", 1060, crate::Address(glMultiDrawElementsBaseVertexEXT as *const ())),
+    (b"glMultiDrawElementsEXT", 1052, crate::Address(glMultiDrawElementsEXT as *const ())),
+    (b"glMultiDrawElementsIndirect", 1085, crate::Address(glMultiDrawElementsIndirect as *const ())),
+    (b"glMultiDrawElementsIndirectAMD", 1086, crate::Address(glMultiDrawElementsIndirectAMD as *const ())),
+    (b"glMultiDrawElementsIndirectEXT", 1087, crate::Address(glMultiDrawElementsIndirectEXT as *const ())),
     (b"glMultiTexCoord1d", 118, crate::Address(glMultiTexCoord1d as *const ())),
     (b"glMultiTexCoord1dARB", 119, crate::Address(glMultiTexCoord1dARB as *const ())),
     (b"glMultiTexCoord1dv", 120, crate::Address(glMultiTexCoord1dv as *const ())),
@@ -3527,15 +3522,15 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1384] = [
     (b"glMultiTexCoordP3uiv", 421, crate::Address(glMultiTexCoordP3uiv as *const ())),
     (b"glMultiTexCoordP4ui", 422, crate::Address(glMultiTexCoordP4ui as *const ())),
     (b"glMultiTexCoordP4uiv", 423, crate::Address(glMultiTexCoordP4uiv as *const ())),
-    (b"glNamedFramebufferDrawBuffer", 1134, crate::Address(glNamedFramebufferDrawBuffer as *const ())),
-    (b"glNamedFramebufferDrawBuffers", 1135, crate::Address(glNamedFramebufferDrawBuffers as *const ())),
-    (b"glNamedFramebufferReadBuffer", 1136, crate::Address(glNamedFramebufferReadBuffer as *const ())),
-    (b"glNamedFramebufferRenderbuffer", 1174, crate::Address(glNamedFramebufferRenderbuffer as *const ())),
-    (b"glNamedFramebufferTexture", 1172, crate::Address(glNamedFramebufferTexture as *const ())),
-    (b"glNamedFramebufferTextureLayer", 1173, crate::Address(glNamedFramebufferTextureLayer as *const ())),
-    (b"glNamedRenderbufferStorage", 820, crate::Address(glNamedRenderbufferStorage as *const ())),
-    (b"glNamedRenderbufferStorageMultisample", 821, crate::Address(glNamedRenderbufferStorageMultisample as *const ())),
-    (b"glNewList", 1111, crate::Address(glNewList as *const ())),
+    (b"glNamedFramebufferDrawBuffer", 1132, crate::Address(glNamedFramebufferDrawBuffer as *const ())),
+    (b"glNamedFramebufferDrawBuffers", 1133, crate::Address(glNamedFramebufferDrawBuffers as *const ())),
+    (b"glNamedFramebufferReadBuffer", 1134, crate::Address(glNamedFramebufferReadBuffer as *const ())),
+    (b"glNamedFramebufferRenderbuffer", 1172, crate::Address(glNamedFramebufferRenderbuffer as *const ())),
+    (b"glNamedFramebufferTexture", 1170, crate::Address(glNamedFramebufferTexture as *const ())),
+    (b"glNamedFramebufferTextureLayer", 1171, crate::Address(glNamedFramebufferTextureLayer as *const ())),
+    (b"glNamedRenderbufferStorage", 818, crate::Address(glNamedRenderbufferStorage as *const ())),
+    (b"glNamedRenderbufferStorageMultisample", 819, crate::Address(glNamedRenderbufferStorageMultisample as *const ())),
+    (b"glNewList", 1109, crate::Address(glNewList as *const ())),
     (b"glNormal3b", 66, crate::Address(glNormal3b as *const ())),
     (b"glNormal3bv", 67, crate::Address(glNormal3bv as *const ())),
     (b"glNormal3d", 68, crate::Address(glNormal3d as *const ())),
@@ -3550,17 +3545,17 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1384] = [
     (b"glNormal3sv", 75, crate::Address(glNormal3sv as *const ())),
     (b"glNormalP3ui", 438, crate::Address(glNormalP3ui as *const ())),
     (b"glNormalP3uiv", 439, crate::Address(glNormalP3uiv as *const ())),
-    (b"glNormalPointer", 1339, crate::Address(glNormalPointer as *const ())),
+    (b"glNormalPointer", 1337, crate::Address(glNormalPointer as *const ())),
     (b"glOrtho", 477, crate::Address(glOrtho as *const ())),
-    (b"glPassThrough", 730, crate::Address(glPassThrough as *const ())),
-    (b"glPixelMapfv", 742, crate::Address(glPixelMapfv as *const ())),
-    (b"glPixelMapuiv", 743, crate::Address(glPixelMapuiv as *const ())),
-    (b"glPixelMapusv", 744, crate::Address(glPixelMapusv as *const ())),
-    (b"glPixelStoref", 1321, crate::Address(glPixelStoref as *const ())),
-    (b"glPixelStorei", 1322, crate::Address(glPixelStorei as *const ())),
-    (b"glPixelTransferf", 745, crate::Address(glPixelTransferf as *const ())),
-    (b"glPixelTransferi", 746, crate::Address(glPixelTransferi as *const ())),
-    (b"glPixelZoom", 747, crate::Address(glPixelZoom as *const ())),
+    (b"glPassThrough", 728, crate::Address(glPassThrough as *const ())),
+    (b"glPixelMapfv", 740, crate::Address(glPixelMapfv as *const ())),
+    (b"glPixelMapuiv", 741, crate::Address(glPixelMapuiv as *const ())),
+    (b"glPixelMapusv", 742, crate::Address(glPixelMapusv as *const ())),
+    (b"glPixelStoref", 1319, crate::Address(glPixelStoref as *const ())),
+    (b"glPixelStorei", 1320, crate::Address(glPixelStorei as *const ())),
+    (b"glPixelTransferf", 743, crate::Address(glPixelTransferf as *const ())),
+    (b"glPixelTransferi", 744, crate::Address(glPixelTransferi as *const ())),
+    (b"glPixelZoom", 745, crate::Address(glPixelZoom as *const ())),
     (b"glPointParameterf", 561, crate::Address(glPointParameterf as *const ())),
     (b"glPointParameterfARB", 562, crate::Address(glPointParameterfARB as *const ())),
     (b"glPointParameterfEXT", 563, crate::Address(glPointParameterfEXT as *const ())),
@@ -3576,116 +3571,116 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1384] = [
     (b"glPointSize", 573, crate::Address(glPointSize as *const ())),
     (b"glPolygonMode", 575, crate::Address(glPolygonMode as *const ())),
     (b"glPolygonModeNV", 576, crate::Address(glPolygonModeNV as *const ())),
-    (b"glPolygonOffset", 748, crate::Address(glPolygonOffset as *const ())),
-    (b"glPolygonOffsetClamp", 749, crate::Address(glPolygonOffsetClamp as *const ())),
-    (b"glPolygonOffsetClampEXT", 750, crate::Address(glPolygonOffsetClampEXT as *const ())),
-    (b"glPolygonStipple", 751, crate::Address(glPolygonStipple as *const ())),
+    (b"glPolygonOffset", 746, crate::Address(glPolygonOffset as *const ())),
+    (b"glPolygonOffsetClamp", 747, crate::Address(glPolygonOffsetClamp as *const ())),
+    (b"glPolygonOffsetClampEXT", 748, crate::Address(glPolygonOffsetClampEXT as *const ())),
+    (b"glPolygonStipple", 749, crate::Address(glPolygonStipple as *const ())),
     (b"glPopAttrib", 596, crate::Address(glPopAttrib as *const ())),
-    (b"glPopClientAttrib", 1324, crate::Address(glPopClientAttrib as *const ())),
+    (b"glPopClientAttrib", 1322, crate::Address(glPopClientAttrib as *const ())),
     (b"glPopMatrix", 479, crate::Address(glPopMatrix as *const ())),
-    (b"glPopName", 729, crate::Address(glPopName as *const ())),
-    (b"glPrimitiveRestartIndex", 766, crate::Address(glPrimitiveRestartIndex as *const ())),
-    (b"glPrioritizeTextures", 752, crate::Address(glPrioritizeTextures as *const ())),
-    (b"glPrioritizeTexturesEXT", 753, crate::Address(glPrioritizeTexturesEXT as *const ())),
-    (b"glProgramBinary", 1035, crate::Address(glProgramBinary as *const ())),
-    (b"glProgramBinaryOES", 1036, crate::Address(glProgramBinaryOES as *const ())),
-    (b"glProgramEnvParameter4dARB", 858, crate::Address(glProgramEnvParameter4dARB as *const ())),
-    (b"glProgramEnvParameter4dvARB", 859, crate::Address(glProgramEnvParameter4dvARB as *const ())),
-    (b"glProgramEnvParameter4fARB", 860, crate::Address(glProgramEnvParameter4fARB as *const ())),
-    (b"glProgramEnvParameter4fvARB", 861, crate::Address(glProgramEnvParameter4fvARB as *const ())),
-    (b"glProgramLocalParameter4dARB", 862, crate::Address(glProgramLocalParameter4dARB as *const ())),
-    (b"glProgramLocalParameter4dvARB", 863, crate::Address(glProgramLocalParameter4dvARB as *const ())),
-    (b"glProgramLocalParameter4fARB", 864, crate::Address(glProgramLocalParameter4fARB as *const ())),
-    (b"glProgramLocalParameter4fvARB", 865, crate::Address(glProgramLocalParameter4fvARB as *const ())),
-    (b"glProgramUniform1d", 949, crate::Address(glProgramUniform1d as *const ())),
-    (b"glProgramUniform1dv", 950, crate::Address(glProgramUniform1dv as *const ())),
-    (b"glProgramUniform1f", 951, crate::Address(glProgramUniform1f as *const ())),
-    (b"glProgramUniform1fEXT", 952, crate::Address(glProgramUniform1fEXT as *const ())),
-    (b"glProgramUniform1fv", 953, crate::Address(glProgramUniform1fv as *const ())),
-    (b"glProgramUniform1fvEXT", 954, crate::Address(glProgramUniform1fvEXT as *const ())),
-    (b"glProgramUniform1i", 955, crate::Address(glProgramUniform1i as *const ())),
-    (b"glProgramUniform1iEXT", 956, crate::Address(glProgramUniform1iEXT as *const ())),
-    (b"glProgramUniform1iv", 957, crate::Address(glProgramUniform1iv as *const ())),
-    (b"glProgramUniform1ivEXT", 958, crate::Address(glProgramUniform1ivEXT as *const ())),
-    (b"glProgramUniform1ui", 959, crate::Address(glProgramUniform1ui as *const ())),
-    (b"glProgramUniform1uiEXT", 960, crate::Address(glProgramUniform1uiEXT as *const ())),
-    (b"glProgramUniform1uiv", 961, crate::Address(glProgramUniform1uiv as *const ())),
-    (b"glProgramUniform1uivEXT", 962, crate::Address(glProgramUniform1uivEXT as *const ())),
-    (b"glProgramUniform2d", 963, crate::Address(glProgramUniform2d as *const ())),
-    (b"glProgramUniform2dv", 964, crate::Address(glProgramUniform2dv as *const ())),
-    (b"glProgramUniform2f", 965, crate::Address(glProgramUniform2f as *const ())),
-    (b"glProgramUniform2fEXT", 966, crate::Address(glProgramUniform2fEXT as *const ())),
-    (b"glProgramUniform2fv", 967, crate::Address(glProgramUniform2fv as *const ())),
-    (b"glProgramUniform2fvEXT", 968, crate::Address(glProgramUniform2fvEXT as *const ())),
-    (b"glProgramUniform2i", 969, crate::Address(glProgramUniform2i as *const ())),
-    (b"glProgramUniform2iEXT", 970, crate::Address(glProgramUniform2iEXT as *const ())),
-    (b"glProgramUniform2iv", 971, crate::Address(glProgramUniform2iv as *const ())),
-    (b"glProgramUniform2ivEXT", 972, crate::Address(glProgramUniform2ivEXT as *const ())),
-    (b"glProgramUniform2ui", 973, crate::Address(glProgramUniform2ui as *const ())),
-    (b"glProgramUniform2uiEXT", 974, crate::Address(glProgramUniform2uiEXT as *const ())),
-    (b"glProgramUniform2uiv", 975, crate::Address(glProgramUniform2uiv as *const ())),
-    (b"glProgramUniform2uivEXT", 976, crate::Address(glProgramUniform2uivEXT as *const ())),
-    (b"glProgramUniform3d", 977, crate::Address(glProgramUniform3d as *const ())),
-    (b"glProgramUniform3dv", 978, crate::Address(glProgramUniform3dv as *const ())),
-    (b"glProgramUniform3f", 979, crate::Address(glProgramUniform3f as *const ())),
-    (b"glProgramUniform3fEXT", 980, crate::Address(glProgramUniform3fEXT as *const ())),
-    (b"glProgramUniform3fv", 981, crate::Address(glProgramUniform3fv as *const ())),
-    (b"glProgramUniform3fvEXT", 982, crate::Address(glProgramUniform3fvEXT as *const ())),
-    (b"glProgramUniform3i", 983, crate::Address(glProgramUniform3i as *const ())),
-    (b"glProgramUniform3iEXT", 984, crate::Address(glProgramUniform3iEXT as *const ())),
-    (b"glProgramUniform3iv", 985, crate::Address(glProgramUniform3iv as *const ())),
-    (b"glProgramUniform3ivEXT", 986, crate::Address(glProgramUniform3ivEXT as *const ())),
-    (b"glProgramUniform3ui", 987, crate::Address(glProgramUniform3ui as *const ())),
-    (b"glProgramUniform3uiEXT", 988, crate::Address(glProgramUniform3uiEXT as *const ())),
-    (b"glProgramUniform3uiv", 989, crate::Address(glProgramUniform3uiv as *const ())),
-    (b"glProgramUniform3uivEXT", 990, crate::Address(glProgramUniform3uivEXT as *const ())),
-    (b"glProgramUniform4d", 991, crate::Address(glProgramUniform4d as *const ())),
-    (b"glProgramUniform4dv", 992, crate::Address(glProgramUniform4dv as *const ())),
-    (b"glProgramUniform4f", 993, crate::Address(glProgramUniform4f as *const ())),
-    (b"glProgramUniform4fEXT", 994, crate::Address(glProgramUniform4fEXT as *const ())),
-    (b"glProgramUniform4fv", 995, crate::Address(glProgramUniform4fv as *const ())),
-    (b"glProgramUniform4fvEXT", 996, crate::Address(glProgramUniform4fvEXT as *const ())),
-    (b"glProgramUniform4i", 997, crate::Address(glProgramUniform4i as *const ())),
-    (b"glProgramUniform4iEXT", 998, crate::Address(glProgramUniform4iEXT as *const ())),
-    (b"glProgramUniform4iv", 999, crate::Address(glProgramUniform4iv as *const ())),
-    (b"glProgramUniform4ivEXT", 1000, crate::Address(glProgramUniform4ivEXT as *const ())),
-    (b"glProgramUniform4ui", 1001, crate::Address(glProgramUniform4ui as *const ())),
-    (b"glProgramUniform4uiEXT", 1002, crate::Address(glProgramUniform4uiEXT as *const ())),
-    (b"glProgramUniform4uiv", 1003, crate::Address(glProgramUniform4uiv as *const ())),
-    (b"glProgramUniform4uivEXT", 1004, crate::Address(glProgramUniform4uivEXT as *const ())),
-    (b"glProgramUniformMatrix2dv", 1005, crate::Address(glProgramUniformMatrix2dv as *const ())),
-    (b"glProgramUniformMatrix2fv", 1006, crate::Address(glProgramUniformMatrix2fv as *const ())),
-    (b"glProgramUniformMatrix2fvEXT", 1007, crate::Address(glProgramUniformMatrix2fvEXT as *const ())),
-    (b"glProgramUniformMatrix2x3dv", 1008, crate::Address(glProgramUniformMatrix2x3dv as *const ())),
-    (b"glProgramUniformMatrix2x3fv", 1009, crate::Address(glProgramUniformMatrix2x3fv as *const ())),
-    (b"glProgramUniformMatrix2x3fvEXT", 1010, crate::Address(glProgramUniformMatrix2x3fvEXT as *const ())),
-    (b"glProgramUniformMatrix2x4dv", 1011, crate::Address(glProgramUniformMatrix2x4dv as *const ())),
-    (b"glProgramUniformMatrix2x4fv", 1012, crate::Address(glProgramUniformMatrix2x4fv as *const ())),
-    (b"glProgramUniformMatrix2x4fvEXT", 1013, crate::Address(glProgramUniformMatrix2x4fvEXT as *const ())),
-    (b"glProgramUniformMatrix3dv", 1014, crate::Address(glProgramUniformMatrix3dv as *const ())),
-    (b"glProgramUniformMatrix3fv", 1015, crate::Address(glProgramUniformMatrix3fv as *const ())),
-    (b"glProgramUniformMatrix3fvEXT", 1016, crate::Address(glProgramUniformMatrix3fvEXT as *const ())),
-    (b"glProgramUniformMatrix3x2dv", 1017, crate::Address(glProgramUniformMatrix3x2dv as *const ())),
-    (b"glProgramUniformMatrix3x2fv", 1018, crate::Address(glProgramUniformMatrix3x2fv as *const ())),
-    (b"glProgramUniformMatrix3x2fvEXT", 1019, crate::Address(glProgramUniformMatrix3x2fvEXT as *const ())),
-    (b"glProgramUniformMatrix3x4dv", 1020, crate::Address(glProgramUniformMatrix3x4dv as *const ())),
-    (b"glProgramUniformMatrix3x4fv", 1021, crate::Address(glProgramUniformMatrix3x4fv as *const ())),
-    (b"glProgramUniformMatrix3x4fvEXT", 1022, crate::Address(glProgramUniformMatrix3x4fvEXT as *const ())),
-    (b"glProgramUniformMatrix4dv", 1023, crate::Address(glProgramUniformMatrix4dv as *const ())),
-    (b"glProgramUniformMatrix4fv", 1024, crate::Address(glProgramUniformMatrix4fv as *const ())),
-    (b"glProgramUniformMatrix4fvEXT", 1025, crate::Address(glProgramUniformMatrix4fvEXT as *const ())),
-    (b"glProgramUniformMatrix4x2dv", 1026, crate::Address(glProgramUniformMatrix4x2dv as *const ())),
-    (b"glProgramUniformMatrix4x2fv", 1027, crate::Address(glProgramUniformMatrix4x2fv as *const ())),
-    (b"glProgramUniformMatrix4x2fvEXT", 1028, crate::Address(glProgramUniformMatrix4x2fvEXT as *const ())),
-    (b"glProgramUniformMatrix4x3dv", 1029, crate::Address(glProgramUniformMatrix4x3dv as *const ())),
-    (b"glProgramUniformMatrix4x3fv", 1030, crate::Address(glProgramUniformMatrix4x3fv as *const ())),
-    (b"glProgramUniformMatrix4x3fvEXT", 1031, crate::Address(glProgramUniformMatrix4x3fvEXT as *const ())),
+    (b"glPopName", 727, crate::Address(glPopName as *const ())),
+    (b"glPrimitiveRestartIndex", 764, crate::Address(glPrimitiveRestartIndex as *const ())),
+    (b"glPrioritizeTextures", 750, crate::Address(glPrioritizeTextures as *const ())),
+    (b"glPrioritizeTexturesEXT", 751, crate::Address(glPrioritizeTexturesEXT as *const ())),
+    (b"glProgramBinary", 1033, crate::Address(glProgramBinary as *const ())),
+    (b"glProgramBinaryOES", 1034, crate::Address(glProgramBinaryOES as *const ())),
+    (b"glProgramEnvParameter4dARB", 856, crate::Address(glProgramEnvParameter4dARB as *const ())),
+    (b"glProgramEnvParameter4dvARB", 857, crate::Address(glProgramEnvParameter4dvARB as *const ())),
+    (b"glProgramEnvParameter4fARB", 858, crate::Address(glProgramEnvParameter4fARB as *const ())),
+    (b"glProgramEnvParameter4fvARB", 859, crate::Address(glProgramEnvParameter4fvARB as *const ())),
+    (b"glProgramLocalParameter4dARB", 860, crate::Address(glProgramLocalParameter4dARB as *const ())),
+    (b"glProgramLocalParameter4dvARB", 861, crate::Address(glProgramLocalParameter4dvARB as *const ())),
+    (b"glProgramLocalParameter4fARB", 862, crate::Address(glProgramLocalParameter4fARB as *const ())),
+    (b"glProgramLocalParameter4fvARB", 863, crate::Address(glProgramLocalParameter4fvARB as *const ())),
+    (b"glProgramUniform1d", 947, crate::Address(glProgramUniform1d as *const ())),
+    (b"glProgramUniform1dv", 948, crate::Address(glProgramUniform1dv as *const ())),
+    (b"glProgramUniform1f", 949, crate::Address(glProgramUniform1f as *const ())),
+    (b"glProgramUniform1fEXT", 950, crate::Address(glProgramUniform1fEXT as *const ())),
+    (b"glProgramUniform1fv", 951, crate::Address(glProgramUniform1fv as *const ())),
+    (b"glProgramUniform1fvEXT", 952, crate::Address(glProgramUniform1fvEXT as *const ())),
+    (b"glProgramUniform1i", 953, crate::Address(glProgramUniform1i as *const ())),
+    (b"glProgramUniform1iEXT", 954, crate::Address(glProgramUniform1iEXT as *const ())),
+    (b"glProgramUniform1iv", 955, crate::Address(glProgramUniform1iv as *const ())),
+    (b"glProgramUniform1ivEXT", 956, crate::Address(glProgramUniform1ivEXT as *const ())),
+    (b"glProgramUniform1ui", 957, crate::Address(glProgramUniform1ui as *const ())),
+    (b"glProgramUniform1uiEXT", 958, crate::Address(glProgramUniform1uiEXT as *const ())),
+    (b"glProgramUniform1uiv", 959, crate::Address(glProgramUniform1uiv as *const ())),
+    (b"glProgramUniform1uivEXT", 960, crate::Address(glProgramUniform1uivEXT as *const ())),
+    (b"glProgramUniform2d", 961, crate::Address(glProgramUniform2d as *const ())),
+    (b"glProgramUniform2dv", 962, crate::Address(glProgramUniform2dv as *const ())),
+    (b"glProgramUniform2f", 963, crate::Address(glProgramUniform2f as *const ())),
+    (b"glProgramUniform2fEXT", 964, crate::Address(glProgramUniform2fEXT as *const ())),
+    (b"glProgramUniform2fv", 965, crate::Address(glProgramUniform2fv as *const ())),
+    (b"glProgramUniform2fvEXT", 966, crate::Address(glProgramUniform2fvEXT as *const ())),
+    (b"glProgramUniform2i", 967, crate::Address(glProgramUniform2i as *const ())),
+    (b"glProgramUniform2iEXT", 968, crate::Address(glProgramUniform2iEXT as *const ())),
+    (b"glProgramUniform2iv", 969, crate::Address(glProgramUniform2iv as *const ())),
+    (b"glProgramUniform2ivEXT", 970, crate::Address(glProgramUniform2ivEXT as *const ())),
+    (b"glProgramUniform2ui", 971, crate::Address(glProgramUniform2ui as *const ())),
+    (b"glProgramUniform2uiEXT", 972, crate::Address(glProgramUniform2uiEXT as *const ())),
+    (b"glProgramUniform2uiv", 973, crate::Address(glProgramUniform2uiv as *const ())),
+    (b"glProgramUniform2uivEXT", 974, crate::Address(glProgramUniform2uivEXT as *const ())),
+    (b"glProgramUniform3d", 975, crate::Address(glProgramUniform3d as *const ())),
+    (b"glProgramUniform3dv", 976, crate::Address(glProgramUniform3dv as *const ())),
+    (b"glProgramUniform3f", 977, crate::Address(glProgramUniform3f as *const ())),
+    (b"glProgramUniform3fEXT", 978, crate::Address(glProgramUniform3fEXT as *const ())),
+    (b"glProgramUniform3fv", 979, crate::Address(glProgramUniform3fv as *const ())),
+    (b"glProgramUniform3fvEXT", 980, crate::Address(glProgramUniform3fvEXT as *const ())),
+    (b"glProgramUniform3i", 981, crate::Address(glProgramUniform3i as *const ())),
+    (b"glProgramUniform3iEXT", 982, crate::Address(glProgramUniform3iEXT as *const ())),
+    (b"glProgramUniform3iv", 983, crate::Address(glProgramUniform3iv as *const ())),
+    (b"glProgramUniform3ivEXT", 984, crate::Address(glProgramUniform3ivEXT as *const ())),
+    (b"glProgramUniform3ui", 985, crate::Address(glProgramUniform3ui as *const ())),
+    (b"glProgramUniform3uiEXT", 986, crate::Address(glProgramUniform3uiEXT as *const ())),
+    (b"glProgramUniform3uiv", 987, crate::Address(glProgramUniform3uiv as *const ())),
+    (b"glProgramUniform3uivEXT", 988, crate::Address(glProgramUniform3uivEXT as *const ())),
+    (b"glProgramUniform4d", 989, crate::Address(glProgramUniform4d as *const ())),
+    (b"glProgramUniform4dv", 990, crate::Address(glProgramUniform4dv as *const ())),
+    (b"glProgramUniform4f", 991, crate::Address(glProgramUniform4f as *const ())),
+    (b"glProgramUniform4fEXT", 992, crate::Address(glProgramUniform4fEXT as *const ())),
+    (b"glProgramUniform4fv", 993, crate::Address(glProgramUniform4fv as *const ())),
+    (b"glProgramUniform4fvEXT", 994, crate::Address(glProgramUniform4fvEXT as *const ())),
+    (b"glProgramUniform4i", 995, crate::Address(glProgramUniform4i as *const ())),
+    (b"glProgramUniform4iEXT", 996, crate::Address(glProgramUniform4iEXT as *const ())),
+    (b"glProgramUniform4iv", 997, crate::Address(glProgramUniform4iv as *const ())),
+    (b"glProgramUniform4ivEXT", 998, crate::Address(glProgramUniform4ivEXT as *const ())),
+    (b"glProgramUniform4ui", 999, crate::Address(glProgramUniform4ui as *const ())),
+    (b"glProgramUniform4uiEXT", 1000, crate::Address(glProgramUniform4uiEXT as *const ())),
+    (b"glProgramUniform4uiv", 1001, crate::Address(glProgramUniform4uiv as *const ())),
+    (b"glProgramUniform4uivEXT", 1002, crate::Address(glProgramUniform4uivEXT as *const ())),
+    (b"glProgramUniformMatrix2dv", 1003, crate::Address(glProgramUniformMatrix2dv as *const ())),
+    (b"glProgramUniformMatrix2fv", 1004, crate::Address(glProgramUniformMatrix2fv as *const ())),
+    (b"glProgramUniformMatrix2fvEXT", 1005, crate::Address(glProgramUniformMatrix2fvEXT as *const ())),
+    (b"glProgramUniformMatrix2x3dv", 1006, crate::Address(glProgramUniformMatrix2x3dv as *const ())),
+    (b"glProgramUniformMatrix2x3fv", 1007, crate::Address(glProgramUniformMatrix2x3fv as *const ())),
+    (b"glProgramUniformMatrix2x3fvEXT", 1008, crate::Address(glProgramUniformMatrix2x3fvEXT as *const ())),
+    (b"glProgramUniformMatrix2x4dv", 1009, crate::Address(glProgramUniformMatrix2x4dv as *const ())),
+    (b"glProgramUniformMatrix2x4fv", 1010, crate::Address(glProgramUniformMatrix2x4fv as *const ())),
+    (b"glProgramUniformMatrix2x4fvEXT", 1011, crate::Address(glProgramUniformMatrix2x4fvEXT as *const ())),
+    (b"glProgramUniformMatrix3dv", 1012, crate::Address(glProgramUniformMatrix3dv as *const ())),
+    (b"glProgramUniformMatrix3fv", 1013, crate::Address(glProgramUniformMatrix3fv as *const ())),
+    (b"glProgramUniformMatrix3fvEXT", 1014, crate::Address(glProgramUniformMatrix3fvEXT as *const ())),
+    (b"glProgramUniformMatrix3x2dv", 1015, crate::Address(glProgramUniformMatrix3x2dv as *const ())),
+    (b"glProgramUniformMatrix3x2fv", 1016, crate::Address(glProgramUniformMatrix3x2fv as *const ())),
+    (b"glProgramUniformMatrix3x2fvEXT", 1017, crate::Address(glProgramUniformMatrix3x2fvEXT as *const ())),
+    (b"glProgramUniformMatrix3x4dv", 1018, crate::Address(glProgramUniformMatrix3x4dv as *const ())),
+    (b"glProgramUniformMatrix3x4fv", 1019, crate::Address(glProgramUniformMatrix3x4fv as *const ())),
+    (b"glProgramUniformMatrix3x4fvEXT", 1020, crate::Address(glProgramUniformMatrix3x4fvEXT as *const ())),
+    (b"glProgramUniformMatrix4dv", 1021, crate::Address(glProgramUniformMatrix4dv as *const ())),
+    (b"glProgramUniformMatrix4fv", 1022, crate::Address(glProgramUniformMatrix4fv as *const ())),
+    (b"glProgramUniformMatrix4fvEXT", 1023, crate::Address(glProgramUniformMatrix4fvEXT as *const ())),
+    (b"glProgramUniformMatrix4x2dv", 1024, crate::Address(glProgramUniformMatrix4x2dv as *const ())),
+    (b"glProgramUniformMatrix4x2fv", 1025, crate::Address(glProgramUniformMatrix4x2fv as *const ())),
+    (b"glProgramUniformMatrix4x2fvEXT", 1026, crate::Address(glProgramUniformMatrix4x2fvEXT as *const ())),
+    (b"glProgramUniformMatrix4x3dv", 1027, crate::Address(glProgramUniformMatrix4x3dv as *const ())),
+    (b"glProgramUniformMatrix4x3fv", 1028, crate::Address(glProgramUniformMatrix4x3fv as *const ())),
+    (b"glProgramUniformMatrix4x3fvEXT", 1029, crate::Address(glProgramUniformMatrix4x3fvEXT as *const ())),
     (b"glProvokingVertex", 583, crate::Address(glProvokingVertex as *const ())),
     (b"glProvokingVertexEXT", 584, crate::Address(glProvokingVertexEXT as *const ())),
     (b"glPushAttrib", 595, crate::Address(glPushAttrib as *const ())),
-    (b"glPushClientAttrib", 1323, crate::Address(glPushClientAttrib as *const ())),
+    (b"glPushClientAttrib", 1321, crate::Address(glPushClientAttrib as *const ())),
     (b"glPushMatrix", 478, crate::Address(glPushMatrix as *const ())),
-    (b"glPushName", 728, crate::Address(glPushName as *const ())),
+    (b"glPushName", 726, crate::Address(glPushName as *const ())),
     (b"glRasterPos2d", 597, crate::Address(glRasterPos2d as *const ())),
     (b"glRasterPos2dv", 598, crate::Address(glRasterPos2dv as *const ())),
     (b"glRasterPos2f", 599, crate::Address(glRasterPos2f as *const ())),
@@ -3710,31 +3705,31 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1384] = [
     (b"glRasterPos4iv", 618, crate::Address(glRasterPos4iv as *const ())),
     (b"glRasterPos4s", 619, crate::Address(glRasterPos4s as *const ())),
     (b"glRasterPos4sv", 620, crate::Address(glRasterPos4sv as *const ())),
-    (b"glReadBuffer", 1133, crate::Address(glReadBuffer as *const ())),
-    (b"glReadBufferNV", 1213, crate::Address(glReadBufferNV as *const ())),
-    (b"glReadPixels", 1192, crate::Address(glReadPixels as *const ())),
-    (b"glReadnPixels", 1193, crate::Address(glReadnPixels as *const ())),
-    (b"glReadnPixelsARB", 1194, crate::Address(glReadnPixelsARB as *const ())),
-    (b"glReadnPixelsEXT", 1195, crate::Address(glReadnPixelsEXT as *const ())),
-    (b"glReadnPixelsKHR", 1196, crate::Address(glReadnPixelsKHR as *const ())),
-    (b"glRectd", 1097, crate::Address(glRectd as *const ())),
-    (b"glRectdv", 1098, crate::Address(glRectdv as *const ())),
-    (b"glRectf", 1099, crate::Address(glRectf as *const ())),
-    (b"glRectfv", 1100, crate::Address(glRectfv as *const ())),
-    (b"glRecti", 1101, crate::Address(glRecti as *const ())),
-    (b"glRectiv", 1102, crate::Address(glRectiv as *const ())),
-    (b"glRects", 1103, crate::Address(glRects as *const ())),
-    (b"glRectsv", 1104, crate::Address(glRectsv as *const ())),
-    (b"glRenderMode", 671, crate::Address(glRenderMode as *const ())),
-    (b"glRenderbufferStorage", 1305, crate::Address(glRenderbufferStorage as *const ())),
-    (b"glRenderbufferStorageEXT", 1306, crate::Address(glRenderbufferStorageEXT as *const ())),
-    (b"glRenderbufferStorageMultisample", 1307, crate::Address(glRenderbufferStorageMultisample as *const ())),
-    (b"glRenderbufferStorageMultisampleEXT", 1308, crate::Address(glRenderbufferStorageMultisampleEXT as *const ())),
-    (b"glRenderbufferStorageMultisampleNV", 1309, crate::Address(glRenderbufferStorageMultisampleNV as *const ())),
+    (b"glReadBuffer", 1131, crate::Address(glReadBuffer as *const ())),
+    (b"glReadBufferNV", 1211, crate::Address(glReadBufferNV as *const ())),
+    (b"glReadPixels", 1190, crate::Address(glReadPixels as *const ())),
+    (b"glReadnPixels", 1191, crate::Address(glReadnPixels as *const ())),
+    (b"glReadnPixelsARB", 1192, crate::Address(glReadnPixelsARB as *const ())),
+    (b"glReadnPixelsEXT", 1193, crate::Address(glReadnPixelsEXT as *const ())),
+    (b"glReadnPixelsKHR", 1194, crate::Address(glReadnPixelsKHR as *const ())),
+    (b"glRectd", 1095, crate::Address(glRectd as *const ())),
+    (b"glRectdv", 1096, crate::Address(glRectdv as *const ())),
+    (b"glRectf", 1097, crate::Address(glRectf as *const ())),
+    (b"glRectfv", 1098, crate::Address(glRectfv as *const ())),
+    (b"glRecti", 1099, crate::Address(glRecti as *const ())),
+    (b"glRectiv", 1100, crate::Address(glRectiv as *const ())),
+    (b"glRects", 1101, crate::Address(glRects as *const ())),
+    (b"glRectsv", 1102, crate::Address(glRectsv as *const ())),
+    (b"glRenderMode", 669, crate::Address(glRenderMode as *const ())),
+    (b"glRenderbufferStorage", 1303, crate::Address(glRenderbufferStorage as *const ())),
+    (b"glRenderbufferStorageEXT", 1304, crate::Address(glRenderbufferStorageEXT as *const ())),
+    (b"glRenderbufferStorageMultisample", 1305, crate::Address(glRenderbufferStorageMultisample as *const ())),
+    (b"glRenderbufferStorageMultisampleEXT", 1306, crate::Address(glRenderbufferStorageMultisampleEXT as *const ())),
+    (b"glRenderbufferStorageMultisampleNV", 1307, crate::Address(glRenderbufferStorageMultisampleNV as *const ())),
     (b"glRotated", 470, crate::Address(glRotated as *const ())),
     (b"glRotatef", 471, crate::Address(glRotatef as *const ())),
-    (b"glSampleCoverage", 754, crate::Address(glSampleCoverage as *const ())),
-    (b"glSampleCoverageARB", 755, crate::Address(glSampleCoverageARB as *const ())),
+    (b"glSampleCoverage", 752, crate::Address(glSampleCoverage as *const ())),
+    (b"glSampleCoverageARB", 753, crate::Address(glSampleCoverageARB as *const ())),
     (b"glScaled", 472, crate::Address(glScaled as *const ())),
     (b"glScalef", 473, crate::Address(glScalef as *const ())),
     (b"glScissor", 499, crate::Address(glScissor as *const ())),
@@ -3783,17 +3778,17 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1384] = [
     (b"glSecondaryColor3usvEXT", 221, crate::Address(glSecondaryColor3usvEXT as *const ())),
     (b"glSecondaryColorP3ui", 444, crate::Address(glSecondaryColorP3ui as *const ())),
     (b"glSecondaryColorP3uiv", 445, crate::Address(glSecondaryColorP3uiv as *const ())),
-    (b"glSecondaryColorPointer", 1331, crate::Address(glSecondaryColorPointer as *const ())),
-    (b"glSecondaryColorPointerEXT", 1332, crate::Address(glSecondaryColorPointerEXT as *const ())),
-    (b"glSelectBuffer", 1298, crate::Address(glSelectBuffer as *const ())),
+    (b"glSecondaryColorPointer", 1329, crate::Address(glSecondaryColorPointer as *const ())),
+    (b"glSecondaryColorPointerEXT", 1330, crate::Address(glSecondaryColorPointerEXT as *const ())),
+    (b"glSelectBuffer", 1296, crate::Address(glSelectBuffer as *const ())),
     (b"glShadeModel", 574, crate::Address(glShadeModel as *const ())),
-    (b"glStencilFunc", 759, crate::Address(glStencilFunc as *const ())),
-    (b"glStencilFuncSeparate", 760, crate::Address(glStencilFuncSeparate as *const ())),
-    (b"glStencilMask", 761, crate::Address(glStencilMask as *const ())),
-    (b"glStencilMaskSeparate", 762, crate::Address(glStencilMaskSeparate as *const ())),
-    (b"glStencilOp", 763, crate::Address(glStencilOp as *const ())),
-    (b"glStencilOpSeparate", 764, crate::Address(glStencilOpSeparate as *const ())),
-    (b"glStencilOpSeparateATI", 765, crate::Address(glStencilOpSeparateATI as *const ())),
+    (b"glStencilFunc", 757, crate::Address(glStencilFunc as *const ())),
+    (b"glStencilFuncSeparate", 758, crate::Address(glStencilFuncSeparate as *const ())),
+    (b"glStencilMask", 759, crate::Address(glStencilMask as *const ())),
+    (b"glStencilMaskSeparate", 760, crate::Address(glStencilMaskSeparate as *const ())),
+    (b"glStencilOp", 761, crate::Address(glStencilOp as *const ())),
+    (b"glStencilOpSeparate", 762, crate::Address(glStencilOpSeparate as *const ())),
+    (b"glStencilOpSeparateATI", 763, crate::Address(glStencilOpSeparateATI as *const ())),
     (b"glTexCoord1d", 78, crate::Address(glTexCoord1d as *const ())),
     (b"glTexCoord1dv", 79, crate::Address(glTexCoord1dv as *const ())),
     (b"glTexCoord1f", 80, crate::Address(glTexCoord1f as *const ())),
@@ -3842,7 +3837,7 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1384] = [
     (b"glTexCoordP3uiv", 429, crate::Address(glTexCoordP3uiv as *const ())),
     (b"glTexCoordP4ui", 430, crate::Address(glTexCoordP4ui as *const ())),
     (b"glTexCoordP4uiv", 431, crate::Address(glTexCoordP4uiv as *const ())),
-    (b"glTexCoordPointer", 1333, crate::Address(glTexCoordPointer as *const ())),
+    (b"glTexCoordPointer", 1331, crate::Address(glTexCoordPointer as *const ())),
     (b"glTexEnvf", 577, crate::Address(glTexEnvf as *const ())),
     (b"glTexEnvfv", 578, crate::Address(glTexEnvfv as *const ())),
     (b"glTexEnvi", 579, crate::Address(glTexEnvi as *const ())),
@@ -3853,142 +3848,141 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1384] = [
     (b"glTexGenfv", 554, crate::Address(glTexGenfv as *const ())),
     (b"glTexGeni", 555, crate::Address(glTexGeni as *const ())),
     (b"glTexGeniv", 556, crate::Address(glTexGeniv as *const ())),
-    (b"glTexImage1D", 767, crate::Address(glTexImage1D as *const ())),
-    (b"glTexImage2D", 768, crate::Address(glTexImage2D as *const ())),
-    (b"glTexImage2DMultisample", 789, crate::Address(glTexImage2DMultisample as *const ())),
-    (b"glTexImage3D", 769, crate::Address(glTexImage3D as *const ())),
-    (b"glTexImage3DEXT", 770, crate::Address(glTexImage3DEXT as *const ())),
-    (b"glTexImage3DMultisample", 790, crate::Address(glTexImage3DMultisample as *const ())),
-    (b"glTexImage3DOES", 800, crate::Address(glTexImage3DOES as *const ())),
-    (b"glTexParameterIiv", 826, crate::Address(glTexParameterIiv as *const ())),
-    (b"glTexParameterIivEXT", 827, crate::Address(glTexParameterIivEXT as *const ())),
-    (b"glTexParameterIivOES", 828, crate::Address(glTexParameterIivOES as *const ())),
-    (b"glTexParameterIuiv", 829, crate::Address(glTexParameterIuiv as *const ())),
-    (b"glTexParameterIuivEXT", 830, crate::Address(glTexParameterIuivEXT as *const ())),
-    (b"glTexParameterIuivOES", 831, crate::Address(glTexParameterIuivOES as *const ())),
-    (b"glTexParameterf", 822, crate::Address(glTexParameterf as *const ())),
-    (b"glTexParameterfv", 823, crate::Address(glTexParameterfv as *const ())),
-    (b"glTexParameteri", 824, crate::Address(glTexParameteri as *const ())),
-    (b"glTexParameteriv", 825, crate::Address(glTexParameteriv as *const ())),
-    (b"glTexStorage1D", 791, crate::Address(glTexStorage1D as *const ())),
-    (b"glTexStorage1DEXT", 792, crate::Address(glTexStorage1DEXT as *const ())),
-    (b"glTexStorage2D", 793, crate::Address(glTexStorage2D as *const ())),
-    (b"glTexStorage2DEXT", 794, crate::Address(glTexStorage2DEXT as *const ())),
-    (b"glTexStorage2DMultisample", 797, crate::Address(glTexStorage2DMultisample as *const ())),
-    (b"glTexStorage3D", 795, crate::Address(glTexStorage3D as *const ())),
-    (b"glTexStorage3DEXT", 796, crate::Address(glTexStorage3DEXT as *const ())),
-    (b"glTexStorage3DMultisample", 798, crate::Address(glTexStorage3DMultisample as *const ())),
-    (b"glTexStorage3DMultisampleOES", 799, crate::Address(glTexStorage3DMultisampleOES as *const ())),
-    (b"glTexSubImage1D", 771, crate::Address(glTexSubImage1D as *const ())),
-    (b"glTexSubImage1DEXT", 772, crate::Address(glTexSubImage1DEXT as *const ())),
-    (b"glTexSubImage2D", 773, crate::Address(glTexSubImage2D as *const ())),
-    (b"glTexSubImage2DEXT", 774, crate::Address(glTexSubImage2DEXT as *const ())),
-    (b"glTexSubImage3D", 775, crate::Address(glTexSubImage3D as *const ())),
-    (b"glTexSubImage3DEXT", 776, crate::Address(glTexSubImage3DEXT as *const ())),
-    (b"glTexSubImage3DOES", 801, crate::Address(glTexSubImage3DOES as *const ())),
-    (b"glTextureParameterIiv", 836, crate::Address(glTextureParameterIiv as *const ())),
-    (b"glTextureParameterIuiv", 837, crate::Address(glTextureParameterIuiv as *const ())),
-    (b"glTextureParameterf", 832, crate::Address(glTextureParameterf as *const ())),
-    (b"glTextureParameterfv", 833, crate::Address(glTextureParameterfv as *const ())),
-    (b"glTextureParameteri", 834, crate::Address(glTextureParameteri as *const ())),
-    (b"glTextureParameteriv", 835, crate::Address(glTextureParameteriv as *const ())),
-    (b"glTextureStorage1D", 811, crate::Address(glTextureStorage1D as *const ())),
-    (b"glTextureStorage2D", 812, crate::Address(glTextureStorage2D as *const ())),
-    (b"glTextureStorage2DMultisample", 814, crate::Address(glTextureStorage2DMultisample as *const ())),
-    (b"glTextureStorage3D", 813, crate::Address(glTextureStorage3D as *const ())),
-    (b"glTextureStorage3DMultisample", 815, crate::Address(glTextureStorage3DMultisample as *const ())),
-    (b"glTextureSubImage1D", 805, crate::Address(glTextureSubImage1D as *const ())),
-    (b"glTextureSubImage2D", 806, crate::Address(glTextureSubImage2D as *const ())),
-    (b"glTextureSubImage3D", 807, crate::Address(glTextureSubImage3D as *const ())),
+    (b"glTexImage1D", 765, crate::Address(glTexImage1D as *const ())),
+    (b"glTexImage2D", 766, crate::Address(glTexImage2D as *const ())),
+    (b"glTexImage2DMultisample", 787, crate::Address(glTexImage2DMultisample as *const ())),
+    (b"glTexImage3D", 767, crate::Address(glTexImage3D as *const ())),
+    (b"glTexImage3DEXT", 768, crate::Address(glTexImage3DEXT as *const ())),
+    (b"glTexImage3DMultisample", 788, crate::Address(glTexImage3DMultisample as *const ())),
+    (b"glTexImage3DOES", 798, crate::Address(glTexImage3DOES as *const ())),
+    (b"glTexParameterIiv", 824, crate::Address(glTexParameterIiv as *const ())),
+    (b"glTexParameterIivEXT", 825, crate::Address(glTexParameterIivEXT as *const ())),
+    (b"glTexParameterIivOES", 826, crate::Address(glTexParameterIivOES as *const ())),
+    (b"glTexParameterIuiv", 827, crate::Address(glTexParameterIuiv as *const ())),
+    (b"glTexParameterIuivEXT", 828, crate::Address(glTexParameterIuivEXT as *const ())),
+    (b"glTexParameterIuivOES", 829, crate::Address(glTexParameterIuivOES as *const ())),
+    (b"glTexParameterf", 820, crate::Address(glTexParameterf as *const ())),
+    (b"glTexParameterfv", 821, crate::Address(glTexParameterfv as *const ())),
+    (b"glTexParameteri", 822, crate::Address(glTexParameteri as *const ())),
+    (b"glTexParameteriv", 823, crate::Address(glTexParameteriv as *const ())),
+    (b"glTexStorage1D", 789, crate::Address(glTexStorage1D as *const ())),
+    (b"glTexStorage1DEXT", 790, crate::Address(glTexStorage1DEXT as *const ())),
+    (b"glTexStorage2D", 791, crate::Address(glTexStorage2D as *const ())),
+    (b"glTexStorage2DEXT", 792, crate::Address(glTexStorage2DEXT as *const ())),
+    (b"glTexStorage2DMultisample", 795, crate::Address(glTexStorage2DMultisample as *const ())),
+    (b"glTexStorage3D", 793, crate::Address(glTexStorage3D as *const ())),
+    (b"glTexStorage3DEXT", 794, crate::Address(glTexStorage3DEXT as *const ())),
+    (b"glTexStorage3DMultisample", 796, crate::Address(glTexStorage3DMultisample as *const ())),
+    (b"glTexStorage3DMultisampleOES", 797, crate::Address(glTexStorage3DMultisampleOES as *const ())),
+    (b"glTexSubImage1D", 769, crate::Address(glTexSubImage1D as *const ())),
+    (b"glTexSubImage1DEXT", 770, crate::Address(glTexSubImage1DEXT as *const ())),
+    (b"glTexSubImage2D", 771, crate::Address(glTexSubImage2D as *const ())),
+    (b"glTexSubImage2DEXT", 772, crate::Address(glTexSubImage2DEXT as *const ())),
+    (b"glTexSubImage3D", 773, crate::Address(glTexSubImage3D as *const ())),
+    (b"glTexSubImage3DEXT", 774, crate::Address(glTexSubImage3DEXT as *const ())),
+    (b"glTexSubImage3DOES", 799, crate::Address(glTexSubImage3DOES as *const ())),
+    (b"glTextureParameterIiv", 834, crate::Address(glTextureParameterIiv as *const ())),
+    (b"glTextureParameterIuiv", 835, crate::Address(glTextureParameterIuiv as *const ())),
+    (b"glTextureParameterf", 830, crate::Address(glTextureParameterf as *const ())),
+    (b"glTextureParameterfv", 831, crate::Address(glTextureParameterfv as *const ())),
+    (b"glTextureParameteri", 832, crate::Address(glTextureParameteri as *const ())),
+    (b"glTextureParameteriv", 833, crate::Address(glTextureParameteriv as *const ())),
+    (b"glTextureStorage1D", 809, crate::Address(glTextureStorage1D as *const ())),
+    (b"glTextureStorage2D", 810, crate::Address(glTextureStorage2D as *const ())),
+    (b"glTextureStorage2DMultisample", 812, crate::Address(glTextureStorage2DMultisample as *const ())),
+    (b"glTextureStorage3D", 811, crate::Address(glTextureStorage3D as *const ())),
+    (b"glTextureStorage3DMultisample", 813, crate::Address(glTextureStorage3DMultisample as *const ())),
+    (b"glTextureSubImage1D", 803, crate::Address(glTextureSubImage1D as *const ())),
+    (b"glTextureSubImage2D", 804, crate::Address(glTextureSubImage2D as *const ())),
+    (b"glTextureSubImage3D", 805, crate::Address(glTextureSubImage3D as *const ())),
     (b"glTranslated", 474, crate::Address(glTranslated as *const ())),
     (b"glTranslatef", 475, crate::Address(glTranslatef as *const ())),
-    (b"glUniform1d", 866, crate::Address(glUniform1d as *const ())),
-    (b"glUniform1dv", 867, crate::Address(glUniform1dv as *const ())),
-    (b"glUniform1f", 868, crate::Address(glUniform1f as *const ())),
-    (b"glUniform1fARB", 869, crate::Address(glUniform1fARB as *const ())),
-    (b"glUniform1fv", 870, crate::Address(glUniform1fv as *const ())),
-    (b"glUniform1fvARB", 871, crate::Address(glUniform1fvARB as *const ())),
-    (b"glUniform1i", 872, crate::Address(glUniform1i as *const ())),
-    (b"glUniform1iARB", 873, crate::Address(glUniform1iARB as *const ())),
-    (b"glUniform1iv", 874, crate::Address(glUniform1iv as *const ())),
-    (b"glUniform1ivARB", 875, crate::Address(glUniform1ivARB as *const ())),
-    (b"glUniform1ui", 876, crate::Address(glUniform1ui as *const ())),
-    (b"glUniform1uiEXT", 877, crate::Address(glUniform1uiEXT as *const ())),
-    (b"glUniform1uiv", 878, crate::Address(glUniform1uiv as *const ())),
-    (b"glUniform1uivEXT", 879, crate::Address(glUniform1uivEXT as *const ())),
-    (b"glUniform2d", 880, crate::Address(glUniform2d as *const ())),
-    (b"glUniform2dv", 881, crate::Address(glUniform2dv as *const ())),
-    (b"glUniform2f", 882, crate::Address(glUniform2f as *const ())),
-    (b"glUniform2fARB", 883, crate::Address(glUniform2fARB as *const ())),
-    (b"glUniform2fv", 884, crate::Address(glUniform2fv as *const ())),
-    (b"glUniform2fvARB", 885, crate::Address(glUniform2fvARB as *const ())),
-    (b"glUniform2i", 886, crate::Address(glUniform2i as *const ())),
-    (b"glUniform2iARB", 887, crate::Address(glUniform2iARB as *const ())),
-    (b"glUniform2iv", 888, crate::Address(glUniform2iv as *const ())),
-    (b"glUniform2ivARB", 889, crate::Address(glUniform2ivARB as *const ())),
-    (b"glUniform2ui", 890, crate::Address(glUniform2ui as *const ())),
-    (b"glUniform2uiEXT", 891, crate::Address(glUniform2uiEXT as *const ())),
-    (b"glUniform2uiv", 892, crate::Address(glUniform2uiv as *const ())),
-    (b"glUniform2uivEXT", 893, crate::Address(glUniform2uivEXT as *const ())),
-    (b"glUniform3d", 894, crate::Address(glUniform3d as *const ())),
-    (b"glUniform3dv", 895, crate::Address(glUniform3dv as *const ())),
-    (b"glUniform3f", 896, crate::Address(glUniform3f as *const ())),
-    (b"glUniform3fARB", 897, crate::Address(glUniform3fARB as *const ())),
-    (b"glUniform3fv", 898, crate::Address(glUniform3fv as *const ())),
-    (b"glUniform3fvARB", 899, crate::Address(glUniform3fvARB as *const ())),
-    (b"glUniform3i", 900, crate::Address(glUniform3i as *const ())),
-    (b"glUniform3iARB", 901, crate::Address(glUniform3iARB as *const ())),
-    (b"glUniform3iv", 902, crate::Address(glUniform3iv as *const ())),
-    (b"glUniform3ivARB", 903, crate::Address(glUniform3ivARB as *const ())),
-    (b"glUniform3ui", 904, crate::Address(glUniform3ui as *const ())),
-    (b"glUniform3uiEXT", 905, crate::Address(glUniform3uiEXT as *const ())),
-    (b"glUniform3uiv", 906, crate::Address(glUniform3uiv as *const ())),
-    (b"glUniform3uivEXT", 907, crate::Address(glUniform3uivEXT as *const ())),
-    (b"glUniform4d", 908, crate::Address(glUniform4d as *const ())),
-    (b"glUniform4dv", 909, crate::Address(glUniform4dv as *const ())),
-    (b"glUniform4f", 910, crate::Address(glUniform4f as *const ())),
-    (b"glUniform4fARB", 911, crate::Address(glUniform4fARB as *const ())),
-    (b"glUniform4fv", 912, crate::Address(glUniform4fv as *const ())),
-    (b"glUniform4fvARB", 913, crate::Address(glUniform4fvARB as *const ())),
-    (b"glUniform4i", 914, crate::Address(glUniform4i as *const ())),
-    (b"glUniform4iARB", 915, crate::Address(glUniform4iARB as *const ())),
-    (b"glUniform4iv", 916, crate::Address(glUniform4iv as *const ())),
-    (b"glUniform4ivARB", 917, crate::Address(glUniform4ivARB as *const ())),
-    (b"glUniform4ui", 918, crate::Address(glUniform4ui as *const ())),
-    (b"glUniform4uiEXT", 919, crate::Address(glUniform4uiEXT as *const ())),
-    (b"glUniform4uiv", 920, crate::Address(glUniform4uiv as *const ())),
-    (b"glUniform4uivEXT", 921, crate::Address(glUniform4uivEXT as *const ())),
-    (b"glUniformBlockBinding", 1032, crate::Address(glUniformBlockBinding as *const ())),
-    (b"glUniformMatrix2dv", 922, crate::Address(glUniformMatrix2dv as *const ())),
-    (b"glUniformMatrix2fv", 923, crate::Address(glUniformMatrix2fv as *const ())),
-    (b"glUniformMatrix2fvARB", 924, crate::Address(glUniformMatrix2fvARB as *const ())),
-    (b"glUniformMatrix2x3dv", 925, crate::Address(glUniformMatrix2x3dv as *const ())),
-    (b"glUniformMatrix2x3fv", 926, crate::Address(glUniformMatrix2x3fv as *const ())),
-    (b"glUniformMatrix2x3fvNV", 927, crate::Address(glUniformMatrix2x3fvNV as *const ())),
-    (b"glUniformMatrix2x4dv", 928, crate::Address(glUniformMatrix2x4dv as *const ())),
-    (b"glUniformMatrix2x4fv", 929, crate::Address(glUniformMatrix2x4fv as *const ())),
-    (b"glUniformMatrix2x4fvNV", 930, crate::Address(glUniformMatrix2x4fvNV as *const ())),
-    (b"glUniformMatrix3dv", 931, crate::Address(glUniformMatrix3dv as *const ())),
-    (b"glUniformMatrix3fv", 932, crate::Address(glUniformMatrix3fv as *const ())),
-    (b"glUniformMatrix3fvARB", 933, crate::Address(glUniformMatrix3fvARB as *const ())),
-    (b"glUniformMatrix3x2dv", 934, crate::Address(glUniformMatrix3x2dv as *const ())),
-    (b"glUniformMatrix3x2fv", 935, crate::Address(glUniformMatrix3x2fv as *const ())),
-    (b"glUniformMatrix3x2fvNV", 936, crate::Address(glUniformMatrix3x2fvNV as *const ())),
-    (b"glUniformMatrix3x4dv", 937, crate::Address(glUniformMatrix3x4dv as *const ())),
-    (b"glUniformMatrix3x4fv", 938, crate::Address(glUniformMatrix3x4fv as *const ())),
-    (b"glUniformMatrix3x4fvNV", 939, crate::Address(glUniformMatrix3x4fvNV as *const ())),
-    (b"glUniformMatrix4dv", 940, crate::Address(glUniformMatrix4dv as *const ())),
-    (b"glUniformMatrix4fv", 941, crate::Address(glUniformMatrix4fv as *const ())),
-    (b"glUniformMatrix4fvARB", 942, crate::Address(glUniformMatrix4fvARB as *const ())),
-    (b"glUniformMatrix4x2dv", 943, crate::Address(glUniformMatrix4x2dv as *const ())),
-    (b"glUniformMatrix4x2fv", 944, crate::Address(glUniformMatrix4x2fv as *const ())),
-    (b"glUniformMatrix4x2fvNV", 945, crate::Address(glUniformMatrix4x2fvNV as *const ())),
-    (b"glUniformMatrix4x3dv", 946, crate::Address(glUniformMatrix4x3dv as *const ())),
-    (b"glUniformMatrix4x3fv", 947, crate::Address(glUniformMatrix4x3fv as *const ())),
-    (b"glUniformMatrix4x3fvNV", 948, crate::Address(glUniformMatrix4x3fvNV as *const ())),
-    (b"glUnlockArraysEXT", 670, crate::Address(glUnlockArraysEXT as *const ())),
-    (b"glUseProgram", 1037, crate::Address(glUseProgram as *const ())),
-    (b"glUseProgramObjectARB", 1038, crate::Address(glUseProgramObjectARB as *const ())),
+    (b"glUniform1d", 864, crate::Address(glUniform1d as *const ())),
+    (b"glUniform1dv", 865, crate::Address(glUniform1dv as *const ())),
+    (b"glUniform1f", 866, crate::Address(glUniform1f as *const ())),
+    (b"glUniform1fARB", 867, crate::Address(glUniform1fARB as *const ())),
+    (b"glUniform1fv", 868, crate::Address(glUniform1fv as *const ())),
+    (b"glUniform1fvARB", 869, crate::Address(glUniform1fvARB as *const ())),
+    (b"glUniform1i", 870, crate::Address(glUniform1i as *const ())),
+    (b"glUniform1iARB", 871, crate::Address(glUniform1iARB as *const ())),
+    (b"glUniform1iv", 872, crate::Address(glUniform1iv as *const ())),
+    (b"glUniform1ivARB", 873, crate::Address(glUniform1ivARB as *const ())),
+    (b"glUniform1ui", 874, crate::Address(glUniform1ui as *const ())),
+    (b"glUniform1uiEXT", 875, crate::Address(glUniform1uiEXT as *const ())),
+    (b"glUniform1uiv", 876, crate::Address(glUniform1uiv as *const ())),
+    (b"glUniform1uivEXT", 877, crate::Address(glUniform1uivEXT as *const ())),
+    (b"glUniform2d", 878, crate::Address(glUniform2d as *const ())),
+    (b"glUniform2dv", 879, crate::Address(glUniform2dv as *const ())),
+    (b"glUniform2f", 880, crate::Address(glUniform2f as *const ())),
+    (b"glUniform2fARB", 881, crate::Address(glUniform2fARB as *const ())),
+    (b"glUniform2fv", 882, crate::Address(glUniform2fv as *const ())),
+    (b"glUniform2fvARB", 883, crate::Address(glUniform2fvARB as *const ())),
+    (b"glUniform2i", 884, crate::Address(glUniform2i as *const ())),
+    (b"glUniform2iARB", 885, crate::Address(glUniform2iARB as *const ())),
+    (b"glUniform2iv", 886, crate::Address(glUniform2iv as *const ())),
+    (b"glUniform2ivARB", 887, crate::Address(glUniform2ivARB as *const ())),
+    (b"glUniform2ui", 888, crate::Address(glUniform2ui as *const ())),
+    (b"glUniform2uiEXT", 889, crate::Address(glUniform2uiEXT as *const ())),
+    (b"glUniform2uiv", 890, crate::Address(glUniform2uiv as *const ())),
+    (b"glUniform2uivEXT", 891, crate::Address(glUniform2uivEXT as *const ())),
+    (b"glUniform3d", 892, crate::Address(glUniform3d as *const ())),
+    (b"glUniform3dv", 893, crate::Address(glUniform3dv as *const ())),
+    (b"glUniform3f", 894, crate::Address(glUniform3f as *const ())),
+    (b"glUniform3fARB", 895, crate::Address(glUniform3fARB as *const ())),
+    (b"glUniform3fv", 896, crate::Address(glUniform3fv as *const ())),
+    (b"glUniform3fvARB", 897, crate::Address(glUniform3fvARB as *const ())),
+    (b"glUniform3i", 898, crate::Address(glUniform3i as *const ())),
+    (b"glUniform3iARB", 899, crate::Address(glUniform3iARB as *const ())),
+    (b"glUniform3iv", 900, crate::Address(glUniform3iv as *const ())),
+    (b"glUniform3ivARB", 901, crate::Address(glUniform3ivARB as *const ())),
+    (b"glUniform3ui", 902, crate::Address(glUniform3ui as *const ())),
+    (b"glUniform3uiEXT", 903, crate::Address(glUniform3uiEXT as *const ())),
+    (b"glUniform3uiv", 904, crate::Address(glUniform3uiv as *const ())),
+    (b"glUniform3uivEXT", 905, crate::Address(glUniform3uivEXT as *const ())),
+    (b"glUniform4d", 906, crate::Address(glUniform4d as *const ())),
+    (b"glUniform4dv", 907, crate::Address(glUniform4dv as *const ())),
+    (b"glUniform4f", 908, crate::Address(glUniform4f as *const ())),
+    (b"glUniform4fARB", 909, crate::Address(glUniform4fARB as *const ())),
+    (b"glUniform4fv", 910, crate::Address(glUniform4fv as *const ())),
+    (b"glUniform4fvARB", 911, crate::Address(glUniform4fvARB as *const ())),
+    (b"glUniform4i", 912, crate::Address(glUniform4i as *const ())),
+    (b"glUniform4iARB", 913, crate::Address(glUniform4iARB as *const ())),
+    (b"glUniform4iv", 914, crate::Address(glUniform4iv as *const ())),
+    (b"glUniform4ivARB", 915, crate::Address(glUniform4ivARB as *const ())),
+    (b"glUniform4ui", 916, crate::Address(glUniform4ui as *const ())),
+    (b"glUniform4uiEXT", 917, crate::Address(glUniform4uiEXT as *const ())),
+    (b"glUniform4uiv", 918, crate::Address(glUniform4uiv as *const ())),
+    (b"glUniform4uivEXT", 919, crate::Address(glUniform4uivEXT as *const ())),
+    (b"glUniformBlockBinding", 1030, crate::Address(glUniformBlockBinding as *const ())),
+    (b"glUniformMatrix2dv", 920, crate::Address(glUniformMatrix2dv as *const ())),
+    (b"glUniformMatrix2fv", 921, crate::Address(glUniformMatrix2fv as *const ())),
+    (b"glUniformMatrix2fvARB", 922, crate::Address(glUniformMatrix2fvARB as *const ())),
+    (b"glUniformMatrix2x3dv", 923, crate::Address(glUniformMatrix2x3dv as *const ())),
+    (b"glUniformMatrix2x3fv", 924, crate::Address(glUniformMatrix2x3fv as *const ())),
+    (b"glUniformMatrix2x3fvNV", 925, crate::Address(glUniformMatrix2x3fvNV as *const ())),
+    (b"glUniformMatrix2x4dv", 926, crate::Address(glUniformMatrix2x4dv as *const ())),
+    (b"glUniformMatrix2x4fv", 927, crate::Address(glUniformMatrix2x4fv as *const ())),
+    (b"glUniformMatrix2x4fvNV", 928, crate::Address(glUniformMatrix2x4fvNV as *const ())),
+    (b"glUniformMatrix3dv", 929, crate::Address(glUniformMatrix3dv as *const ())),
+    (b"glUniformMatrix3fv", 930, crate::Address(glUniformMatrix3fv as *const ())),
+    (b"glUniformMatrix3fvARB", 931, crate::Address(glUniformMatrix3fvARB as *const ())),
+    (b"glUniformMatrix3x2dv", 932, crate::Address(glUniformMatrix3x2dv as *const ())),
+    (b"glUniformMatrix3x2fv", 933, crate::Address(glUniformMatrix3x2fv as *const ())),
+    (b"glUniformMatrix3x2fvNV", 934, crate::Address(glUniformMatrix3x2fvNV as *const ())),
+    (b"glUniformMatrix3x4dv", 935, crate::Address(glUniformMatrix3x4dv as *const ())),
+    (b"glUniformMatrix3x4fv", 936, crate::Address(glUniformMatrix3x4fv as *const ())),
+    (b"glUniformMatrix3x4fvNV", 937, crate::Address(glUniformMatrix3x4fvNV as *const ())),
+    (b"glUniformMatrix4dv", 938, crate::Address(glUniformMatrix4dv as *const ())),
+    (b"glUniformMatrix4fv", 939, crate::Address(glUniformMatrix4fv as *const ())),
+    (b"glUniformMatrix4fvARB", 940, crate::Address(glUniformMatrix4fvARB as *const ())),
+    (b"glUniformMatrix4x2dv", 941, crate::Address(glUniformMatrix4x2dv as *const ())),
+    (b"glUniformMatrix4x2fv", 942, crate::Address(glUniformMatrix4x2fv as *const ())),
+    (b"glUniformMatrix4x2fvNV", 943, crate::Address(glUniformMatrix4x2fvNV as *const ())),
+    (b"glUniformMatrix4x3dv", 944, crate::Address(glUniformMatrix4x3dv as *const ())),
+    (b"glUniformMatrix4x3fv", 945, crate::Address(glUniformMatrix4x3fv as *const ())),
+    (b"glUniformMatrix4x3fvNV", 946, crate::Address(glUniformMatrix4x3fvNV as *const ())),
+    (b"glUseProgram", 1035, crate::Address(glUseProgram as *const ())),
+    (b"glUseProgramObjectARB", 1036, crate::Address(glUseProgramObjectARB as *const ())),
     (b"glUseProgramStages", 589, crate::Address(glUseProgramStages as *const ())),
     (b"glUseProgramStagesEXT", 590, crate::Address(glUseProgramStagesEXT as *const ())),
     (b"glVertex2d", 0, crate::Address(glVertex2d as *const ())),
@@ -4021,7 +4015,7 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1384] = [
     (b"glVertex4iv", 21, crate::Address(glVertex4iv as *const ())),
     (b"glVertex4s", 22, crate::Address(glVertex4s as *const ())),
     (b"glVertex4sv", 23, crate::Address(glVertex4sv as *const ())),
-    (b"glVertexArrayBindingDivisor", 857, crate::Address(glVertexArrayBindingDivisor as *const ())),
+    (b"glVertexArrayBindingDivisor", 855, crate::Address(glVertexArrayBindingDivisor as *const ())),
     (b"glVertexAttrib1d", 262, crate::Address(glVertexAttrib1d as *const ())),
     (b"glVertexAttrib1dARB", 263, crate::Address(glVertexAttrib1dARB as *const ())),
     (b"glVertexAttrib1dNV", 264, crate::Address(glVertexAttrib1dNV as *const ())),
@@ -4120,11 +4114,11 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1384] = [
     (b"glVertexAttrib4uivARB", 354, crate::Address(glVertexAttrib4uivARB as *const ())),
     (b"glVertexAttrib4usv", 355, crate::Address(glVertexAttrib4usv as *const ())),
     (b"glVertexAttrib4usvARB", 356, crate::Address(glVertexAttrib4usvARB as *const ())),
-    (b"glVertexAttribDivisor", 851, crate::Address(glVertexAttribDivisor as *const ())),
-    (b"glVertexAttribDivisorANGLE", 852, crate::Address(glVertexAttribDivisorANGLE as *const ())),
-    (b"glVertexAttribDivisorARB", 853, crate::Address(glVertexAttribDivisorARB as *const ())),
-    (b"glVertexAttribDivisorEXT", 854, crate::Address(glVertexAttribDivisorEXT as *const ())),
-    (b"glVertexAttribDivisorNV", 855, crate::Address(glVertexAttribDivisorNV as *const ())),
+    (b"glVertexAttribDivisor", 849, crate::Address(glVertexAttribDivisor as *const ())),
+    (b"glVertexAttribDivisorANGLE", 850, crate::Address(glVertexAttribDivisorANGLE as *const ())),
+    (b"glVertexAttribDivisorARB", 851, crate::Address(glVertexAttribDivisorARB as *const ())),
+    (b"glVertexAttribDivisorEXT", 852, crate::Address(glVertexAttribDivisorEXT as *const ())),
+    (b"glVertexAttribDivisorNV", 853, crate::Address(glVertexAttribDivisorNV as *const ())),
     (b"glVertexAttribI1i", 360, crate::Address(glVertexAttribI1i as *const ())),
     (b"glVertexAttribI1iEXT", 361, crate::Address(glVertexAttribI1iEXT as *const ())),
     (b"glVertexAttribI1iv", 362, crate::Address(glVertexAttribI1iv as *const ())),
@@ -4189,16 +4183,16 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1384] = [
     (b"glVertexAttribP3uiv", 451, crate::Address(glVertexAttribP3uiv as *const ())),
     (b"glVertexAttribP4ui", 452, crate::Address(glVertexAttribP4ui as *const ())),
     (b"glVertexAttribP4uiv", 453, crate::Address(glVertexAttribP4uiv as *const ())),
-    (b"glVertexAttribPointer", 1340, crate::Address(glVertexAttribPointer as *const ())),
-    (b"glVertexAttribPointerARB", 1341, crate::Address(glVertexAttribPointerARB as *const ())),
-    (b"glVertexBindingDivisor", 856, crate::Address(glVertexBindingDivisor as *const ())),
+    (b"glVertexAttribPointer", 1338, crate::Address(glVertexAttribPointer as *const ())),
+    (b"glVertexAttribPointerARB", 1339, crate::Address(glVertexAttribPointerARB as *const ())),
+    (b"glVertexBindingDivisor", 854, crate::Address(glVertexBindingDivisor as *const ())),
     (b"glVertexP2ui", 432, crate::Address(glVertexP2ui as *const ())),
     (b"glVertexP2uiv", 433, crate::Address(glVertexP2uiv as *const ())),
     (b"glVertexP3ui", 434, crate::Address(glVertexP3ui as *const ())),
     (b"glVertexP3uiv", 435, crate::Address(glVertexP3uiv as *const ())),
     (b"glVertexP4ui", 436, crate::Address(glVertexP4ui as *const ())),
     (b"glVertexP4uiv", 437, crate::Address(glVertexP4uiv as *const ())),
-    (b"glVertexPointer", 1334, crate::Address(glVertexPointer as *const ())),
+    (b"glVertexPointer", 1332, crate::Address(glVertexPointer as *const ())),
     (b"glViewport", 498, crate::Address(glViewport as *const ())),
     (b"glViewportArrayv", 509, crate::Address(glViewportArrayv as *const ())),
     (b"glViewportArrayvNV", 510, crate::Address(glViewportArrayvNV as *const ())),
@@ -4257,23 +4251,23 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1384] = [
     (b"glWindowPos3sv", 666, crate::Address(glWindowPos3sv as *const ())),
     (b"glWindowPos3svARB", 667, crate::Address(glWindowPos3svARB as *const ())),
     (b"glWindowPos3svMESA", 668, crate::Address(glWindowPos3svMESA as *const ())),
-    (b"glXChooseFBConfig", 1347, crate::Address(glXChooseFBConfig as *const ())),
-    (b"glXChooseFBConfigSGIX", 1348, crate::Address(glXChooseFBConfigSGIX as *const ())),
-    (b"glXChooseVisual", 1346, crate::Address(glXChooseVisual as *const ())),
-    (b"glXCreateContext", 1354, crate::Address(glXCreateContext as *const ())),
-    (b"glXCreateContextAttribsARB", 1356, crate::Address(glXCreateContextAttribsARB as *const ())),
-    (b"glXCreateContextWithConfigSGIX", 1357, crate::Address(glXCreateContextWithConfigSGIX as *const ())),
-    (b"glXCreateNewContext", 1355, crate::Address(glXCreateNewContext as *const ())),
-    (b"glXCreateWindow", 1359, crate::Address(glXCreateWindow as *const ())),
-    (b"glXDestroyContext", 1358, crate::Address(glXDestroyContext as *const ())),
-    (b"glXDestroyWindow", 1360, crate::Address(glXDestroyWindow as *const ())),
-    (b"glXGetProcAddress", 1361, crate::Address(glXGetProcAddress as *const ())),
-    (b"glXGetProcAddressARB", 1362, crate::Address(glXGetProcAddressARB as *const ())),
-    (b"glXMakeContextCurrent", 1352, crate::Address(glXMakeContextCurrent as *const ())),
-    (b"glXMakeCurrent", 1351, crate::Address(glXMakeCurrent as *const ())),
-    (b"glXMakeCurrentReadSGI", 1353, crate::Address(glXMakeCurrentReadSGI as *const ())),
-    (b"glXSwapBuffers", 1349, crate::Address(glXSwapBuffers as *const ())),
-    (b"glXSwapBuffersMscOML", 1350, crate::Address(glXSwapBuffersMscOML as *const ())),
+    (b"glXChooseFBConfig", 1345, crate::Address(glXChooseFBConfig as *const ())),
+    (b"glXChooseFBConfigSGIX", 1346, crate::Address(glXChooseFBConfigSGIX as *const ())),
+    (b"glXChooseVisual", 1344, crate::Address(glXChooseVisual as *const ())),
+    (b"glXCreateContext", 1352, crate::Address(glXCreateContext as *const ())),
+    (b"glXCreateContextAttribsARB", 1354, crate::Address(glXCreateContextAttribsARB as *const ())),
+    (b"glXCreateContextWithConfigSGIX", 1355, crate::Address(glXCreateContextWithConfigSGIX as *const ())),
+    (b"glXCreateNewContext", 1353, crate::Address(glXCreateNewContext as *const ())),
+    (b"glXCreateWindow", 1357, crate::Address(glXCreateWindow as *const ())),
+    (b"glXDestroyContext", 1356, crate::Address(glXDestroyContext as *const ())),
+    (b"glXDestroyWindow", 1358, crate::Address(glXDestroyWindow as *const ())),
+    (b"glXGetProcAddress", 1359, crate::Address(glXGetProcAddress as *const ())),
+    (b"glXGetProcAddressARB", 1360, crate::Address(glXGetProcAddressARB as *const ())),
+    (b"glXMakeContextCurrent", 1350, crate::Address(glXMakeContextCurrent as *const ())),
+    (b"glXMakeCurrent", 1349, crate::Address(glXMakeCurrent as *const ())),
+    (b"glXMakeCurrentReadSGI", 1351, crate::Address(glXMakeCurrentReadSGI as *const ())),
+    (b"glXSwapBuffers", 1347, crate::Address(glXSwapBuffers as *const ())),
+    (b"glXSwapBuffersMscOML", 1348, crate::Address(glXSwapBuffersMscOML as *const ())),
 ];
 
 export! { 0, glVertex2d, first_glVertex2d, hook_glVertex2d, (x: f64, y: f64) -> (), {
@@ -10796,3763 +10790,3755 @@ export! { 668, glWindowPos3svMESA, first_glWindowPos3svMESA, hook_glWindowPos3sv
     // SAFETY: the program's own call.
     hooks::raster(Place::Window, &mut |gl| unsafe { gl.glWindowPos3svMESA(v) })
 } }
-export! { 669, glLockArraysEXT, first_glLockArraysEXT, hook_glLockArraysEXT, (first: i32, count: i32) -> (), {
-    // SAFETY: the program's own arguments.
-    unsafe { special::glLockArraysEXT(first, count) }
-} }
-export! { 670, glUnlockArraysEXT, first_glUnlockArraysEXT, hook_glUnlockArraysEXT, () -> (), {
-    // SAFETY: the program's own arguments.
-    unsafe { special::glUnlockArraysEXT() }
-} }
-export! { 671, glRenderMode, first_glRenderMode, hook_glRenderMode, (mode: u32) -> i32, {
+export! { 669, glRenderMode, first_glRenderMode, hook_glRenderMode, (mode: u32) -> i32, {
     // SAFETY: the program's own arguments.
     unsafe { special::glRenderMode(mode) }
 } }
-export! { 672, glBeginTransformFeedback, first_glBeginTransformFeedback, hook_glBeginTransformFeedback, (primitiveMode: u32) -> (), {
+export! { 670, glBeginTransformFeedback, first_glBeginTransformFeedback, hook_glBeginTransformFeedback, (primitiveMode: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBeginTransformFeedback(primitiveMode) }
 } }
-export! { 673, glBeginTransformFeedbackEXT, first_glBeginTransformFeedbackEXT, hook_glBeginTransformFeedbackEXT, (primitiveMode: u32) -> (), {
+export! { 671, glBeginTransformFeedbackEXT, first_glBeginTransformFeedbackEXT, hook_glBeginTransformFeedbackEXT, (primitiveMode: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBeginTransformFeedback(primitiveMode) }
 } }
-export! { 674, glBeginTransformFeedbackNV, first_glBeginTransformFeedbackNV, hook_glBeginTransformFeedbackNV, (primitiveMode: u32) -> (), {
+export! { 672, glBeginTransformFeedbackNV, first_glBeginTransformFeedbackNV, hook_glBeginTransformFeedbackNV, (primitiveMode: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBeginTransformFeedback(primitiveMode) }
 } }
-export! { 675, glEndTransformFeedback, first_glEndTransformFeedback, hook_glEndTransformFeedback, () -> (), {
+export! { 673, glEndTransformFeedback, first_glEndTransformFeedback, hook_glEndTransformFeedback, () -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glEndTransformFeedback() }
 } }
-export! { 676, glEndTransformFeedbackEXT, first_glEndTransformFeedbackEXT, hook_glEndTransformFeedbackEXT, () -> (), {
+export! { 674, glEndTransformFeedbackEXT, first_glEndTransformFeedbackEXT, hook_glEndTransformFeedbackEXT, () -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glEndTransformFeedback() }
 } }
-export! { 677, glEndTransformFeedbackNV, first_glEndTransformFeedbackNV, hook_glEndTransformFeedbackNV, () -> (), {
+export! { 675, glEndTransformFeedbackNV, first_glEndTransformFeedbackNV, hook_glEndTransformFeedbackNV, () -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glEndTransformFeedback() }
 } }
-export! { 678, glAlphaFunc, first_glAlphaFunc, hook_glAlphaFunc, (func: u32, ref_: f32) -> (), {
+export! { 676, glAlphaFunc, first_glAlphaFunc, hook_glAlphaFunc, (func: u32, ref_: f32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glAlphaFunc(func, ref_) };
 } }
-export! { 679, glBlendFunc, first_glBlendFunc, hook_glBlendFunc, (sfactor: u32, dfactor: u32) -> (), {
+export! { 677, glBlendFunc, first_glBlendFunc, hook_glBlendFunc, (sfactor: u32, dfactor: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendFunc(sfactor, dfactor) };
 } }
-export! { 680, glBlendFuncSeparate, first_glBlendFuncSeparate, hook_glBlendFuncSeparate, (sfactorRGB: u32, dfactorRGB: u32, sfactorAlpha: u32, dfactorAlpha: u32) -> (), {
+export! { 678, glBlendFuncSeparate, first_glBlendFuncSeparate, hook_glBlendFuncSeparate, (sfactorRGB: u32, dfactorRGB: u32, sfactorAlpha: u32, dfactorAlpha: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendFuncSeparate(sfactorRGB, dfactorRGB, sfactorAlpha, dfactorAlpha) };
 } }
-export! { 681, glBlendFuncSeparateEXT, first_glBlendFuncSeparateEXT, hook_glBlendFuncSeparateEXT, (sfactorRGB: u32, dfactorRGB: u32, sfactorAlpha: u32, dfactorAlpha: u32) -> (), {
+export! { 679, glBlendFuncSeparateEXT, first_glBlendFuncSeparateEXT, hook_glBlendFuncSeparateEXT, (sfactorRGB: u32, dfactorRGB: u32, sfactorAlpha: u32, dfactorAlpha: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendFuncSeparateEXT(sfactorRGB, dfactorRGB, sfactorAlpha, dfactorAlpha) };
 } }
-export! { 682, glBlendFuncSeparateINGR, first_glBlendFuncSeparateINGR, hook_glBlendFuncSeparateINGR, (sfactorRGB: u32, dfactorRGB: u32, sfactorAlpha: u32, dfactorAlpha: u32) -> (), {
+export! { 680, glBlendFuncSeparateINGR, first_glBlendFuncSeparateINGR, hook_glBlendFuncSeparateINGR, (sfactorRGB: u32, dfactorRGB: u32, sfactorAlpha: u32, dfactorAlpha: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendFuncSeparateINGR(sfactorRGB, dfactorRGB, sfactorAlpha, dfactorAlpha) };
 } }
-export! { 683, glBlendFuncSeparatei, first_glBlendFuncSeparatei, hook_glBlendFuncSeparatei, (buf: u32, srcRGB: u32, dstRGB: u32, srcAlpha: u32, dstAlpha: u32) -> (), {
+export! { 681, glBlendFuncSeparatei, first_glBlendFuncSeparatei, hook_glBlendFuncSeparatei, (buf: u32, srcRGB: u32, dstRGB: u32, srcAlpha: u32, dstAlpha: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendFuncSeparatei(buf, srcRGB, dstRGB, srcAlpha, dstAlpha) };
 } }
-export! { 684, glBlendFuncSeparateIndexedAMD, first_glBlendFuncSeparateIndexedAMD, hook_glBlendFuncSeparateIndexedAMD, (buf: u32, srcRGB: u32, dstRGB: u32, srcAlpha: u32, dstAlpha: u32) -> (), {
+export! { 682, glBlendFuncSeparateIndexedAMD, first_glBlendFuncSeparateIndexedAMD, hook_glBlendFuncSeparateIndexedAMD, (buf: u32, srcRGB: u32, dstRGB: u32, srcAlpha: u32, dstAlpha: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendFuncSeparateIndexedAMD(buf, srcRGB, dstRGB, srcAlpha, dstAlpha) };
 } }
-export! { 685, glBlendFuncSeparateiARB, first_glBlendFuncSeparateiARB, hook_glBlendFuncSeparateiARB, (buf: u32, srcRGB: u32, dstRGB: u32, srcAlpha: u32, dstAlpha: u32) -> (), {
+export! { 683, glBlendFuncSeparateiARB, first_glBlendFuncSeparateiARB, hook_glBlendFuncSeparateiARB, (buf: u32, srcRGB: u32, dstRGB: u32, srcAlpha: u32, dstAlpha: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendFuncSeparateiARB(buf, srcRGB, dstRGB, srcAlpha, dstAlpha) };
 } }
-export! { 686, glBlendFuncSeparateiEXT, first_glBlendFuncSeparateiEXT, hook_glBlendFuncSeparateiEXT, (buf: u32, srcRGB: u32, dstRGB: u32, srcAlpha: u32, dstAlpha: u32) -> (), {
+export! { 684, glBlendFuncSeparateiEXT, first_glBlendFuncSeparateiEXT, hook_glBlendFuncSeparateiEXT, (buf: u32, srcRGB: u32, dstRGB: u32, srcAlpha: u32, dstAlpha: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendFuncSeparateiEXT(buf, srcRGB, dstRGB, srcAlpha, dstAlpha) };
 } }
-export! { 687, glBlendFuncSeparateiOES, first_glBlendFuncSeparateiOES, hook_glBlendFuncSeparateiOES, (buf: u32, srcRGB: u32, dstRGB: u32, srcAlpha: u32, dstAlpha: u32) -> (), {
+export! { 685, glBlendFuncSeparateiOES, first_glBlendFuncSeparateiOES, hook_glBlendFuncSeparateiOES, (buf: u32, srcRGB: u32, dstRGB: u32, srcAlpha: u32, dstAlpha: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendFuncSeparateiOES(buf, srcRGB, dstRGB, srcAlpha, dstAlpha) };
 } }
-export! { 688, glBlendFunci, first_glBlendFunci, hook_glBlendFunci, (buf: u32, src: u32, dst: u32) -> (), {
+export! { 686, glBlendFunci, first_glBlendFunci, hook_glBlendFunci, (buf: u32, src: u32, dst: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendFunci(buf, src, dst) };
 } }
-export! { 689, glBlendFuncIndexedAMD, first_glBlendFuncIndexedAMD, hook_glBlendFuncIndexedAMD, (buf: u32, src: u32, dst: u32) -> (), {
+export! { 687, glBlendFuncIndexedAMD, first_glBlendFuncIndexedAMD, hook_glBlendFuncIndexedAMD, (buf: u32, src: u32, dst: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendFuncIndexedAMD(buf, src, dst) };
 } }
-export! { 690, glBlendFunciARB, first_glBlendFunciARB, hook_glBlendFunciARB, (buf: u32, src: u32, dst: u32) -> (), {
+export! { 688, glBlendFunciARB, first_glBlendFunciARB, hook_glBlendFunciARB, (buf: u32, src: u32, dst: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendFunciARB(buf, src, dst) };
 } }
-export! { 691, glBlendFunciEXT, first_glBlendFunciEXT, hook_glBlendFunciEXT, (buf: u32, src: u32, dst: u32) -> (), {
+export! { 689, glBlendFunciEXT, first_glBlendFunciEXT, hook_glBlendFunciEXT, (buf: u32, src: u32, dst: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendFunciEXT(buf, src, dst) };
 } }
-export! { 692, glBlendFunciOES, first_glBlendFunciOES, hook_glBlendFunciOES, (buf: u32, src: u32, dst: u32) -> (), {
+export! { 690, glBlendFunciOES, first_glBlendFunciOES, hook_glBlendFunciOES, (buf: u32, src: u32, dst: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendFunciOES(buf, src, dst) };
 } }
-export! { 693, glBlendEquation, first_glBlendEquation, hook_glBlendEquation, (mode: u32) -> (), {
+export! { 691, glBlendEquation, first_glBlendEquation, hook_glBlendEquation, (mode: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendEquation(mode) };
 } }
-export! { 694, glBlendEquationEXT, first_glBlendEquationEXT, hook_glBlendEquationEXT, (mode: u32) -> (), {
+export! { 692, glBlendEquationEXT, first_glBlendEquationEXT, hook_glBlendEquationEXT, (mode: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendEquationEXT(mode) };
 } }
-export! { 695, glBlendEquationSeparate, first_glBlendEquationSeparate, hook_glBlendEquationSeparate, (modeRGB: u32, modeAlpha: u32) -> (), {
+export! { 693, glBlendEquationSeparate, first_glBlendEquationSeparate, hook_glBlendEquationSeparate, (modeRGB: u32, modeAlpha: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendEquationSeparate(modeRGB, modeAlpha) };
 } }
-export! { 696, glBlendEquationSeparateEXT, first_glBlendEquationSeparateEXT, hook_glBlendEquationSeparateEXT, (modeRGB: u32, modeAlpha: u32) -> (), {
+export! { 694, glBlendEquationSeparateEXT, first_glBlendEquationSeparateEXT, hook_glBlendEquationSeparateEXT, (modeRGB: u32, modeAlpha: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendEquationSeparateEXT(modeRGB, modeAlpha) };
 } }
-export! { 697, glBlendEquationSeparatei, first_glBlendEquationSeparatei, hook_glBlendEquationSeparatei, (buf: u32, modeRGB: u32, modeAlpha: u32) -> (), {
+export! { 695, glBlendEquationSeparatei, first_glBlendEquationSeparatei, hook_glBlendEquationSeparatei, (buf: u32, modeRGB: u32, modeAlpha: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendEquationSeparatei(buf, modeRGB, modeAlpha) };
 } }
-export! { 698, glBlendEquationSeparateIndexedAMD, first_glBlendEquationSeparateIndexedAMD, hook_glBlendEquationSeparateIndexedAMD, (buf: u32, modeRGB: u32, modeAlpha: u32) -> (), {
+export! { 696, glBlendEquationSeparateIndexedAMD, first_glBlendEquationSeparateIndexedAMD, hook_glBlendEquationSeparateIndexedAMD, (buf: u32, modeRGB: u32, modeAlpha: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendEquationSeparateIndexedAMD(buf, modeRGB, modeAlpha) };
 } }
-export! { 699, glBlendEquationSeparateiARB, first_glBlendEquationSeparateiARB, hook_glBlendEquationSeparateiARB, (buf: u32, modeRGB: u32, modeAlpha: u32) -> (), {
+export! { 697, glBlendEquationSeparateiARB, first_glBlendEquationSeparateiARB, hook_glBlendEquationSeparateiARB, (buf: u32, modeRGB: u32, modeAlpha: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendEquationSeparateiARB(buf, modeRGB, modeAlpha) };
 } }
-export! { 700, glBlendEquationSeparateiEXT, first_glBlendEquationSeparateiEXT, hook_glBlendEquationSeparateiEXT, (buf: u32, modeRGB: u32, modeAlpha: u32) -> (), {
+export! { 698, glBlendEquationSeparateiEXT, first_glBlendEquationSeparateiEXT, hook_glBlendEquationSeparateiEXT, (buf: u32, modeRGB: u32, modeAlpha: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendEquationSeparateiEXT(buf, modeRGB, modeAlpha) };
 } }
-export! { 701, glBlendEquationSeparateiOES, first_glBlendEquationSeparateiOES, hook_glBlendEquationSeparateiOES, (buf: u32, modeRGB: u32, modeAlpha: u32) -> (), {
+export! { 699, glBlendEquationSeparateiOES, first_glBlendEquationSeparateiOES, hook_glBlendEquationSeparateiOES, (buf: u32, modeRGB: u32, modeAlpha: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendEquationSeparateiOES(buf, modeRGB, modeAlpha) };
 } }
-export! { 702, glBlendEquationi, first_glBlendEquationi, hook_glBlendEquationi, (buf: u32, mode: u32) -> (), {
+export! { 700, glBlendEquationi, first_glBlendEquationi, hook_glBlendEquationi, (buf: u32, mode: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendEquationi(buf, mode) };
 } }
-export! { 703, glBlendEquationIndexedAMD, first_glBlendEquationIndexedAMD, hook_glBlendEquationIndexedAMD, (buf: u32, mode: u32) -> (), {
+export! { 701, glBlendEquationIndexedAMD, first_glBlendEquationIndexedAMD, hook_glBlendEquationIndexedAMD, (buf: u32, mode: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendEquationIndexedAMD(buf, mode) };
 } }
-export! { 704, glBlendEquationiARB, first_glBlendEquationiARB, hook_glBlendEquationiARB, (buf: u32, mode: u32) -> (), {
+export! { 702, glBlendEquationiARB, first_glBlendEquationiARB, hook_glBlendEquationiARB, (buf: u32, mode: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendEquationiARB(buf, mode) };
 } }
-export! { 705, glBlendEquationiEXT, first_glBlendEquationiEXT, hook_glBlendEquationiEXT, (buf: u32, mode: u32) -> (), {
+export! { 703, glBlendEquationiEXT, first_glBlendEquationiEXT, hook_glBlendEquationiEXT, (buf: u32, mode: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendEquationiEXT(buf, mode) };
 } }
-export! { 706, glBlendEquationiOES, first_glBlendEquationiOES, hook_glBlendEquationiOES, (buf: u32, mode: u32) -> (), {
+export! { 704, glBlendEquationiOES, first_glBlendEquationiOES, hook_glBlendEquationiOES, (buf: u32, mode: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendEquationiOES(buf, mode) };
 } }
-export! { 707, glBlendColor, first_glBlendColor, hook_glBlendColor, (red: f32, green: f32, blue: f32, alpha: f32) -> (), {
+export! { 705, glBlendColor, first_glBlendColor, hook_glBlendColor, (red: f32, green: f32, blue: f32, alpha: f32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendColor(red, green, blue, alpha) };
 } }
-export! { 708, glBlendColorEXT, first_glBlendColorEXT, hook_glBlendColorEXT, (red: f32, green: f32, blue: f32, alpha: f32) -> (), {
+export! { 706, glBlendColorEXT, first_glBlendColorEXT, hook_glBlendColorEXT, (red: f32, green: f32, blue: f32, alpha: f32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBlendColorEXT(red, green, blue, alpha) };
 } }
-export! { 709, glClearAccum, first_glClearAccum, hook_glClearAccum, (red: f32, green: f32, blue: f32, alpha: f32) -> (), {
+export! { 707, glClearAccum, first_glClearAccum, hook_glClearAccum, (red: f32, green: f32, blue: f32, alpha: f32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glClearAccum(red, green, blue, alpha) };
 } }
-export! { 710, glClearColor, first_glClearColor, hook_glClearColor, (red: f32, green: f32, blue: f32, alpha: f32) -> (), {
+export! { 708, glClearColor, first_glClearColor, hook_glClearColor, (red: f32, green: f32, blue: f32, alpha: f32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glClearColor(red, green, blue, alpha) };
 } }
-export! { 711, glClearDepth, first_glClearDepth, hook_glClearDepth, (depth: f64) -> (), {
+export! { 709, glClearDepth, first_glClearDepth, hook_glClearDepth, (depth: f64) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glClearDepth(depth) };
 } }
-export! { 712, glClearDepthf, first_glClearDepthf, hook_glClearDepthf, (d: f32) -> (), {
+export! { 710, glClearDepthf, first_glClearDepthf, hook_glClearDepthf, (d: f32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glClearDepthf(d) };
 } }
-export! { 713, glClearDepthfOES, first_glClearDepthfOES, hook_glClearDepthfOES, (depth: f32) -> (), {
+export! { 711, glClearDepthfOES, first_glClearDepthfOES, hook_glClearDepthfOES, (depth: f32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glClearDepthfOES(depth) };
 } }
-export! { 714, glClearIndex, first_glClearIndex, hook_glClearIndex, (c: f32) -> (), {
+export! { 712, glClearIndex, first_glClearIndex, hook_glClearIndex, (c: f32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glClearIndex(c) };
 } }
-export! { 715, glClearStencil, first_glClearStencil, hook_glClearStencil, (s: i32) -> (), {
+export! { 713, glClearStencil, first_glClearStencil, hook_glClearStencil, (s: i32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glClearStencil(s) };
 } }
-export! { 716, glClipPlane, first_glClipPlane, hook_glClipPlane, (plane: u32, equation: Ptr) -> (), {
+export! { 714, glClipPlane, first_glClipPlane, hook_glClipPlane, (plane: u32, equation: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glClipPlane(plane, equation) };
 } }
-export! { 717, glColorMask, first_glColorMask, hook_glColorMask, (red: u8, green: u8, blue: u8, alpha: u8) -> (), {
+export! { 715, glColorMask, first_glColorMask, hook_glColorMask, (red: u8, green: u8, blue: u8, alpha: u8) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glColorMask(red, green, blue, alpha) };
 } }
-export! { 718, glColorMaski, first_glColorMaski, hook_glColorMaski, (index: u32, r: u8, g: u8, b: u8, a: u8) -> (), {
+export! { 716, glColorMaski, first_glColorMaski, hook_glColorMaski, (index: u32, r: u8, g: u8, b: u8, a: u8) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glColorMaski(index, r, g, b, a) };
 } }
-export! { 719, glColorMaskIndexedEXT, first_glColorMaskIndexedEXT, hook_glColorMaskIndexedEXT, (index: u32, r: u8, g: u8, b: u8, a: u8) -> (), {
+export! { 717, glColorMaskIndexedEXT, first_glColorMaskIndexedEXT, hook_glColorMaskIndexedEXT, (index: u32, r: u8, g: u8, b: u8, a: u8) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glColorMaskIndexedEXT(index, r, g, b, a) };
 } }
-export! { 720, glColorMaskiEXT, first_glColorMaskiEXT, hook_glColorMaskiEXT, (index: u32, r: u8, g: u8, b: u8, a: u8) -> (), {
+export! { 718, glColorMaskiEXT, first_glColorMaskiEXT, hook_glColorMaskiEXT, (index: u32, r: u8, g: u8, b: u8, a: u8) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glColorMaskiEXT(index, r, g, b, a) };
 } }
-export! { 721, glColorMaskiOES, first_glColorMaskiOES, hook_glColorMaskiOES, (index: u32, r: u8, g: u8, b: u8, a: u8) -> (), {
+export! { 719, glColorMaskiOES, first_glColorMaskiOES, hook_glColorMaskiOES, (index: u32, r: u8, g: u8, b: u8, a: u8) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glColorMaskiOES(index, r, g, b, a) };
 } }
-export! { 722, glCullFace, first_glCullFace, hook_glCullFace, (mode: u32) -> (), {
+export! { 720, glCullFace, first_glCullFace, hook_glCullFace, (mode: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glCullFace(mode) };
 } }
-export! { 723, glDepthBoundsEXT, first_glDepthBoundsEXT, hook_glDepthBoundsEXT, (zmin: f64, zmax: f64) -> (), {
+export! { 721, glDepthBoundsEXT, first_glDepthBoundsEXT, hook_glDepthBoundsEXT, (zmin: f64, zmax: f64) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glDepthBoundsEXT(zmin, zmax) };
 } }
-export! { 724, glFrontFace, first_glFrontFace, hook_glFrontFace, (mode: u32) -> (), {
+export! { 722, glFrontFace, first_glFrontFace, hook_glFrontFace, (mode: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glFrontFace(mode) };
 } }
-export! { 725, glIndexMask, first_glIndexMask, hook_glIndexMask, (mask: u32) -> (), {
+export! { 723, glIndexMask, first_glIndexMask, hook_glIndexMask, (mask: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glIndexMask(mask) };
 } }
-export! { 726, glInitNames, first_glInitNames, hook_glInitNames, () -> (), {
+export! { 724, glInitNames, first_glInitNames, hook_glInitNames, () -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glInitNames() };
 } }
-export! { 727, glLoadName, first_glLoadName, hook_glLoadName, (name: u32) -> (), {
+export! { 725, glLoadName, first_glLoadName, hook_glLoadName, (name: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glLoadName(name) };
 } }
-export! { 728, glPushName, first_glPushName, hook_glPushName, (name: u32) -> (), {
+export! { 726, glPushName, first_glPushName, hook_glPushName, (name: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPushName(name) };
 } }
-export! { 729, glPopName, first_glPopName, hook_glPopName, () -> (), {
+export! { 727, glPopName, first_glPopName, hook_glPopName, () -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPopName() };
 } }
-export! { 730, glPassThrough, first_glPassThrough, hook_glPassThrough, (token: f32) -> (), {
+export! { 728, glPassThrough, first_glPassThrough, hook_glPassThrough, (token: f32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPassThrough(token) };
 } }
-export! { 731, glLineStipple, first_glLineStipple, hook_glLineStipple, (factor: i32, pattern: u16) -> (), {
+export! { 729, glLineStipple, first_glLineStipple, hook_glLineStipple, (factor: i32, pattern: u16) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glLineStipple(factor, pattern) };
 } }
-export! { 732, glListBase, first_glListBase, hook_glListBase, (base: u32) -> (), {
+export! { 730, glListBase, first_glListBase, hook_glListBase, (base: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glListBase(base) };
 } }
-export! { 733, glLogicOp, first_glLogicOp, hook_glLogicOp, (opcode: u32) -> (), {
+export! { 731, glLogicOp, first_glLogicOp, hook_glLogicOp, (opcode: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glLogicOp(opcode) };
 } }
-export! { 734, glMap1d, first_glMap1d, hook_glMap1d, (target: u32, u1: f64, u2: f64, stride: i32, order: i32, points: Ptr) -> (), {
+export! { 732, glMap1d, first_glMap1d, hook_glMap1d, (target: u32, u1: f64, u2: f64, stride: i32, order: i32, points: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glMap1d(target, u1, u2, stride, order, points) };
 } }
-export! { 735, glMap1f, first_glMap1f, hook_glMap1f, (target: u32, u1: f32, u2: f32, stride: i32, order: i32, points: Ptr) -> (), {
+export! { 733, glMap1f, first_glMap1f, hook_glMap1f, (target: u32, u1: f32, u2: f32, stride: i32, order: i32, points: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glMap1f(target, u1, u2, stride, order, points) };
 } }
-export! { 736, glMap2d, first_glMap2d, hook_glMap2d, (target: u32, u1: f64, u2: f64, ustride: i32, uorder: i32, v1: f64, v2: f64, vstride: i32, vorder: i32, points: Ptr) -> (), {
+export! { 734, glMap2d, first_glMap2d, hook_glMap2d, (target: u32, u1: f64, u2: f64, ustride: i32, uorder: i32, v1: f64, v2: f64, vstride: i32, vorder: i32, points: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glMap2d(target, u1, u2, ustride, uorder, v1, v2, vstride, vorder, points) };
 } }
-export! { 737, glMap2f, first_glMap2f, hook_glMap2f, (target: u32, u1: f32, u2: f32, ustride: i32, uorder: i32, v1: f32, v2: f32, vstride: i32, vorder: i32, points: Ptr) -> (), {
+export! { 735, glMap2f, first_glMap2f, hook_glMap2f, (target: u32, u1: f32, u2: f32, ustride: i32, uorder: i32, v1: f32, v2: f32, vstride: i32, vorder: i32, points: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glMap2f(target, u1, u2, ustride, uorder, v1, v2, vstride, vorder, points) };
 } }
-export! { 738, glMapGrid1d, first_glMapGrid1d, hook_glMapGrid1d, (un: i32, u1: f64, u2: f64) -> (), {
+export! { 736, glMapGrid1d, first_glMapGrid1d, hook_glMapGrid1d, (un: i32, u1: f64, u2: f64) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glMapGrid1d(un, u1, u2) };
 } }
-export! { 739, glMapGrid1f, first_glMapGrid1f, hook_glMapGrid1f, (un: i32, u1: f32, u2: f32) -> (), {
+export! { 737, glMapGrid1f, first_glMapGrid1f, hook_glMapGrid1f, (un: i32, u1: f32, u2: f32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glMapGrid1f(un, u1, u2) };
 } }
-export! { 740, glMapGrid2d, first_glMapGrid2d, hook_glMapGrid2d, (un: i32, u1: f64, u2: f64, vn: i32, v1: f64, v2: f64) -> (), {
+export! { 738, glMapGrid2d, first_glMapGrid2d, hook_glMapGrid2d, (un: i32, u1: f64, u2: f64, vn: i32, v1: f64, v2: f64) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glMapGrid2d(un, u1, u2, vn, v1, v2) };
 } }
-export! { 741, glMapGrid2f, first_glMapGrid2f, hook_glMapGrid2f, (un: i32, u1: f32, u2: f32, vn: i32, v1: f32, v2: f32) -> (), {
+export! { 739, glMapGrid2f, first_glMapGrid2f, hook_glMapGrid2f, (un: i32, u1: f32, u2: f32, vn: i32, v1: f32, v2: f32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glMapGrid2f(un, u1, u2, vn, v1, v2) };
 } }
-export! { 742, glPixelMapfv, first_glPixelMapfv, hook_glPixelMapfv, (map: u32, mapsize: i32, values: Ptr) -> (), {
+export! { 740, glPixelMapfv, first_glPixelMapfv, hook_glPixelMapfv, (map: u32, mapsize: i32, values: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPixelMapfv(map, mapsize, values) };
 } }
-export! { 743, glPixelMapuiv, first_glPixelMapuiv, hook_glPixelMapuiv, (map: u32, mapsize: i32, values: Ptr) -> (), {
+export! { 741, glPixelMapuiv, first_glPixelMapuiv, hook_glPixelMapuiv, (map: u32, mapsize: i32, values: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPixelMapuiv(map, mapsize, values) };
 } }
-export! { 744, glPixelMapusv, first_glPixelMapusv, hook_glPixelMapusv, (map: u32, mapsize: i32, values: Ptr) -> (), {
+export! { 742, glPixelMapusv, first_glPixelMapusv, hook_glPixelMapusv, (map: u32, mapsize: i32, values: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPixelMapusv(map, mapsize, values) };
 } }
-export! { 745, glPixelTransferf, first_glPixelTransferf, hook_glPixelTransferf, (pname: u32, param: f32) -> (), {
+export! { 743, glPixelTransferf, first_glPixelTransferf, hook_glPixelTransferf, (pname: u32, param: f32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPixelTransferf(pname, param) };
 } }
-export! { 746, glPixelTransferi, first_glPixelTransferi, hook_glPixelTransferi, (pname: u32, param: i32) -> (), {
+export! { 744, glPixelTransferi, first_glPixelTransferi, hook_glPixelTransferi, (pname: u32, param: i32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPixelTransferi(pname, param) };
 } }
-export! { 747, glPixelZoom, first_glPixelZoom, hook_glPixelZoom, (xfactor: f32, yfactor: f32) -> (), {
+export! { 745, glPixelZoom, first_glPixelZoom, hook_glPixelZoom, (xfactor: f32, yfactor: f32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPixelZoom(xfactor, yfactor) };
 } }
-export! { 748, glPolygonOffset, first_glPolygonOffset, hook_glPolygonOffset, (factor: f32, units: f32) -> (), {
+export! { 746, glPolygonOffset, first_glPolygonOffset, hook_glPolygonOffset, (factor: f32, units: f32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPolygonOffset(factor, units) };
 } }
-export! { 749, glPolygonOffsetClamp, first_glPolygonOffsetClamp, hook_glPolygonOffsetClamp, (factor: f32, units: f32, clamp: f32) -> (), {
+export! { 747, glPolygonOffsetClamp, first_glPolygonOffsetClamp, hook_glPolygonOffsetClamp, (factor: f32, units: f32, clamp: f32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPolygonOffsetClamp(factor, units, clamp) };
 } }
-export! { 750, glPolygonOffsetClampEXT, first_glPolygonOffsetClampEXT, hook_glPolygonOffsetClampEXT, (factor: f32, units: f32, clamp: f32) -> (), {
+export! { 748, glPolygonOffsetClampEXT, first_glPolygonOffsetClampEXT, hook_glPolygonOffsetClampEXT, (factor: f32, units: f32, clamp: f32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPolygonOffsetClampEXT(factor, units, clamp) };
 } }
-export! { 751, glPolygonStipple, first_glPolygonStipple, hook_glPolygonStipple, (mask: Ptr) -> (), {
+export! { 749, glPolygonStipple, first_glPolygonStipple, hook_glPolygonStipple, (mask: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPolygonStipple(mask) };
 } }
-export! { 752, glPrioritizeTextures, first_glPrioritizeTextures, hook_glPrioritizeTextures, (n: i32, textures: Ptr, priorities: Ptr) -> (), {
+export! { 750, glPrioritizeTextures, first_glPrioritizeTextures, hook_glPrioritizeTextures, (n: i32, textures: Ptr, priorities: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPrioritizeTextures(n, textures, priorities) };
 } }
-export! { 753, glPrioritizeTexturesEXT, first_glPrioritizeTexturesEXT, hook_glPrioritizeTexturesEXT, (n: i32, textures: Ptr, priorities: Ptr) -> (), {
+export! { 751, glPrioritizeTexturesEXT, first_glPrioritizeTexturesEXT, hook_glPrioritizeTexturesEXT, (n: i32, textures: Ptr, priorities: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPrioritizeTexturesEXT(n, textures, priorities) };
 } }
-export! { 754, glSampleCoverage, first_glSampleCoverage, hook_glSampleCoverage, (value: f32, invert: u8) -> (), {
+export! { 752, glSampleCoverage, first_glSampleCoverage, hook_glSampleCoverage, (value: f32, invert: u8) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glSampleCoverage(value, invert) };
 } }
-export! { 755, glSampleCoverageARB, first_glSampleCoverageARB, hook_glSampleCoverageARB, (value: f32, invert: u8) -> (), {
+export! { 753, glSampleCoverageARB, first_glSampleCoverageARB, hook_glSampleCoverageARB, (value: f32, invert: u8) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glSampleCoverageARB(value, invert) };
 } }
-export! { 756, glMinSampleShading, first_glMinSampleShading, hook_glMinSampleShading, (value: f32) -> (), {
+export! { 754, glMinSampleShading, first_glMinSampleShading, hook_glMinSampleShading, (value: f32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glMinSampleShading(value) };
 } }
-export! { 757, glMinSampleShadingARB, first_glMinSampleShadingARB, hook_glMinSampleShadingARB, (value: f32) -> (), {
+export! { 755, glMinSampleShadingARB, first_glMinSampleShadingARB, hook_glMinSampleShadingARB, (value: f32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glMinSampleShadingARB(value) };
 } }
-export! { 758, glMinSampleShadingOES, first_glMinSampleShadingOES, hook_glMinSampleShadingOES, (value: f32) -> (), {
+export! { 756, glMinSampleShadingOES, first_glMinSampleShadingOES, hook_glMinSampleShadingOES, (value: f32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glMinSampleShadingOES(value) };
 } }
-export! { 759, glStencilFunc, first_glStencilFunc, hook_glStencilFunc, (func: u32, ref_: i32, mask: u32) -> (), {
+export! { 757, glStencilFunc, first_glStencilFunc, hook_glStencilFunc, (func: u32, ref_: i32, mask: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glStencilFunc(func, ref_, mask) };
 } }
-export! { 760, glStencilFuncSeparate, first_glStencilFuncSeparate, hook_glStencilFuncSeparate, (face: u32, func: u32, ref_: i32, mask: u32) -> (), {
+export! { 758, glStencilFuncSeparate, first_glStencilFuncSeparate, hook_glStencilFuncSeparate, (face: u32, func: u32, ref_: i32, mask: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glStencilFuncSeparate(face, func, ref_, mask) };
 } }
-export! { 761, glStencilMask, first_glStencilMask, hook_glStencilMask, (mask: u32) -> (), {
+export! { 759, glStencilMask, first_glStencilMask, hook_glStencilMask, (mask: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glStencilMask(mask) };
 } }
-export! { 762, glStencilMaskSeparate, first_glStencilMaskSeparate, hook_glStencilMaskSeparate, (face: u32, mask: u32) -> (), {
+export! { 760, glStencilMaskSeparate, first_glStencilMaskSeparate, hook_glStencilMaskSeparate, (face: u32, mask: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glStencilMaskSeparate(face, mask) };
 } }
-export! { 763, glStencilOp, first_glStencilOp, hook_glStencilOp, (fail: u32, zfail: u32, zpass: u32) -> (), {
+export! { 761, glStencilOp, first_glStencilOp, hook_glStencilOp, (fail: u32, zfail: u32, zpass: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glStencilOp(fail, zfail, zpass) };
 } }
-export! { 764, glStencilOpSeparate, first_glStencilOpSeparate, hook_glStencilOpSeparate, (face: u32, sfail: u32, dpfail: u32, dppass: u32) -> (), {
+export! { 762, glStencilOpSeparate, first_glStencilOpSeparate, hook_glStencilOpSeparate, (face: u32, sfail: u32, dpfail: u32, dppass: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glStencilOpSeparate(face, sfail, dpfail, dppass) };
 } }
-export! { 765, glStencilOpSeparateATI, first_glStencilOpSeparateATI, hook_glStencilOpSeparateATI, (face: u32, sfail: u32, dpfail: u32, dppass: u32) -> (), {
+export! { 763, glStencilOpSeparateATI, first_glStencilOpSeparateATI, hook_glStencilOpSeparateATI, (face: u32, sfail: u32, dpfail: u32, dppass: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glStencilOpSeparateATI(face, sfail, dpfail, dppass) };
 } }
-export! { 766, glPrimitiveRestartIndex, first_glPrimitiveRestartIndex, hook_glPrimitiveRestartIndex, (index: u32) -> (), {
+export! { 764, glPrimitiveRestartIndex, first_glPrimitiveRestartIndex, hook_glPrimitiveRestartIndex, (index: u32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPrimitiveRestartIndex(index) };
 } }
-export! { 767, glTexImage1D, first_glTexImage1D, hook_glTexImage1D, (target: u32, level: i32, internalformat: i32, width: i32, border: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
+export! { 765, glTexImage1D, first_glTexImage1D, hook_glTexImage1D, (target: u32, level: i32, internalformat: i32, width: i32, border: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
     hooks::texture(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexImage1D(target, level, internalformat, width, border, format, type_, pixels) };
 } }
-export! { 768, glTexImage2D, first_glTexImage2D, hook_glTexImage2D, (target: u32, level: i32, internalformat: i32, width: i32, height: i32, border: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
+export! { 766, glTexImage2D, first_glTexImage2D, hook_glTexImage2D, (target: u32, level: i32, internalformat: i32, width: i32, height: i32, border: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
     hooks::texture(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexImage2D(target, level, internalformat, width, height, border, format, type_, pixels) };
 } }
-export! { 769, glTexImage3D, first_glTexImage3D, hook_glTexImage3D, (target: u32, level: i32, internalformat: i32, width: i32, height: i32, depth: i32, border: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
+export! { 767, glTexImage3D, first_glTexImage3D, hook_glTexImage3D, (target: u32, level: i32, internalformat: i32, width: i32, height: i32, depth: i32, border: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
     hooks::texture(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexImage3D(target, level, internalformat, width, height, depth, border, format, type_, pixels) };
 } }
-export! { 770, glTexImage3DEXT, first_glTexImage3DEXT, hook_glTexImage3DEXT, (target: u32, level: i32, internalformat: u32, width: i32, height: i32, depth: i32, border: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
+export! { 768, glTexImage3DEXT, first_glTexImage3DEXT, hook_glTexImage3DEXT, (target: u32, level: i32, internalformat: u32, width: i32, height: i32, depth: i32, border: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
     hooks::texture(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexImage3DEXT(target, level, internalformat, width, height, depth, border, format, type_, pixels) };
 } }
-export! { 771, glTexSubImage1D, first_glTexSubImage1D, hook_glTexSubImage1D, (target: u32, level: i32, xoffset: i32, width: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
+export! { 769, glTexSubImage1D, first_glTexSubImage1D, hook_glTexSubImage1D, (target: u32, level: i32, xoffset: i32, width: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
     hooks::texture(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexSubImage1D(target, level, xoffset, width, format, type_, pixels) };
 } }
-export! { 772, glTexSubImage1DEXT, first_glTexSubImage1DEXT, hook_glTexSubImage1DEXT, (target: u32, level: i32, xoffset: i32, width: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
+export! { 770, glTexSubImage1DEXT, first_glTexSubImage1DEXT, hook_glTexSubImage1DEXT, (target: u32, level: i32, xoffset: i32, width: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
     hooks::texture(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexSubImage1DEXT(target, level, xoffset, width, format, type_, pixels) };
 } }
-export! { 773, glTexSubImage2D, first_glTexSubImage2D, hook_glTexSubImage2D, (target: u32, level: i32, xoffset: i32, yoffset: i32, width: i32, height: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
+export! { 771, glTexSubImage2D, first_glTexSubImage2D, hook_glTexSubImage2D, (target: u32, level: i32, xoffset: i32, yoffset: i32, width: i32, height: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
     hooks::texture(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexSubImage2D(target, level, xoffset, yoffset, width, height, format, type_, pixels) };
 } }
-export! { 774, glTexSubImage2DEXT, first_glTexSubImage2DEXT, hook_glTexSubImage2DEXT, (target: u32, level: i32, xoffset: i32, yoffset: i32, width: i32, height: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
+export! { 772, glTexSubImage2DEXT, first_glTexSubImage2DEXT, hook_glTexSubImage2DEXT, (target: u32, level: i32, xoffset: i32, yoffset: i32, width: i32, height: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
     hooks::texture(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexSubImage2DEXT(target, level, xoffset, yoffset, width, height, format, type_, pixels) };
 } }
-export! { 775, glTexSubImage3D, first_glTexSubImage3D, hook_glTexSubImage3D, (target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
+export! { 773, glTexSubImage3D, first_glTexSubImage3D, hook_glTexSubImage3D, (target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
     hooks::texture(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexSubImage3D(target, level, xoffset, yoffset, zoffset, width, height, depth, format, type_, pixels) };
 } }
-export! { 776, glTexSubImage3DEXT, first_glTexSubImage3DEXT, hook_glTexSubImage3DEXT, (target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
+export! { 774, glTexSubImage3DEXT, first_glTexSubImage3DEXT, hook_glTexSubImage3DEXT, (target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
     hooks::texture(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexSubImage3DEXT(target, level, xoffset, yoffset, zoffset, width, height, depth, format, type_, pixels) };
 } }
-export! { 777, glCompressedTexImage1D, first_glCompressedTexImage1D, hook_glCompressedTexImage1D, (target: u32, level: i32, internalformat: u32, width: i32, border: i32, imageSize: i32, data: Ptr) -> (), {
+export! { 775, glCompressedTexImage1D, first_glCompressedTexImage1D, hook_glCompressedTexImage1D, (target: u32, level: i32, internalformat: u32, width: i32, border: i32, imageSize: i32, data: Ptr) -> (), {
     hooks::texture(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glCompressedTexImage1D(target, level, internalformat, width, border, imageSize, data) };
 } }
-export! { 778, glCompressedTexImage1DARB, first_glCompressedTexImage1DARB, hook_glCompressedTexImage1DARB, (target: u32, level: i32, internalformat: u32, width: i32, border: i32, imageSize: i32, data: Ptr) -> (), {
+export! { 776, glCompressedTexImage1DARB, first_glCompressedTexImage1DARB, hook_glCompressedTexImage1DARB, (target: u32, level: i32, internalformat: u32, width: i32, border: i32, imageSize: i32, data: Ptr) -> (), {
     hooks::texture(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glCompressedTexImage1DARB(target, level, internalformat, width, border, imageSize, data) };
 } }
-export! { 779, glCompressedTexImage2D, first_glCompressedTexImage2D, hook_glCompressedTexImage2D, (target: u32, level: i32, internalformat: u32, width: i32, height: i32, border: i32, imageSize: i32, data: Ptr) -> (), {
+export! { 777, glCompressedTexImage2D, first_glCompressedTexImage2D, hook_glCompressedTexImage2D, (target: u32, level: i32, internalformat: u32, width: i32, height: i32, border: i32, imageSize: i32, data: Ptr) -> (), {
     hooks::texture(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glCompressedTexImage2D(target, level, internalformat, width, height, border, imageSize, data) };
 } }
-export! { 780, glCompressedTexImage2DARB, first_glCompressedTexImage2DARB, hook_glCompressedTexImage2DARB, (target: u32, level: i32, internalformat: u32, width: i32, height: i32, border: i32, imageSize: i32, data: Ptr) -> (), {
+export! { 778, glCompressedTexImage2DARB, first_glCompressedTexImage2DARB, hook_glCompressedTexImage2DARB, (target: u32, level: i32, internalformat: u32, width: i32, height: i32, border: i32, imageSize: i32, data: Ptr) -> (), {
     hooks::texture(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glCompressedTexImage2DARB(target, level, internalformat, width, height, border, imageSize, data) };
 } }
-export! { 781, glCompressedTexImage3D, first_glCompressedTexImage3D, hook_glCompressedTexImage3D, (target: u32, level: i32, internalformat: u32, width: i32, height: i32, depth: i32, border: i32, imageSize: i32, data: Ptr) -> (), {
+export! { 779, glCompressedTexImage3D, first_glCompressedTexImage3D, hook_glCompressedTexImage3D, (target: u32, level: i32, internalformat: u32, width: i32, height: i32, depth: i32, border: i32, imageSize: i32, data: Ptr) -> (), {
     hooks::texture(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glCompressedTexImage3D(target, level, internalformat, width, height, depth, border, imageSize, data) };
 } }
-export! { 782, glCompressedTexImage3DARB, first_glCompressedTexImage3DARB, hook_glCompressedTexImage3DARB, (target: u32, level: i32, internalformat: u32, width: i32, height: i32, depth: i32, border: i32, imageSize: i32, data: Ptr) -> (), {
+export! { 780, glCompressedTexImage3DARB, first_glCompressedTexImage3DARB, hook_glCompressedTexImage3DARB, (target: u32, level: i32, internalformat: u32, width: i32, height: i32, depth: i32, border: i32, imageSize: i32, data: Ptr) -> (), {
     hooks::texture(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glCompressedTexImage3DARB(target, level, internalformat, width, height, depth, border, imageSize, data) };
 } }
-export! { 783, glCompressedTexSubImage1D, first_glCompressedTexSubImage1D, hook_glCompressedTexSubImage1D, (target: u32, level: i32, xoffset: i32, width: i32, format: u32, imageSize: i32, data: Ptr) -> (), {
+export! { 781, glCompressedTexSubImage1D, first_glCompressedTexSubImage1D, hook_glCompressedTexSubImage1D, (target: u32, level: i32, xoffset: i32, width: i32, format: u32, imageSize: i32, data: Ptr) -> (), {
     hooks::texture(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glCompressedTexSubImage1D(target, level, xoffset, width, format, imageSize, data) };
 } }
-export! { 784, glCompressedTexSubImage1DARB, first_glCompressedTexSubImage1DARB, hook_glCompressedTexSubImage1DARB, (target: u32, level: i32, xoffset: i32, width: i32, format: u32, imageSize: i32, data: Ptr) -> (), {
+export! { 782, glCompressedTexSubImage1DARB, first_glCompressedTexSubImage1DARB, hook_glCompressedTexSubImage1DARB, (target: u32, level: i32, xoffset: i32, width: i32, format: u32, imageSize: i32, data: Ptr) -> (), {
     hooks::texture(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glCompressedTexSubImage1DARB(target, level, xoffset, width, format, imageSize, data) };
 } }
-export! { 785, glCompressedTexSubImage2D, first_glCompressedTexSubImage2D, hook_glCompressedTexSubImage2D, (target: u32, level: i32, xoffset: i32, yoffset: i32, width: i32, height: i32, format: u32, imageSize: i32, data: Ptr) -> (), {
+export! { 783, glCompressedTexSubImage2D, first_glCompressedTexSubImage2D, hook_glCompressedTexSubImage2D, (target: u32, level: i32, xoffset: i32, yoffset: i32, width: i32, height: i32, format: u32, imageSize: i32, data: Ptr) -> (), {
     hooks::texture(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glCompressedTexSubImage2D(target, level, xoffset, yoffset, width, height, format, imageSize, data) };
 } }
-export! { 786, glCompressedTexSubImage2DARB, first_glCompressedTexSubImage2DARB, hook_glCompressedTexSubImage2DARB, (target: u32, level: i32, xoffset: i32, yoffset: i32, width: i32, height: i32, format: u32, imageSize: i32, data: Ptr) -> (), {
+export! { 784, glCompressedTexSubImage2DARB, first_glCompressedTexSubImage2DARB, hook_glCompressedTexSubImage2DARB, (target: u32, level: i32, xoffset: i32, yoffset: i32, width: i32, height: i32, format: u32, imageSize: i32, data: Ptr) -> (), {
     hooks::texture(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glCompressedTexSubImage2DARB(target, level, xoffset, yoffset, width, height, format, imageSize, data) };
 } }
-export! { 787, glCompressedTexSubImage3D, first_glCompressedTexSubImage3D, hook_glCompressedTexSubImage3D, (target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, format: u32, imageSize: i32, data: Ptr) -> (), {
+export! { 785, glCompressedTexSubImage3D, first_glCompressedTexSubImage3D, hook_glCompressedTexSubImage3D, (target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, format: u32, imageSize: i32, data: Ptr) -> (), {
     hooks::texture(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glCompressedTexSubImage3D(target, level, xoffset, yoffset, zoffset, width, height, depth, format, imageSize, data) };
 } }
-export! { 788, glCompressedTexSubImage3DARB, first_glCompressedTexSubImage3DARB, hook_glCompressedTexSubImage3DARB, (target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, format: u32, imageSize: i32, data: Ptr) -> (), {
+export! { 786, glCompressedTexSubImage3DARB, first_glCompressedTexSubImage3DARB, hook_glCompressedTexSubImage3DARB, (target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, format: u32, imageSize: i32, data: Ptr) -> (), {
     hooks::texture(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glCompressedTexSubImage3DARB(target, level, xoffset, yoffset, zoffset, width, height, depth, format, imageSize, data) };
 } }
-export! { 789, glTexImage2DMultisample, first_glTexImage2DMultisample, hook_glTexImage2DMultisample, (target: u32, samples: i32, internalformat: u32, width: i32, height: i32, fixedsamplelocations: u8) -> (), {
+export! { 787, glTexImage2DMultisample, first_glTexImage2DMultisample, hook_glTexImage2DMultisample, (target: u32, samples: i32, internalformat: u32, width: i32, height: i32, fixedsamplelocations: u8) -> (), {
     hooks::texture(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexImage2DMultisample(target, samples, internalformat, width, height, fixedsamplelocations) };
 } }
-export! { 790, glTexImage3DMultisample, first_glTexImage3DMultisample, hook_glTexImage3DMultisample, (target: u32, samples: i32, internalformat: u32, width: i32, height: i32, depth: i32, fixedsamplelocations: u8) -> (), {
+export! { 788, glTexImage3DMultisample, first_glTexImage3DMultisample, hook_glTexImage3DMultisample, (target: u32, samples: i32, internalformat: u32, width: i32, height: i32, depth: i32, fixedsamplelocations: u8) -> (), {
     hooks::texture(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexImage3DMultisample(target, samples, internalformat, width, height, depth, fixedsamplelocations) };
 } }
-export! { 791, glTexStorage1D, first_glTexStorage1D, hook_glTexStorage1D, (target: u32, levels: i32, internalformat: u32, width: i32) -> (), {
+export! { 789, glTexStorage1D, first_glTexStorage1D, hook_glTexStorage1D, (target: u32, levels: i32, internalformat: u32, width: i32) -> (), {
     hooks::texture(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexStorage1D(target, levels, internalformat, width) };
 } }
-export! { 792, glTexStorage1DEXT, first_glTexStorage1DEXT, hook_glTexStorage1DEXT, (target: u32, levels: i32, internalformat: u32, width: i32) -> (), {
+export! { 790, glTexStorage1DEXT, first_glTexStorage1DEXT, hook_glTexStorage1DEXT, (target: u32, levels: i32, internalformat: u32, width: i32) -> (), {
     hooks::texture(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexStorage1DEXT(target, levels, internalformat, width) };
 } }
-export! { 793, glTexStorage2D, first_glTexStorage2D, hook_glTexStorage2D, (target: u32, levels: i32, internalformat: u32, width: i32, height: i32) -> (), {
+export! { 791, glTexStorage2D, first_glTexStorage2D, hook_glTexStorage2D, (target: u32, levels: i32, internalformat: u32, width: i32, height: i32) -> (), {
     hooks::texture(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexStorage2D(target, levels, internalformat, width, height) };
 } }
-export! { 794, glTexStorage2DEXT, first_glTexStorage2DEXT, hook_glTexStorage2DEXT, (target: u32, levels: i32, internalformat: u32, width: i32, height: i32) -> (), {
+export! { 792, glTexStorage2DEXT, first_glTexStorage2DEXT, hook_glTexStorage2DEXT, (target: u32, levels: i32, internalformat: u32, width: i32, height: i32) -> (), {
     hooks::texture(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexStorage2DEXT(target, levels, internalformat, width, height) };
 } }
-export! { 795, glTexStorage3D, first_glTexStorage3D, hook_glTexStorage3D, (target: u32, levels: i32, internalformat: u32, width: i32, height: i32, depth: i32) -> (), {
+export! { 793, glTexStorage3D, first_glTexStorage3D, hook_glTexStorage3D, (target: u32, levels: i32, internalformat: u32, width: i32, height: i32, depth: i32) -> (), {
     hooks::texture(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexStorage3D(target, levels, internalformat, width, height, depth) };
 } }
-export! { 796, glTexStorage3DEXT, first_glTexStorage3DEXT, hook_glTexStorage3DEXT, (target: u32, levels: i32, internalformat: u32, width: i32, height: i32, depth: i32) -> (), {
+export! { 794, glTexStorage3DEXT, first_glTexStorage3DEXT, hook_glTexStorage3DEXT, (target: u32, levels: i32, internalformat: u32, width: i32, height: i32, depth: i32) -> (), {
     hooks::texture(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexStorage3DEXT(target, levels, internalformat, width, height, depth) };
 } }
-export! { 797, glTexStorage2DMultisample, first_glTexStorage2DMultisample, hook_glTexStorage2DMultisample, (target: u32, samples: i32, internalformat: u32, width: i32, height: i32, fixedsamplelocations: u8) -> (), {
+export! { 795, glTexStorage2DMultisample, first_glTexStorage2DMultisample, hook_glTexStorage2DMultisample, (target: u32, samples: i32, internalformat: u32, width: i32, height: i32, fixedsamplelocations: u8) -> (), {
     hooks::texture(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexStorage2DMultisample(target, samples, internalformat, width, height, fixedsamplelocations) };
 } }
-export! { 798, glTexStorage3DMultisample, first_glTexStorage3DMultisample, hook_glTexStorage3DMultisample, (target: u32, samples: i32, internalformat: u32, width: i32, height: i32, depth: i32, fixedsamplelocations: u8) -> (), {
+export! { 796, glTexStorage3DMultisample, first_glTexStorage3DMultisample, hook_glTexStorage3DMultisample, (target: u32, samples: i32, internalformat: u32, width: i32, height: i32, depth: i32, fixedsamplelocations: u8) -> (), {
     hooks::texture(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexStorage3DMultisample(target, samples, internalformat, width, height, depth, fixedsamplelocations) };
 } }
-export! { 799, glTexStorage3DMultisampleOES, first_glTexStorage3DMultisampleOES, hook_glTexStorage3DMultisampleOES, (target: u32, samples: i32, internalformat: u32, width: i32, height: i32, depth: i32, fixedsamplelocations: u8) -> (), {
+export! { 797, glTexStorage3DMultisampleOES, first_glTexStorage3DMultisampleOES, hook_glTexStorage3DMultisampleOES, (target: u32, samples: i32, internalformat: u32, width: i32, height: i32, depth: i32, fixedsamplelocations: u8) -> (), {
     hooks::texture(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexStorage3DMultisampleOES(target, samples, internalformat, width, height, depth, fixedsamplelocations) };
 } }
-export! { 800, glTexImage3DOES, first_glTexImage3DOES, hook_glTexImage3DOES, (target: u32, level: i32, internalformat: u32, width: i32, height: i32, depth: i32, border: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
+export! { 798, glTexImage3DOES, first_glTexImage3DOES, hook_glTexImage3DOES, (target: u32, level: i32, internalformat: u32, width: i32, height: i32, depth: i32, border: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
     hooks::texture(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexImage3DOES(target, level, internalformat, width, height, depth, border, format, type_, pixels) };
 } }
-export! { 801, glTexSubImage3DOES, first_glTexSubImage3DOES, hook_glTexSubImage3DOES, (target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
+export! { 799, glTexSubImage3DOES, first_glTexSubImage3DOES, hook_glTexSubImage3DOES, (target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
     hooks::texture(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexSubImage3DOES(target, level, xoffset, yoffset, zoffset, width, height, depth, format, type_, pixels) };
 } }
-export! { 802, glCompressedTexImage3DOES, first_glCompressedTexImage3DOES, hook_glCompressedTexImage3DOES, (target: u32, level: i32, internalformat: u32, width: i32, height: i32, depth: i32, border: i32, imageSize: i32, data: Ptr) -> (), {
+export! { 800, glCompressedTexImage3DOES, first_glCompressedTexImage3DOES, hook_glCompressedTexImage3DOES, (target: u32, level: i32, internalformat: u32, width: i32, height: i32, depth: i32, border: i32, imageSize: i32, data: Ptr) -> (), {
     hooks::texture(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glCompressedTexImage3DOES(target, level, internalformat, width, height, depth, border, imageSize, data) };
 } }
-export! { 803, glCompressedTexSubImage3DOES, first_glCompressedTexSubImage3DOES, hook_glCompressedTexSubImage3DOES, (target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, format: u32, imageSize: i32, data: Ptr) -> (), {
+export! { 801, glCompressedTexSubImage3DOES, first_glCompressedTexSubImage3DOES, hook_glCompressedTexSubImage3DOES, (target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, format: u32, imageSize: i32, data: Ptr) -> (), {
     hooks::texture(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glCompressedTexSubImage3DOES(target, level, xoffset, yoffset, zoffset, width, height, depth, format, imageSize, data) };
 } }
-export! { 804, glEGLImageTargetTexture2DOES, first_glEGLImageTargetTexture2DOES, hook_glEGLImageTargetTexture2DOES, (target: u32, image: Ptr) -> (), {
+export! { 802, glEGLImageTargetTexture2DOES, first_glEGLImageTargetTexture2DOES, hook_glEGLImageTargetTexture2DOES, (target: u32, image: Ptr) -> (), {
     hooks::texture(target);
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glEGLImageTargetTexture2DOES(target, image) };
 } }
-export! { 805, glTextureSubImage1D, first_glTextureSubImage1D, hook_glTextureSubImage1D, (texture: u32, level: i32, xoffset: i32, width: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
+export! { 803, glTextureSubImage1D, first_glTextureSubImage1D, hook_glTextureSubImage1D, (texture: u32, level: i32, xoffset: i32, width: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
     hooks::named(Object::Texture(texture));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTextureSubImage1D(texture, level, xoffset, width, format, type_, pixels) };
 } }
-export! { 806, glTextureSubImage2D, first_glTextureSubImage2D, hook_glTextureSubImage2D, (texture: u32, level: i32, xoffset: i32, yoffset: i32, width: i32, height: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
+export! { 804, glTextureSubImage2D, first_glTextureSubImage2D, hook_glTextureSubImage2D, (texture: u32, level: i32, xoffset: i32, yoffset: i32, width: i32, height: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
     hooks::named(Object::Texture(texture));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTextureSubImage2D(texture, level, xoffset, yoffset, width, height, format, type_, pixels) };
 } }
-export! { 807, glTextureSubImage3D, first_glTextureSubImage3D, hook_glTextureSubImage3D, (texture: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
+export! { 805, glTextureSubImage3D, first_glTextureSubImage3D, hook_glTextureSubImage3D, (texture: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
     hooks::named(Object::Texture(texture));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTextureSubImage3D(texture, level, xoffset, yoffset, zoffset, width, height, depth, format, type_, pixels) };
 } }
-export! { 808, glCompressedTextureSubImage1D, first_glCompressedTextureSubImage1D, hook_glCompressedTextureSubImage1D, (texture: u32, level: i32, xoffset: i32, width: i32, format: u32, imageSize: i32, data: Ptr) -> (), {
+export! { 806, glCompressedTextureSubImage1D, first_glCompressedTextureSubImage1D, hook_glCompressedTextureSubImage1D, (texture: u32, level: i32, xoffset: i32, width: i32, format: u32, imageSize: i32, data: Ptr) -> (), {
     hooks::named(Object::Texture(texture));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glCompressedTextureSubImage1D(texture, level, xoffset, width, format, imageSize, data) };
 } }
-export! { 809, glCompressedTextureSubImage2D, first_glCompressedTextureSubImage2D, hook_glCompressedTextureSubImage2D, (texture: u32, level: i32, xoffset: i32, yoffset: i32, width: i32, height: i32, format: u32, imageSize: i32, data: Ptr) -> (), {
+export! { 807, glCompressedTextureSubImage2D, first_glCompressedTextureSubImage2D, hook_glCompressedTextureSubImage2D, (texture: u32, level: i32, xoffset: i32, yoffset: i32, width: i32, height: i32, format: u32, imageSize: i32, data: Ptr) -> (), {
     hooks::named(Object::Texture(texture));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glCompressedTextureSubImage2D(texture, level, xoffset, yoffset, width, height, format, imageSize, data) };
 } }
-export! { 810, glCompressedTextureSubImage3D, first_glCompressedTextureSubImage3D, hook_glCompressedTextureSubImage3D, (texture: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, format: u32, imageSize: i32, data: Ptr) -> (), {
+export! { 808, glCompressedTextureSubImage3D, first_glCompressedTextureSubImage3D, hook_glCompressedTextureSubImage3D, (texture: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, format: u32, imageSize: i32, data: Ptr) -> (), {
     hooks::named(Object::Texture(texture));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glCompressedTextureSubImage3D(texture, level, xoffset, yoffset, zoffset, width, height, depth, format, imageSize, data) };
 } }
-export! { 811, glTextureStorage1D, first_glTextureStorage1D, hook_glTextureStorage1D, (texture: u32, levels: i32, internalformat: u32, width: i32) -> (), {
+export! { 809, glTextureStorage1D, first_glTextureStorage1D, hook_glTextureStorage1D, (texture: u32, levels: i32, internalformat: u32, width: i32) -> (), {
     hooks::named(Object::Texture(texture));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTextureStorage1D(texture, levels, internalformat, width) };
 } }
-export! { 812, glTextureStorage2D, first_glTextureStorage2D, hook_glTextureStorage2D, (texture: u32, levels: i32, internalformat: u32, width: i32, height: i32) -> (), {
+export! { 810, glTextureStorage2D, first_glTextureStorage2D, hook_glTextureStorage2D, (texture: u32, levels: i32, internalformat: u32, width: i32, height: i32) -> (), {
     hooks::named(Object::Texture(texture));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTextureStorage2D(texture, levels, internalformat, width, height) };
 } }
-export! { 813, glTextureStorage3D, first_glTextureStorage3D, hook_glTextureStorage3D, (texture: u32, levels: i32, internalformat: u32, width: i32, height: i32, depth: i32) -> (), {
+export! { 811, glTextureStorage3D, first_glTextureStorage3D, hook_glTextureStorage3D, (texture: u32, levels: i32, internalformat: u32, width: i32, height: i32, depth: i32) -> (), {
     hooks::named(Object::Texture(texture));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTextureStorage3D(texture, levels, internalformat, width, height, depth) };
 } }
-export! { 814, glTextureStorage2DMultisample, first_glTextureStorage2DMultisample, hook_glTextureStorage2DMultisample, (texture: u32, samples: i32, internalformat: u32, width: i32, height: i32, fixedsamplelocations: u8) -> (), {
+export! { 812, glTextureStorage2DMultisample, first_glTextureStorage2DMultisample, hook_glTextureStorage2DMultisample, (texture: u32, samples: i32, internalformat: u32, width: i32, height: i32, fixedsamplelocations: u8) -> (), {
     hooks::named(Object::Texture(texture));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTextureStorage2DMultisample(texture, samples, internalformat, width, height, fixedsamplelocations) };
 } }
-export! { 815, glTextureStorage3DMultisample, first_glTextureStorage3DMultisample, hook_glTextureStorage3DMultisample, (texture: u32, samples: i32, internalformat: u32, width: i32, height: i32, depth: i32, fixedsamplelocations: u8) -> (), {
+export! { 813, glTextureStorage3DMultisample, first_glTextureStorage3DMultisample, hook_glTextureStorage3DMultisample, (texture: u32, samples: i32, internalformat: u32, width: i32, height: i32, depth: i32, fixedsamplelocations: u8) -> (), {
     hooks::named(Object::Texture(texture));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTextureStorage3DMultisample(texture, samples, internalformat, width, height, depth, fixedsamplelocations) };
 } }
-export! { 816, glClearTexImage, first_glClearTexImage, hook_glClearTexImage, (texture: u32, level: i32, format: u32, type_: u32, data: Ptr) -> (), {
+export! { 814, glClearTexImage, first_glClearTexImage, hook_glClearTexImage, (texture: u32, level: i32, format: u32, type_: u32, data: Ptr) -> (), {
     hooks::named(Object::Texture(texture));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glClearTexImage(texture, level, format, type_, data) };
 } }
-export! { 817, glClearTexImageEXT, first_glClearTexImageEXT, hook_glClearTexImageEXT, (texture: u32, level: i32, format: u32, type_: u32, data: Ptr) -> (), {
+export! { 815, glClearTexImageEXT, first_glClearTexImageEXT, hook_glClearTexImageEXT, (texture: u32, level: i32, format: u32, type_: u32, data: Ptr) -> (), {
     hooks::named(Object::Texture(texture));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glClearTexImageEXT(texture, level, format, type_, data) };
 } }
-export! { 818, glClearTexSubImage, first_glClearTexSubImage, hook_glClearTexSubImage, (texture: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, format: u32, type_: u32, data: Ptr) -> (), {
+export! { 816, glClearTexSubImage, first_glClearTexSubImage, hook_glClearTexSubImage, (texture: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, format: u32, type_: u32, data: Ptr) -> (), {
     hooks::named(Object::Texture(texture));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glClearTexSubImage(texture, level, xoffset, yoffset, zoffset, width, height, depth, format, type_, data) };
 } }
-export! { 819, glClearTexSubImageEXT, first_glClearTexSubImageEXT, hook_glClearTexSubImageEXT, (texture: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, format: u32, type_: u32, data: Ptr) -> (), {
+export! { 817, glClearTexSubImageEXT, first_glClearTexSubImageEXT, hook_glClearTexSubImageEXT, (texture: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, format: u32, type_: u32, data: Ptr) -> (), {
     hooks::named(Object::Texture(texture));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glClearTexSubImageEXT(texture, level, xoffset, yoffset, zoffset, width, height, depth, format, type_, data) };
 } }
-export! { 820, glNamedRenderbufferStorage, first_glNamedRenderbufferStorage, hook_glNamedRenderbufferStorage, (renderbuffer: u32, internalformat: u32, width: i32, height: i32) -> (), {
+export! { 818, glNamedRenderbufferStorage, first_glNamedRenderbufferStorage, hook_glNamedRenderbufferStorage, (renderbuffer: u32, internalformat: u32, width: i32, height: i32) -> (), {
     hooks::named(Object::Renderbuffer(renderbuffer));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glNamedRenderbufferStorage(renderbuffer, internalformat, width, height) };
 } }
-export! { 821, glNamedRenderbufferStorageMultisample, first_glNamedRenderbufferStorageMultisample, hook_glNamedRenderbufferStorageMultisample, (renderbuffer: u32, samples: i32, internalformat: u32, width: i32, height: i32) -> (), {
+export! { 819, glNamedRenderbufferStorageMultisample, first_glNamedRenderbufferStorageMultisample, hook_glNamedRenderbufferStorageMultisample, (renderbuffer: u32, samples: i32, internalformat: u32, width: i32, height: i32) -> (), {
     hooks::named(Object::Renderbuffer(renderbuffer));
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glNamedRenderbufferStorageMultisample(renderbuffer, samples, internalformat, width, height) };
 } }
-export! { 822, glTexParameterf, first_glTexParameterf, hook_glTexParameterf, (target: u32, pname: u32, param: f32) -> (), {
+export! { 820, glTexParameterf, first_glTexParameterf, hook_glTexParameterf, (target: u32, pname: u32, param: f32) -> (), {
     hooks::look();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexParameterf(target, pname, param) };
 } }
-export! { 823, glTexParameterfv, first_glTexParameterfv, hook_glTexParameterfv, (target: u32, pname: u32, params: Ptr) -> (), {
+export! { 821, glTexParameterfv, first_glTexParameterfv, hook_glTexParameterfv, (target: u32, pname: u32, params: Ptr) -> (), {
     hooks::look();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexParameterfv(target, pname, params) };
 } }
-export! { 824, glTexParameteri, first_glTexParameteri, hook_glTexParameteri, (target: u32, pname: u32, param: i32) -> (), {
+export! { 822, glTexParameteri, first_glTexParameteri, hook_glTexParameteri, (target: u32, pname: u32, param: i32) -> (), {
     hooks::look();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexParameteri(target, pname, param) };
 } }
-export! { 825, glTexParameteriv, first_glTexParameteriv, hook_glTexParameteriv, (target: u32, pname: u32, params: Ptr) -> (), {
+export! { 823, glTexParameteriv, first_glTexParameteriv, hook_glTexParameteriv, (target: u32, pname: u32, params: Ptr) -> (), {
     hooks::look();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexParameteriv(target, pname, params) };
 } }
-export! { 826, glTexParameterIiv, first_glTexParameterIiv, hook_glTexParameterIiv, (target: u32, pname: u32, params: Ptr) -> (), {
+export! { 824, glTexParameterIiv, first_glTexParameterIiv, hook_glTexParameterIiv, (target: u32, pname: u32, params: Ptr) -> (), {
     hooks::look();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexParameterIiv(target, pname, params) };
 } }
-export! { 827, glTexParameterIivEXT, first_glTexParameterIivEXT, hook_glTexParameterIivEXT, (target: u32, pname: u32, params: Ptr) -> (), {
+export! { 825, glTexParameterIivEXT, first_glTexParameterIivEXT, hook_glTexParameterIivEXT, (target: u32, pname: u32, params: Ptr) -> (), {
     hooks::look();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexParameterIivEXT(target, pname, params) };
 } }
-export! { 828, glTexParameterIivOES, first_glTexParameterIivOES, hook_glTexParameterIivOES, (target: u32, pname: u32, params: Ptr) -> (), {
+export! { 826, glTexParameterIivOES, first_glTexParameterIivOES, hook_glTexParameterIivOES, (target: u32, pname: u32, params: Ptr) -> (), {
     hooks::look();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexParameterIivOES(target, pname, params) };
 } }
-export! { 829, glTexParameterIuiv, first_glTexParameterIuiv, hook_glTexParameterIuiv, (target: u32, pname: u32, params: Ptr) -> (), {
+export! { 827, glTexParameterIuiv, first_glTexParameterIuiv, hook_glTexParameterIuiv, (target: u32, pname: u32, params: Ptr) -> (), {
     hooks::look();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexParameterIuiv(target, pname, params) };
 } }
-export! { 830, glTexParameterIuivEXT, first_glTexParameterIuivEXT, hook_glTexParameterIuivEXT, (target: u32, pname: u32, params: Ptr) -> (), {
+export! { 828, glTexParameterIuivEXT, first_glTexParameterIuivEXT, hook_glTexParameterIuivEXT, (target: u32, pname: u32, params: Ptr) -> (), {
     hooks::look();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexParameterIuivEXT(target, pname, params) };
 } }
-export! { 831, glTexParameterIuivOES, first_glTexParameterIuivOES, hook_glTexParameterIuivOES, (target: u32, pname: u32, params: Ptr) -> (), {
+export! { 829, glTexParameterIuivOES, first_glTexParameterIuivOES, hook_glTexParameterIuivOES, (target: u32, pname: u32, params: Ptr) -> (), {
     hooks::look();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexParameterIuivOES(target, pname, params) };
 } }
-export! { 832, glTextureParameterf, first_glTextureParameterf, hook_glTextureParameterf, (texture: u32, pname: u32, param: f32) -> (), {
+export! { 830, glTextureParameterf, first_glTextureParameterf, hook_glTextureParameterf, (texture: u32, pname: u32, param: f32) -> (), {
     hooks::look();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTextureParameterf(texture, pname, param) };
 } }
-export! { 833, glTextureParameterfv, first_glTextureParameterfv, hook_glTextureParameterfv, (texture: u32, pname: u32, param: Ptr) -> (), {
+export! { 831, glTextureParameterfv, first_glTextureParameterfv, hook_glTextureParameterfv, (texture: u32, pname: u32, param: Ptr) -> (), {
     hooks::look();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTextureParameterfv(texture, pname, param) };
 } }
-export! { 834, glTextureParameteri, first_glTextureParameteri, hook_glTextureParameteri, (texture: u32, pname: u32, param: i32) -> (), {
+export! { 832, glTextureParameteri, first_glTextureParameteri, hook_glTextureParameteri, (texture: u32, pname: u32, param: i32) -> (), {
     hooks::look();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTextureParameteri(texture, pname, param) };
 } }
-export! { 835, glTextureParameteriv, first_glTextureParameteriv, hook_glTextureParameteriv, (texture: u32, pname: u32, param: Ptr) -> (), {
+export! { 833, glTextureParameteriv, first_glTextureParameteriv, hook_glTextureParameteriv, (texture: u32, pname: u32, param: Ptr) -> (), {
     hooks::look();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTextureParameteriv(texture, pname, param) };
 } }
-export! { 836, glTextureParameterIiv, first_glTextureParameterIiv, hook_glTextureParameterIiv, (texture: u32, pname: u32, params: Ptr) -> (), {
+export! { 834, glTextureParameterIiv, first_glTextureParameterIiv, hook_glTextureParameterIiv, (texture: u32, pname: u32, params: Ptr) -> (), {
     hooks::look();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTextureParameterIiv(texture, pname, params) };
 } }
-export! { 837, glTextureParameterIuiv, first_glTextureParameterIuiv, hook_glTextureParameterIuiv, (texture: u32, pname: u32, params: Ptr) -> (), {
+export! { 835, glTextureParameterIuiv, first_glTextureParameterIuiv, hook_glTextureParameterIuiv, (texture: u32, pname: u32, params: Ptr) -> (), {
     hooks::look();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTextureParameterIuiv(texture, pname, params) };
 } }
-export! { 838, glGenerateMipmap, first_glGenerateMipmap, hook_glGenerateMipmap, (target: u32) -> (), {
+export! { 836, glGenerateMipmap, first_glGenerateMipmap, hook_glGenerateMipmap, (target: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::mipmap(target, &mut |gl| unsafe { gl.glGenerateMipmap(target) })
 } }
-export! { 839, glGenerateMipmapEXT, first_glGenerateMipmapEXT, hook_glGenerateMipmapEXT, (target: u32) -> (), {
+export! { 837, glGenerateMipmapEXT, first_glGenerateMipmapEXT, hook_glGenerateMipmapEXT, (target: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::mipmap(target, &mut |gl| unsafe { gl.glGenerateMipmapEXT(target) })
 } }
-export! { 840, glGenerateTextureMipmap, first_glGenerateTextureMipmap, hook_glGenerateTextureMipmap, (texture: u32) -> (), {
+export! { 838, glGenerateTextureMipmap, first_glGenerateTextureMipmap, hook_glGenerateTextureMipmap, (texture: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGenerateTextureMipmap(texture) }
 } }
-export! { 841, glCopyImageSubData, first_glCopyImageSubData, hook_glCopyImageSubData, (srcName: u32, srcTarget: u32, srcLevel: i32, srcX: i32, srcY: i32, srcZ: i32, dstName: u32, dstTarget: u32, dstLevel: i32, dstX: i32, dstY: i32, dstZ: i32, srcWidth: i32, srcHeight: i32, srcDepth: i32) -> (), {
+export! { 839, glCopyImageSubData, first_glCopyImageSubData, hook_glCopyImageSubData, (srcName: u32, srcTarget: u32, srcLevel: i32, srcX: i32, srcY: i32, srcZ: i32, dstName: u32, dstTarget: u32, dstLevel: i32, dstX: i32, dstY: i32, dstZ: i32, srcWidth: i32, srcHeight: i32, srcDepth: i32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glCopyImageSubData(srcName, srcTarget, srcLevel, srcX, srcY, srcZ, dstName, dstTarget, dstLevel, dstX, dstY, dstZ, srcWidth, srcHeight, srcDepth) }
 } }
-export! { 842, glCopyImageSubDataEXT, first_glCopyImageSubDataEXT, hook_glCopyImageSubDataEXT, (srcName: u32, srcTarget: u32, srcLevel: i32, srcX: i32, srcY: i32, srcZ: i32, dstName: u32, dstTarget: u32, dstLevel: i32, dstX: i32, dstY: i32, dstZ: i32, srcWidth: i32, srcHeight: i32, srcDepth: i32) -> (), {
+export! { 840, glCopyImageSubDataEXT, first_glCopyImageSubDataEXT, hook_glCopyImageSubDataEXT, (srcName: u32, srcTarget: u32, srcLevel: i32, srcX: i32, srcY: i32, srcZ: i32, dstName: u32, dstTarget: u32, dstLevel: i32, dstX: i32, dstY: i32, dstZ: i32, srcWidth: i32, srcHeight: i32, srcDepth: i32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glCopyImageSubData(srcName, srcTarget, srcLevel, srcX, srcY, srcZ, dstName, dstTarget, dstLevel, dstX, dstY, dstZ, srcWidth, srcHeight, srcDepth) }
 } }
-export! { 843, glCopyImageSubDataOES, first_glCopyImageSubDataOES, hook_glCopyImageSubDataOES, (srcName: u32, srcTarget: u32, srcLevel: i32, srcX: i32, srcY: i32, srcZ: i32, dstName: u32, dstTarget: u32, dstLevel: i32, dstX: i32, dstY: i32, dstZ: i32, srcWidth: i32, srcHeight: i32, srcDepth: i32) -> (), {
+export! { 841, glCopyImageSubDataOES, first_glCopyImageSubDataOES, hook_glCopyImageSubDataOES, (srcName: u32, srcTarget: u32, srcLevel: i32, srcX: i32, srcY: i32, srcZ: i32, dstName: u32, dstTarget: u32, dstLevel: i32, dstX: i32, dstY: i32, dstZ: i32, srcWidth: i32, srcHeight: i32, srcDepth: i32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glCopyImageSubData(srcName, srcTarget, srcLevel, srcX, srcY, srcZ, dstName, dstTarget, dstLevel, dstX, dstY, dstZ, srcWidth, srcHeight, srcDepth) }
 } }
-export! { 844, glGetTextureImage, first_glGetTextureImage, hook_glGetTextureImage, (texture: u32, level: i32, format: u32, type_: u32, bufSize: i32, pixels: Ptr) -> (), {
+export! { 842, glGetTextureImage, first_glGetTextureImage, hook_glGetTextureImage, (texture: u32, level: i32, format: u32, type_: u32, bufSize: i32, pixels: Ptr) -> (), {
     hooks::settle();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetTextureImage(texture, level, format, type_, bufSize, pixels) };
 } }
-export! { 845, glGetTextureSubImage, first_glGetTextureSubImage, hook_glGetTextureSubImage, (texture: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, format: u32, type_: u32, bufSize: i32, pixels: Ptr) -> (), {
+export! { 843, glGetTextureSubImage, first_glGetTextureSubImage, hook_glGetTextureSubImage, (texture: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, format: u32, type_: u32, bufSize: i32, pixels: Ptr) -> (), {
     hooks::settle();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetTextureSubImage(texture, level, xoffset, yoffset, zoffset, width, height, depth, format, type_, bufSize, pixels) };
 } }
-export! { 846, glGetCompressedTextureImage, first_glGetCompressedTextureImage, hook_glGetCompressedTextureImage, (texture: u32, level: i32, bufSize: i32, pixels: Ptr) -> (), {
+export! { 844, glGetCompressedTextureImage, first_glGetCompressedTextureImage, hook_glGetCompressedTextureImage, (texture: u32, level: i32, bufSize: i32, pixels: Ptr) -> (), {
     hooks::settle();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetCompressedTextureImage(texture, level, bufSize, pixels) };
 } }
-export! { 847, glBindImageTexture, first_glBindImageTexture, hook_glBindImageTexture, (unit: u32, texture: u32, level: i32, layered: u8, layer: i32, access: u32, format: u32) -> (), {
+export! { 845, glBindImageTexture, first_glBindImageTexture, hook_glBindImageTexture, (unit: u32, texture: u32, level: i32, layered: u8, layer: i32, access: u32, format: u32) -> (), {
     hooks::settle();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBindImageTexture(unit, texture, level, layered, layer, access, format) };
 } }
-export! { 848, glBindImageTextures, first_glBindImageTextures, hook_glBindImageTextures, (first: u32, count: i32, textures: Ptr) -> (), {
+export! { 846, glBindImageTextures, first_glBindImageTextures, hook_glBindImageTextures, (first: u32, count: i32, textures: Ptr) -> (), {
     hooks::settle();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBindImageTextures(first, count, textures) };
 } }
-export! { 849, glDispatchCompute, first_glDispatchCompute, hook_glDispatchCompute, (num_groups_x: u32, num_groups_y: u32, num_groups_z: u32) -> (), {
+export! { 847, glDispatchCompute, first_glDispatchCompute, hook_glDispatchCompute, (num_groups_x: u32, num_groups_y: u32, num_groups_z: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::compute(&mut |gl| unsafe { gl.glDispatchCompute(num_groups_x, num_groups_y, num_groups_z) })
 } }
-export! { 850, glDispatchComputeIndirect, first_glDispatchComputeIndirect, hook_glDispatchComputeIndirect, (indirect: isize) -> (), {
+export! { 848, glDispatchComputeIndirect, first_glDispatchComputeIndirect, hook_glDispatchComputeIndirect, (indirect: isize) -> (), {
     // SAFETY: the program's own call.
     hooks::compute(&mut |gl| unsafe { gl.glDispatchComputeIndirect(indirect) })
 } }
-export! { 851, glVertexAttribDivisor, first_glVertexAttribDivisor, hook_glVertexAttribDivisor, (index: u32, divisor: u32) -> (), {
+export! { 849, glVertexAttribDivisor, first_glVertexAttribDivisor, hook_glVertexAttribDivisor, (index: u32, divisor: u32) -> (), {
     hooks::divide();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glVertexAttribDivisor(index, divisor) };
 } }
-export! { 852, glVertexAttribDivisorANGLE, first_glVertexAttribDivisorANGLE, hook_glVertexAttribDivisorANGLE, (index: u32, divisor: u32) -> (), {
+export! { 850, glVertexAttribDivisorANGLE, first_glVertexAttribDivisorANGLE, hook_glVertexAttribDivisorANGLE, (index: u32, divisor: u32) -> (), {
     hooks::divide();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glVertexAttribDivisorANGLE(index, divisor) };
 } }
-export! { 853, glVertexAttribDivisorARB, first_glVertexAttribDivisorARB, hook_glVertexAttribDivisorARB, (index: u32, divisor: u32) -> (), {
+export! { 851, glVertexAttribDivisorARB, first_glVertexAttribDivisorARB, hook_glVertexAttribDivisorARB, (index: u32, divisor: u32) -> (), {
     hooks::divide();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glVertexAttribDivisorARB(index, divisor) };
 } }
-export! { 854, glVertexAttribDivisorEXT, first_glVertexAttribDivisorEXT, hook_glVertexAttribDivisorEXT, (index: u32, divisor: u32) -> (), {
+export! { 852, glVertexAttribDivisorEXT, first_glVertexAttribDivisorEXT, hook_glVertexAttribDivisorEXT, (index: u32, divisor: u32) -> (), {
     hooks::divide();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glVertexAttribDivisorEXT(index, divisor) };
 } }
-export! { 855, glVertexAttribDivisorNV, first_glVertexAttribDivisorNV, hook_glVertexAttribDivisorNV, (index: u32, divisor: u32) -> (), {
+export! { 853, glVertexAttribDivisorNV, first_glVertexAttribDivisorNV, hook_glVertexAttribDivisorNV, (index: u32, divisor: u32) -> (), {
     hooks::divide();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glVertexAttribDivisorNV(index, divisor) };
 } }
-export! { 856, glVertexBindingDivisor, first_glVertexBindingDivisor, hook_glVertexBindingDivisor, (bindingindex: u32, divisor: u32) -> (), {
+export! { 854, glVertexBindingDivisor, first_glVertexBindingDivisor, hook_glVertexBindingDivisor, (bindingindex: u32, divisor: u32) -> (), {
     hooks::divide();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glVertexBindingDivisor(bindingindex, divisor) };
 } }
-export! { 857, glVertexArrayBindingDivisor, first_glVertexArrayBindingDivisor, hook_glVertexArrayBindingDivisor, (vaobj: u32, bindingindex: u32, divisor: u32) -> (), {
+export! { 855, glVertexArrayBindingDivisor, first_glVertexArrayBindingDivisor, hook_glVertexArrayBindingDivisor, (vaobj: u32, bindingindex: u32, divisor: u32) -> (), {
     hooks::divide();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glVertexArrayBindingDivisor(vaobj, bindingindex, divisor) };
 } }
-export! { 858, glProgramEnvParameter4dARB, first_glProgramEnvParameter4dARB, hook_glProgramEnvParameter4dARB, (target: u32, index: u32, x: f64, y: f64, z: f64, w: f64) -> (), {
+export! { 856, glProgramEnvParameter4dARB, first_glProgramEnvParameter4dARB, hook_glProgramEnvParameter4dARB, (target: u32, index: u32, x: f64, y: f64, z: f64, w: f64) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramEnvParameter4dARB(target, index, x, y, z, w) };
 } }
-export! { 859, glProgramEnvParameter4dvARB, first_glProgramEnvParameter4dvARB, hook_glProgramEnvParameter4dvARB, (target: u32, index: u32, params: Ptr) -> (), {
+export! { 857, glProgramEnvParameter4dvARB, first_glProgramEnvParameter4dvARB, hook_glProgramEnvParameter4dvARB, (target: u32, index: u32, params: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramEnvParameter4dvARB(target, index, params) };
 } }
-export! { 860, glProgramEnvParameter4fARB, first_glProgramEnvParameter4fARB, hook_glProgramEnvParameter4fARB, (target: u32, index: u32, x: f32, y: f32, z: f32, w: f32) -> (), {
+export! { 858, glProgramEnvParameter4fARB, first_glProgramEnvParameter4fARB, hook_glProgramEnvParameter4fARB, (target: u32, index: u32, x: f32, y: f32, z: f32, w: f32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramEnvParameter4fARB(target, index, x, y, z, w) };
 } }
-export! { 861, glProgramEnvParameter4fvARB, first_glProgramEnvParameter4fvARB, hook_glProgramEnvParameter4fvARB, (target: u32, index: u32, params: Ptr) -> (), {
+export! { 859, glProgramEnvParameter4fvARB, first_glProgramEnvParameter4fvARB, hook_glProgramEnvParameter4fvARB, (target: u32, index: u32, params: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramEnvParameter4fvARB(target, index, params) };
 } }
-export! { 862, glProgramLocalParameter4dARB, first_glProgramLocalParameter4dARB, hook_glProgramLocalParameter4dARB, (target: u32, index: u32, x: f64, y: f64, z: f64, w: f64) -> (), {
+export! { 860, glProgramLocalParameter4dARB, first_glProgramLocalParameter4dARB, hook_glProgramLocalParameter4dARB, (target: u32, index: u32, x: f64, y: f64, z: f64, w: f64) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramLocalParameter4dARB(target, index, x, y, z, w) };
 } }
-export! { 863, glProgramLocalParameter4dvARB, first_glProgramLocalParameter4dvARB, hook_glProgramLocalParameter4dvARB, (target: u32, index: u32, params: Ptr) -> (), {
+export! { 861, glProgramLocalParameter4dvARB, first_glProgramLocalParameter4dvARB, hook_glProgramLocalParameter4dvARB, (target: u32, index: u32, params: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramLocalParameter4dvARB(target, index, params) };
 } }
-export! { 864, glProgramLocalParameter4fARB, first_glProgramLocalParameter4fARB, hook_glProgramLocalParameter4fARB, (target: u32, index: u32, x: f32, y: f32, z: f32, w: f32) -> (), {
+export! { 862, glProgramLocalParameter4fARB, first_glProgramLocalParameter4fARB, hook_glProgramLocalParameter4fARB, (target: u32, index: u32, x: f32, y: f32, z: f32, w: f32) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramLocalParameter4fARB(target, index, x, y, z, w) };
 } }
-export! { 865, glProgramLocalParameter4fvARB, first_glProgramLocalParameter4fvARB, hook_glProgramLocalParameter4fvARB, (target: u32, index: u32, params: Ptr) -> (), {
+export! { 863, glProgramLocalParameter4fvARB, first_glProgramLocalParameter4fvARB, hook_glProgramLocalParameter4fvARB, (target: u32, index: u32, params: Ptr) -> (), {
     hooks::any();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramLocalParameter4fvARB(target, index, params) };
 } }
-export! { 866, glUniform1d, first_glUniform1d, hook_glUniform1d, (location: i32, x: f64) -> (), {
+export! { 864, glUniform1d, first_glUniform1d, hook_glUniform1d, (location: i32, x: f64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1d(location, x) };
 } }
-export! { 867, glUniform1dv, first_glUniform1dv, hook_glUniform1dv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 865, glUniform1dv, first_glUniform1dv, hook_glUniform1dv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1dv(location, count, value) };
 } }
-export! { 868, glUniform1f, first_glUniform1f, hook_glUniform1f, (location: i32, v0: f32) -> (), {
+export! { 866, glUniform1f, first_glUniform1f, hook_glUniform1f, (location: i32, v0: f32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1f(location, v0) };
 } }
-export! { 869, glUniform1fARB, first_glUniform1fARB, hook_glUniform1fARB, (location: i32, v0: f32) -> (), {
+export! { 867, glUniform1fARB, first_glUniform1fARB, hook_glUniform1fARB, (location: i32, v0: f32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1fARB(location, v0) };
 } }
-export! { 870, glUniform1fv, first_glUniform1fv, hook_glUniform1fv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 868, glUniform1fv, first_glUniform1fv, hook_glUniform1fv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1fv(location, count, value) };
 } }
-export! { 871, glUniform1fvARB, first_glUniform1fvARB, hook_glUniform1fvARB, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 869, glUniform1fvARB, first_glUniform1fvARB, hook_glUniform1fvARB, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1fvARB(location, count, value) };
 } }
-export! { 872, glUniform1i, first_glUniform1i, hook_glUniform1i, (location: i32, v0: i32) -> (), {
+export! { 870, glUniform1i, first_glUniform1i, hook_glUniform1i, (location: i32, v0: i32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1i(location, v0) };
 } }
-export! { 873, glUniform1iARB, first_glUniform1iARB, hook_glUniform1iARB, (location: i32, v0: i32) -> (), {
+export! { 871, glUniform1iARB, first_glUniform1iARB, hook_glUniform1iARB, (location: i32, v0: i32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1iARB(location, v0) };
 } }
-export! { 874, glUniform1iv, first_glUniform1iv, hook_glUniform1iv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 872, glUniform1iv, first_glUniform1iv, hook_glUniform1iv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1iv(location, count, value) };
 } }
-export! { 875, glUniform1ivARB, first_glUniform1ivARB, hook_glUniform1ivARB, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 873, glUniform1ivARB, first_glUniform1ivARB, hook_glUniform1ivARB, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1ivARB(location, count, value) };
 } }
-export! { 876, glUniform1ui, first_glUniform1ui, hook_glUniform1ui, (location: i32, v0: u32) -> (), {
+export! { 874, glUniform1ui, first_glUniform1ui, hook_glUniform1ui, (location: i32, v0: u32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1ui(location, v0) };
 } }
-export! { 877, glUniform1uiEXT, first_glUniform1uiEXT, hook_glUniform1uiEXT, (location: i32, v0: u32) -> (), {
+export! { 875, glUniform1uiEXT, first_glUniform1uiEXT, hook_glUniform1uiEXT, (location: i32, v0: u32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1uiEXT(location, v0) };
 } }
-export! { 878, glUniform1uiv, first_glUniform1uiv, hook_glUniform1uiv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 876, glUniform1uiv, first_glUniform1uiv, hook_glUniform1uiv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1uiv(location, count, value) };
 } }
-export! { 879, glUniform1uivEXT, first_glUniform1uivEXT, hook_glUniform1uivEXT, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 877, glUniform1uivEXT, first_glUniform1uivEXT, hook_glUniform1uivEXT, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform1uivEXT(location, count, value) };
 } }
-export! { 880, glUniform2d, first_glUniform2d, hook_glUniform2d, (location: i32, x: f64, y: f64) -> (), {
+export! { 878, glUniform2d, first_glUniform2d, hook_glUniform2d, (location: i32, x: f64, y: f64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2d(location, x, y) };
 } }
-export! { 881, glUniform2dv, first_glUniform2dv, hook_glUniform2dv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 879, glUniform2dv, first_glUniform2dv, hook_glUniform2dv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2dv(location, count, value) };
 } }
-export! { 882, glUniform2f, first_glUniform2f, hook_glUniform2f, (location: i32, v0: f32, v1: f32) -> (), {
+export! { 880, glUniform2f, first_glUniform2f, hook_glUniform2f, (location: i32, v0: f32, v1: f32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2f(location, v0, v1) };
 } }
-export! { 883, glUniform2fARB, first_glUniform2fARB, hook_glUniform2fARB, (location: i32, v0: f32, v1: f32) -> (), {
+export! { 881, glUniform2fARB, first_glUniform2fARB, hook_glUniform2fARB, (location: i32, v0: f32, v1: f32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2fARB(location, v0, v1) };
 } }
-export! { 884, glUniform2fv, first_glUniform2fv, hook_glUniform2fv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 882, glUniform2fv, first_glUniform2fv, hook_glUniform2fv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2fv(location, count, value) };
 } }
-export! { 885, glUniform2fvARB, first_glUniform2fvARB, hook_glUniform2fvARB, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 883, glUniform2fvARB, first_glUniform2fvARB, hook_glUniform2fvARB, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2fvARB(location, count, value) };
 } }
-export! { 886, glUniform2i, first_glUniform2i, hook_glUniform2i, (location: i32, v0: i32, v1: i32) -> (), {
+export! { 884, glUniform2i, first_glUniform2i, hook_glUniform2i, (location: i32, v0: i32, v1: i32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2i(location, v0, v1) };
 } }
-export! { 887, glUniform2iARB, first_glUniform2iARB, hook_glUniform2iARB, (location: i32, v0: i32, v1: i32) -> (), {
+export! { 885, glUniform2iARB, first_glUniform2iARB, hook_glUniform2iARB, (location: i32, v0: i32, v1: i32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2iARB(location, v0, v1) };
 } }
-export! { 888, glUniform2iv, first_glUniform2iv, hook_glUniform2iv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 886, glUniform2iv, first_glUniform2iv, hook_glUniform2iv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2iv(location, count, value) };
 } }
-export! { 889, glUniform2ivARB, first_glUniform2ivARB, hook_glUniform2ivARB, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 887, glUniform2ivARB, first_glUniform2ivARB, hook_glUniform2ivARB, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2ivARB(location, count, value) };
 } }
-export! { 890, glUniform2ui, first_glUniform2ui, hook_glUniform2ui, (location: i32, v0: u32, v1: u32) -> (), {
+export! { 888, glUniform2ui, first_glUniform2ui, hook_glUniform2ui, (location: i32, v0: u32, v1: u32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2ui(location, v0, v1) };
 } }
-export! { 891, glUniform2uiEXT, first_glUniform2uiEXT, hook_glUniform2uiEXT, (location: i32, v0: u32, v1: u32) -> (), {
+export! { 889, glUniform2uiEXT, first_glUniform2uiEXT, hook_glUniform2uiEXT, (location: i32, v0: u32, v1: u32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2uiEXT(location, v0, v1) };
 } }
-export! { 892, glUniform2uiv, first_glUniform2uiv, hook_glUniform2uiv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 890, glUniform2uiv, first_glUniform2uiv, hook_glUniform2uiv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2uiv(location, count, value) };
 } }
-export! { 893, glUniform2uivEXT, first_glUniform2uivEXT, hook_glUniform2uivEXT, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 891, glUniform2uivEXT, first_glUniform2uivEXT, hook_glUniform2uivEXT, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform2uivEXT(location, count, value) };
 } }
-export! { 894, glUniform3d, first_glUniform3d, hook_glUniform3d, (location: i32, x: f64, y: f64, z: f64) -> (), {
+export! { 892, glUniform3d, first_glUniform3d, hook_glUniform3d, (location: i32, x: f64, y: f64, z: f64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3d(location, x, y, z) };
 } }
-export! { 895, glUniform3dv, first_glUniform3dv, hook_glUniform3dv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 893, glUniform3dv, first_glUniform3dv, hook_glUniform3dv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3dv(location, count, value) };
 } }
-export! { 896, glUniform3f, first_glUniform3f, hook_glUniform3f, (location: i32, v0: f32, v1: f32, v2: f32) -> (), {
+export! { 894, glUniform3f, first_glUniform3f, hook_glUniform3f, (location: i32, v0: f32, v1: f32, v2: f32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3f(location, v0, v1, v2) };
 } }
-export! { 897, glUniform3fARB, first_glUniform3fARB, hook_glUniform3fARB, (location: i32, v0: f32, v1: f32, v2: f32) -> (), {
+export! { 895, glUniform3fARB, first_glUniform3fARB, hook_glUniform3fARB, (location: i32, v0: f32, v1: f32, v2: f32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3fARB(location, v0, v1, v2) };
 } }
-export! { 898, glUniform3fv, first_glUniform3fv, hook_glUniform3fv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 896, glUniform3fv, first_glUniform3fv, hook_glUniform3fv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3fv(location, count, value) };
 } }
-export! { 899, glUniform3fvARB, first_glUniform3fvARB, hook_glUniform3fvARB, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 897, glUniform3fvARB, first_glUniform3fvARB, hook_glUniform3fvARB, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3fvARB(location, count, value) };
 } }
-export! { 900, glUniform3i, first_glUniform3i, hook_glUniform3i, (location: i32, v0: i32, v1: i32, v2: i32) -> (), {
+export! { 898, glUniform3i, first_glUniform3i, hook_glUniform3i, (location: i32, v0: i32, v1: i32, v2: i32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3i(location, v0, v1, v2) };
 } }
-export! { 901, glUniform3iARB, first_glUniform3iARB, hook_glUniform3iARB, (location: i32, v0: i32, v1: i32, v2: i32) -> (), {
+export! { 899, glUniform3iARB, first_glUniform3iARB, hook_glUniform3iARB, (location: i32, v0: i32, v1: i32, v2: i32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3iARB(location, v0, v1, v2) };
 } }
-export! { 902, glUniform3iv, first_glUniform3iv, hook_glUniform3iv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 900, glUniform3iv, first_glUniform3iv, hook_glUniform3iv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3iv(location, count, value) };
 } }
-export! { 903, glUniform3ivARB, first_glUniform3ivARB, hook_glUniform3ivARB, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 901, glUniform3ivARB, first_glUniform3ivARB, hook_glUniform3ivARB, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3ivARB(location, count, value) };
 } }
-export! { 904, glUniform3ui, first_glUniform3ui, hook_glUniform3ui, (location: i32, v0: u32, v1: u32, v2: u32) -> (), {
+export! { 902, glUniform3ui, first_glUniform3ui, hook_glUniform3ui, (location: i32, v0: u32, v1: u32, v2: u32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3ui(location, v0, v1, v2) };
 } }
-export! { 905, glUniform3uiEXT, first_glUniform3uiEXT, hook_glUniform3uiEXT, (location: i32, v0: u32, v1: u32, v2: u32) -> (), {
+export! { 903, glUniform3uiEXT, first_glUniform3uiEXT, hook_glUniform3uiEXT, (location: i32, v0: u32, v1: u32, v2: u32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3uiEXT(location, v0, v1, v2) };
 } }
-export! { 906, glUniform3uiv, first_glUniform3uiv, hook_glUniform3uiv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 904, glUniform3uiv, first_glUniform3uiv, hook_glUniform3uiv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3uiv(location, count, value) };
 } }
-export! { 907, glUniform3uivEXT, first_glUniform3uivEXT, hook_glUniform3uivEXT, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 905, glUniform3uivEXT, first_glUniform3uivEXT, hook_glUniform3uivEXT, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform3uivEXT(location, count, value) };
 } }
-export! { 908, glUniform4d, first_glUniform4d, hook_glUniform4d, (location: i32, x: f64, y: f64, z: f64, w: f64) -> (), {
+export! { 906, glUniform4d, first_glUniform4d, hook_glUniform4d, (location: i32, x: f64, y: f64, z: f64, w: f64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4d(location, x, y, z, w) };
 } }
-export! { 909, glUniform4dv, first_glUniform4dv, hook_glUniform4dv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 907, glUniform4dv, first_glUniform4dv, hook_glUniform4dv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4dv(location, count, value) };
 } }
-export! { 910, glUniform4f, first_glUniform4f, hook_glUniform4f, (location: i32, v0: f32, v1: f32, v2: f32, v3: f32) -> (), {
+export! { 908, glUniform4f, first_glUniform4f, hook_glUniform4f, (location: i32, v0: f32, v1: f32, v2: f32, v3: f32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4f(location, v0, v1, v2, v3) };
 } }
-export! { 911, glUniform4fARB, first_glUniform4fARB, hook_glUniform4fARB, (location: i32, v0: f32, v1: f32, v2: f32, v3: f32) -> (), {
+export! { 909, glUniform4fARB, first_glUniform4fARB, hook_glUniform4fARB, (location: i32, v0: f32, v1: f32, v2: f32, v3: f32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4fARB(location, v0, v1, v2, v3) };
 } }
-export! { 912, glUniform4fv, first_glUniform4fv, hook_glUniform4fv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 910, glUniform4fv, first_glUniform4fv, hook_glUniform4fv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4fv(location, count, value) };
 } }
-export! { 913, glUniform4fvARB, first_glUniform4fvARB, hook_glUniform4fvARB, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 911, glUniform4fvARB, first_glUniform4fvARB, hook_glUniform4fvARB, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4fvARB(location, count, value) };
 } }
-export! { 914, glUniform4i, first_glUniform4i, hook_glUniform4i, (location: i32, v0: i32, v1: i32, v2: i32, v3: i32) -> (), {
+export! { 912, glUniform4i, first_glUniform4i, hook_glUniform4i, (location: i32, v0: i32, v1: i32, v2: i32, v3: i32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4i(location, v0, v1, v2, v3) };
 } }
-export! { 915, glUniform4iARB, first_glUniform4iARB, hook_glUniform4iARB, (location: i32, v0: i32, v1: i32, v2: i32, v3: i32) -> (), {
+export! { 913, glUniform4iARB, first_glUniform4iARB, hook_glUniform4iARB, (location: i32, v0: i32, v1: i32, v2: i32, v3: i32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4iARB(location, v0, v1, v2, v3) };
 } }
-export! { 916, glUniform4iv, first_glUniform4iv, hook_glUniform4iv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 914, glUniform4iv, first_glUniform4iv, hook_glUniform4iv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4iv(location, count, value) };
 } }
-export! { 917, glUniform4ivARB, first_glUniform4ivARB, hook_glUniform4ivARB, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 915, glUniform4ivARB, first_glUniform4ivARB, hook_glUniform4ivARB, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4ivARB(location, count, value) };
 } }
-export! { 918, glUniform4ui, first_glUniform4ui, hook_glUniform4ui, (location: i32, v0: u32, v1: u32, v2: u32, v3: u32) -> (), {
+export! { 916, glUniform4ui, first_glUniform4ui, hook_glUniform4ui, (location: i32, v0: u32, v1: u32, v2: u32, v3: u32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4ui(location, v0, v1, v2, v3) };
 } }
-export! { 919, glUniform4uiEXT, first_glUniform4uiEXT, hook_glUniform4uiEXT, (location: i32, v0: u32, v1: u32, v2: u32, v3: u32) -> (), {
+export! { 917, glUniform4uiEXT, first_glUniform4uiEXT, hook_glUniform4uiEXT, (location: i32, v0: u32, v1: u32, v2: u32, v3: u32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4uiEXT(location, v0, v1, v2, v3) };
 } }
-export! { 920, glUniform4uiv, first_glUniform4uiv, hook_glUniform4uiv, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 918, glUniform4uiv, first_glUniform4uiv, hook_glUniform4uiv, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4uiv(location, count, value) };
 } }
-export! { 921, glUniform4uivEXT, first_glUniform4uivEXT, hook_glUniform4uivEXT, (location: i32, count: i32, value: Ptr) -> (), {
+export! { 919, glUniform4uivEXT, first_glUniform4uivEXT, hook_glUniform4uivEXT, (location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniform4uivEXT(location, count, value) };
 } }
-export! { 922, glUniformMatrix2dv, first_glUniformMatrix2dv, hook_glUniformMatrix2dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 920, glUniformMatrix2dv, first_glUniformMatrix2dv, hook_glUniformMatrix2dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix2dv(location, count, transpose, value) };
 } }
-export! { 923, glUniformMatrix2fv, first_glUniformMatrix2fv, hook_glUniformMatrix2fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 921, glUniformMatrix2fv, first_glUniformMatrix2fv, hook_glUniformMatrix2fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix2fv(location, count, transpose, value) };
 } }
-export! { 924, glUniformMatrix2fvARB, first_glUniformMatrix2fvARB, hook_glUniformMatrix2fvARB, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 922, glUniformMatrix2fvARB, first_glUniformMatrix2fvARB, hook_glUniformMatrix2fvARB, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix2fvARB(location, count, transpose, value) };
 } }
-export! { 925, glUniformMatrix2x3dv, first_glUniformMatrix2x3dv, hook_glUniformMatrix2x3dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 923, glUniformMatrix2x3dv, first_glUniformMatrix2x3dv, hook_glUniformMatrix2x3dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix2x3dv(location, count, transpose, value) };
 } }
-export! { 926, glUniformMatrix2x3fv, first_glUniformMatrix2x3fv, hook_glUniformMatrix2x3fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 924, glUniformMatrix2x3fv, first_glUniformMatrix2x3fv, hook_glUniformMatrix2x3fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix2x3fv(location, count, transpose, value) };
 } }
-export! { 927, glUniformMatrix2x3fvNV, first_glUniformMatrix2x3fvNV, hook_glUniformMatrix2x3fvNV, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 925, glUniformMatrix2x3fvNV, first_glUniformMatrix2x3fvNV, hook_glUniformMatrix2x3fvNV, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix2x3fvNV(location, count, transpose, value) };
 } }
-export! { 928, glUniformMatrix2x4dv, first_glUniformMatrix2x4dv, hook_glUniformMatrix2x4dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 926, glUniformMatrix2x4dv, first_glUniformMatrix2x4dv, hook_glUniformMatrix2x4dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix2x4dv(location, count, transpose, value) };
 } }
-export! { 929, glUniformMatrix2x4fv, first_glUniformMatrix2x4fv, hook_glUniformMatrix2x4fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 927, glUniformMatrix2x4fv, first_glUniformMatrix2x4fv, hook_glUniformMatrix2x4fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix2x4fv(location, count, transpose, value) };
 } }
-export! { 930, glUniformMatrix2x4fvNV, first_glUniformMatrix2x4fvNV, hook_glUniformMatrix2x4fvNV, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 928, glUniformMatrix2x4fvNV, first_glUniformMatrix2x4fvNV, hook_glUniformMatrix2x4fvNV, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix2x4fvNV(location, count, transpose, value) };
 } }
-export! { 931, glUniformMatrix3dv, first_glUniformMatrix3dv, hook_glUniformMatrix3dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 929, glUniformMatrix3dv, first_glUniformMatrix3dv, hook_glUniformMatrix3dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix3dv(location, count, transpose, value) };
 } }
-export! { 932, glUniformMatrix3fv, first_glUniformMatrix3fv, hook_glUniformMatrix3fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 930, glUniformMatrix3fv, first_glUniformMatrix3fv, hook_glUniformMatrix3fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix3fv(location, count, transpose, value) };
 } }
-export! { 933, glUniformMatrix3fvARB, first_glUniformMatrix3fvARB, hook_glUniformMatrix3fvARB, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 931, glUniformMatrix3fvARB, first_glUniformMatrix3fvARB, hook_glUniformMatrix3fvARB, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix3fvARB(location, count, transpose, value) };
 } }
-export! { 934, glUniformMatrix3x2dv, first_glUniformMatrix3x2dv, hook_glUniformMatrix3x2dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 932, glUniformMatrix3x2dv, first_glUniformMatrix3x2dv, hook_glUniformMatrix3x2dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix3x2dv(location, count, transpose, value) };
 } }
-export! { 935, glUniformMatrix3x2fv, first_glUniformMatrix3x2fv, hook_glUniformMatrix3x2fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 933, glUniformMatrix3x2fv, first_glUniformMatrix3x2fv, hook_glUniformMatrix3x2fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix3x2fv(location, count, transpose, value) };
 } }
-export! { 936, glUniformMatrix3x2fvNV, first_glUniformMatrix3x2fvNV, hook_glUniformMatrix3x2fvNV, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 934, glUniformMatrix3x2fvNV, first_glUniformMatrix3x2fvNV, hook_glUniformMatrix3x2fvNV, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix3x2fvNV(location, count, transpose, value) };
 } }
-export! { 937, glUniformMatrix3x4dv, first_glUniformMatrix3x4dv, hook_glUniformMatrix3x4dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 935, glUniformMatrix3x4dv, first_glUniformMatrix3x4dv, hook_glUniformMatrix3x4dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix3x4dv(location, count, transpose, value) };
 } }
-export! { 938, glUniformMatrix3x4fv, first_glUniformMatrix3x4fv, hook_glUniformMatrix3x4fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 936, glUniformMatrix3x4fv, first_glUniformMatrix3x4fv, hook_glUniformMatrix3x4fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix3x4fv(location, count, transpose, value) };
 } }
-export! { 939, glUniformMatrix3x4fvNV, first_glUniformMatrix3x4fvNV, hook_glUniformMatrix3x4fvNV, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 937, glUniformMatrix3x4fvNV, first_glUniformMatrix3x4fvNV, hook_glUniformMatrix3x4fvNV, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix3x4fvNV(location, count, transpose, value) };
 } }
-export! { 940, glUniformMatrix4dv, first_glUniformMatrix4dv, hook_glUniformMatrix4dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 938, glUniformMatrix4dv, first_glUniformMatrix4dv, hook_glUniformMatrix4dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix4dv(location, count, transpose, value) };
 } }
-export! { 941, glUniformMatrix4fv, first_glUniformMatrix4fv, hook_glUniformMatrix4fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 939, glUniformMatrix4fv, first_glUniformMatrix4fv, hook_glUniformMatrix4fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix4fv(location, count, transpose, value) };
 } }
-export! { 942, glUniformMatrix4fvARB, first_glUniformMatrix4fvARB, hook_glUniformMatrix4fvARB, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 940, glUniformMatrix4fvARB, first_glUniformMatrix4fvARB, hook_glUniformMatrix4fvARB, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix4fvARB(location, count, transpose, value) };
 } }
-export! { 943, glUniformMatrix4x2dv, first_glUniformMatrix4x2dv, hook_glUniformMatrix4x2dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 941, glUniformMatrix4x2dv, first_glUniformMatrix4x2dv, hook_glUniformMatrix4x2dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix4x2dv(location, count, transpose, value) };
 } }
-export! { 944, glUniformMatrix4x2fv, first_glUniformMatrix4x2fv, hook_glUniformMatrix4x2fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 942, glUniformMatrix4x2fv, first_glUniformMatrix4x2fv, hook_glUniformMatrix4x2fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix4x2fv(location, count, transpose, value) };
 } }
-export! { 945, glUniformMatrix4x2fvNV, first_glUniformMatrix4x2fvNV, hook_glUniformMatrix4x2fvNV, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 943, glUniformMatrix4x2fvNV, first_glUniformMatrix4x2fvNV, hook_glUniformMatrix4x2fvNV, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix4x2fvNV(location, count, transpose, value) };
 } }
-export! { 946, glUniformMatrix4x3dv, first_glUniformMatrix4x3dv, hook_glUniformMatrix4x3dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 944, glUniformMatrix4x3dv, first_glUniformMatrix4x3dv, hook_glUniformMatrix4x3dv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix4x3dv(location, count, transpose, value) };
 } }
-export! { 947, glUniformMatrix4x3fv, first_glUniformMatrix4x3fv, hook_glUniformMatrix4x3fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 945, glUniformMatrix4x3fv, first_glUniformMatrix4x3fv, hook_glUniformMatrix4x3fv, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix4x3fv(location, count, transpose, value) };
 } }
-export! { 948, glUniformMatrix4x3fvNV, first_glUniformMatrix4x3fvNV, hook_glUniformMatrix4x3fvNV, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 946, glUniformMatrix4x3fvNV, first_glUniformMatrix4x3fvNV, hook_glUniformMatrix4x3fvNV, (location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformMatrix4x3fvNV(location, count, transpose, value) };
 } }
-export! { 949, glProgramUniform1d, first_glProgramUniform1d, hook_glProgramUniform1d, (program: u32, location: i32, v0: f64) -> (), {
+export! { 947, glProgramUniform1d, first_glProgramUniform1d, hook_glProgramUniform1d, (program: u32, location: i32, v0: f64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform1d(program, location, v0) };
 } }
-export! { 950, glProgramUniform1dv, first_glProgramUniform1dv, hook_glProgramUniform1dv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 948, glProgramUniform1dv, first_glProgramUniform1dv, hook_glProgramUniform1dv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform1dv(program, location, count, value) };
 } }
-export! { 951, glProgramUniform1f, first_glProgramUniform1f, hook_glProgramUniform1f, (program: u32, location: i32, v0: f32) -> (), {
+export! { 949, glProgramUniform1f, first_glProgramUniform1f, hook_glProgramUniform1f, (program: u32, location: i32, v0: f32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform1f(program, location, v0) };
 } }
-export! { 952, glProgramUniform1fEXT, first_glProgramUniform1fEXT, hook_glProgramUniform1fEXT, (program: u32, location: i32, v0: f32) -> (), {
+export! { 950, glProgramUniform1fEXT, first_glProgramUniform1fEXT, hook_glProgramUniform1fEXT, (program: u32, location: i32, v0: f32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform1fEXT(program, location, v0) };
 } }
-export! { 953, glProgramUniform1fv, first_glProgramUniform1fv, hook_glProgramUniform1fv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 951, glProgramUniform1fv, first_glProgramUniform1fv, hook_glProgramUniform1fv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform1fv(program, location, count, value) };
 } }
-export! { 954, glProgramUniform1fvEXT, first_glProgramUniform1fvEXT, hook_glProgramUniform1fvEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 952, glProgramUniform1fvEXT, first_glProgramUniform1fvEXT, hook_glProgramUniform1fvEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform1fvEXT(program, location, count, value) };
 } }
-export! { 955, glProgramUniform1i, first_glProgramUniform1i, hook_glProgramUniform1i, (program: u32, location: i32, v0: i32) -> (), {
+export! { 953, glProgramUniform1i, first_glProgramUniform1i, hook_glProgramUniform1i, (program: u32, location: i32, v0: i32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform1i(program, location, v0) };
 } }
-export! { 956, glProgramUniform1iEXT, first_glProgramUniform1iEXT, hook_glProgramUniform1iEXT, (program: u32, location: i32, v0: i32) -> (), {
+export! { 954, glProgramUniform1iEXT, first_glProgramUniform1iEXT, hook_glProgramUniform1iEXT, (program: u32, location: i32, v0: i32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform1iEXT(program, location, v0) };
 } }
-export! { 957, glProgramUniform1iv, first_glProgramUniform1iv, hook_glProgramUniform1iv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 955, glProgramUniform1iv, first_glProgramUniform1iv, hook_glProgramUniform1iv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform1iv(program, location, count, value) };
 } }
-export! { 958, glProgramUniform1ivEXT, first_glProgramUniform1ivEXT, hook_glProgramUniform1ivEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 956, glProgramUniform1ivEXT, first_glProgramUniform1ivEXT, hook_glProgramUniform1ivEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform1ivEXT(program, location, count, value) };
 } }
-export! { 959, glProgramUniform1ui, first_glProgramUniform1ui, hook_glProgramUniform1ui, (program: u32, location: i32, v0: u32) -> (), {
+export! { 957, glProgramUniform1ui, first_glProgramUniform1ui, hook_glProgramUniform1ui, (program: u32, location: i32, v0: u32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform1ui(program, location, v0) };
 } }
-export! { 960, glProgramUniform1uiEXT, first_glProgramUniform1uiEXT, hook_glProgramUniform1uiEXT, (program: u32, location: i32, v0: u32) -> (), {
+export! { 958, glProgramUniform1uiEXT, first_glProgramUniform1uiEXT, hook_glProgramUniform1uiEXT, (program: u32, location: i32, v0: u32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform1uiEXT(program, location, v0) };
 } }
-export! { 961, glProgramUniform1uiv, first_glProgramUniform1uiv, hook_glProgramUniform1uiv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 959, glProgramUniform1uiv, first_glProgramUniform1uiv, hook_glProgramUniform1uiv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform1uiv(program, location, count, value) };
 } }
-export! { 962, glProgramUniform1uivEXT, first_glProgramUniform1uivEXT, hook_glProgramUniform1uivEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 960, glProgramUniform1uivEXT, first_glProgramUniform1uivEXT, hook_glProgramUniform1uivEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform1uivEXT(program, location, count, value) };
 } }
-export! { 963, glProgramUniform2d, first_glProgramUniform2d, hook_glProgramUniform2d, (program: u32, location: i32, v0: f64, v1: f64) -> (), {
+export! { 961, glProgramUniform2d, first_glProgramUniform2d, hook_glProgramUniform2d, (program: u32, location: i32, v0: f64, v1: f64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform2d(program, location, v0, v1) };
 } }
-export! { 964, glProgramUniform2dv, first_glProgramUniform2dv, hook_glProgramUniform2dv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 962, glProgramUniform2dv, first_glProgramUniform2dv, hook_glProgramUniform2dv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform2dv(program, location, count, value) };
 } }
-export! { 965, glProgramUniform2f, first_glProgramUniform2f, hook_glProgramUniform2f, (program: u32, location: i32, v0: f32, v1: f32) -> (), {
+export! { 963, glProgramUniform2f, first_glProgramUniform2f, hook_glProgramUniform2f, (program: u32, location: i32, v0: f32, v1: f32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform2f(program, location, v0, v1) };
 } }
-export! { 966, glProgramUniform2fEXT, first_glProgramUniform2fEXT, hook_glProgramUniform2fEXT, (program: u32, location: i32, v0: f32, v1: f32) -> (), {
+export! { 964, glProgramUniform2fEXT, first_glProgramUniform2fEXT, hook_glProgramUniform2fEXT, (program: u32, location: i32, v0: f32, v1: f32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform2fEXT(program, location, v0, v1) };
 } }
-export! { 967, glProgramUniform2fv, first_glProgramUniform2fv, hook_glProgramUniform2fv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 965, glProgramUniform2fv, first_glProgramUniform2fv, hook_glProgramUniform2fv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform2fv(program, location, count, value) };
 } }
-export! { 968, glProgramUniform2fvEXT, first_glProgramUniform2fvEXT, hook_glProgramUniform2fvEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 966, glProgramUniform2fvEXT, first_glProgramUniform2fvEXT, hook_glProgramUniform2fvEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform2fvEXT(program, location, count, value) };
 } }
-export! { 969, glProgramUniform2i, first_glProgramUniform2i, hook_glProgramUniform2i, (program: u32, location: i32, v0: i32, v1: i32) -> (), {
+export! { 967, glProgramUniform2i, first_glProgramUniform2i, hook_glProgramUniform2i, (program: u32, location: i32, v0: i32, v1: i32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform2i(program, location, v0, v1) };
 } }
-export! { 970, glProgramUniform2iEXT, first_glProgramUniform2iEXT, hook_glProgramUniform2iEXT, (program: u32, location: i32, v0: i32, v1: i32) -> (), {
+export! { 968, glProgramUniform2iEXT, first_glProgramUniform2iEXT, hook_glProgramUniform2iEXT, (program: u32, location: i32, v0: i32, v1: i32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform2iEXT(program, location, v0, v1) };
 } }
-export! { 971, glProgramUniform2iv, first_glProgramUniform2iv, hook_glProgramUniform2iv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 969, glProgramUniform2iv, first_glProgramUniform2iv, hook_glProgramUniform2iv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform2iv(program, location, count, value) };
 } }
-export! { 972, glProgramUniform2ivEXT, first_glProgramUniform2ivEXT, hook_glProgramUniform2ivEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 970, glProgramUniform2ivEXT, first_glProgramUniform2ivEXT, hook_glProgramUniform2ivEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform2ivEXT(program, location, count, value) };
 } }
-export! { 973, glProgramUniform2ui, first_glProgramUniform2ui, hook_glProgramUniform2ui, (program: u32, location: i32, v0: u32, v1: u32) -> (), {
+export! { 971, glProgramUniform2ui, first_glProgramUniform2ui, hook_glProgramUniform2ui, (program: u32, location: i32, v0: u32, v1: u32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform2ui(program, location, v0, v1) };
 } }
-export! { 974, glProgramUniform2uiEXT, first_glProgramUniform2uiEXT, hook_glProgramUniform2uiEXT, (program: u32, location: i32, v0: u32, v1: u32) -> (), {
+export! { 972, glProgramUniform2uiEXT, first_glProgramUniform2uiEXT, hook_glProgramUniform2uiEXT, (program: u32, location: i32, v0: u32, v1: u32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform2uiEXT(program, location, v0, v1) };
 } }
-export! { 975, glProgramUniform2uiv, first_glProgramUniform2uiv, hook_glProgramUniform2uiv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 973, glProgramUniform2uiv, first_glProgramUniform2uiv, hook_glProgramUniform2uiv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform2uiv(program, location, count, value) };
 } }
-export! { 976, glProgramUniform2uivEXT, first_glProgramUniform2uivEXT, hook_glProgramUniform2uivEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 974, glProgramUniform2uivEXT, first_glProgramUniform2uivEXT, hook_glProgramUniform2uivEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform2uivEXT(program, location, count, value) };
 } }
-export! { 977, glProgramUniform3d, first_glProgramUniform3d, hook_glProgramUniform3d, (program: u32, location: i32, v0: f64, v1: f64, v2: f64) -> (), {
+export! { 975, glProgramUniform3d, first_glProgramUniform3d, hook_glProgramUniform3d, (program: u32, location: i32, v0: f64, v1: f64, v2: f64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform3d(program, location, v0, v1, v2) };
 } }
-export! { 978, glProgramUniform3dv, first_glProgramUniform3dv, hook_glProgramUniform3dv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 976, glProgramUniform3dv, first_glProgramUniform3dv, hook_glProgramUniform3dv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform3dv(program, location, count, value) };
 } }
-export! { 979, glProgramUniform3f, first_glProgramUniform3f, hook_glProgramUniform3f, (program: u32, location: i32, v0: f32, v1: f32, v2: f32) -> (), {
+export! { 977, glProgramUniform3f, first_glProgramUniform3f, hook_glProgramUniform3f, (program: u32, location: i32, v0: f32, v1: f32, v2: f32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform3f(program, location, v0, v1, v2) };
 } }
-export! { 980, glProgramUniform3fEXT, first_glProgramUniform3fEXT, hook_glProgramUniform3fEXT, (program: u32, location: i32, v0: f32, v1: f32, v2: f32) -> (), {
+export! { 978, glProgramUniform3fEXT, first_glProgramUniform3fEXT, hook_glProgramUniform3fEXT, (program: u32, location: i32, v0: f32, v1: f32, v2: f32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform3fEXT(program, location, v0, v1, v2) };
 } }
-export! { 981, glProgramUniform3fv, first_glProgramUniform3fv, hook_glProgramUniform3fv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 979, glProgramUniform3fv, first_glProgramUniform3fv, hook_glProgramUniform3fv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform3fv(program, location, count, value) };
 } }
-export! { 982, glProgramUniform3fvEXT, first_glProgramUniform3fvEXT, hook_glProgramUniform3fvEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 980, glProgramUniform3fvEXT, first_glProgramUniform3fvEXT, hook_glProgramUniform3fvEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform3fvEXT(program, location, count, value) };
 } }
-export! { 983, glProgramUniform3i, first_glProgramUniform3i, hook_glProgramUniform3i, (program: u32, location: i32, v0: i32, v1: i32, v2: i32) -> (), {
+export! { 981, glProgramUniform3i, first_glProgramUniform3i, hook_glProgramUniform3i, (program: u32, location: i32, v0: i32, v1: i32, v2: i32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform3i(program, location, v0, v1, v2) };
 } }
-export! { 984, glProgramUniform3iEXT, first_glProgramUniform3iEXT, hook_glProgramUniform3iEXT, (program: u32, location: i32, v0: i32, v1: i32, v2: i32) -> (), {
+export! { 982, glProgramUniform3iEXT, first_glProgramUniform3iEXT, hook_glProgramUniform3iEXT, (program: u32, location: i32, v0: i32, v1: i32, v2: i32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform3iEXT(program, location, v0, v1, v2) };
 } }
-export! { 985, glProgramUniform3iv, first_glProgramUniform3iv, hook_glProgramUniform3iv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 983, glProgramUniform3iv, first_glProgramUniform3iv, hook_glProgramUniform3iv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform3iv(program, location, count, value) };
 } }
-export! { 986, glProgramUniform3ivEXT, first_glProgramUniform3ivEXT, hook_glProgramUniform3ivEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 984, glProgramUniform3ivEXT, first_glProgramUniform3ivEXT, hook_glProgramUniform3ivEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform3ivEXT(program, location, count, value) };
 } }
-export! { 987, glProgramUniform3ui, first_glProgramUniform3ui, hook_glProgramUniform3ui, (program: u32, location: i32, v0: u32, v1: u32, v2: u32) -> (), {
+export! { 985, glProgramUniform3ui, first_glProgramUniform3ui, hook_glProgramUniform3ui, (program: u32, location: i32, v0: u32, v1: u32, v2: u32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform3ui(program, location, v0, v1, v2) };
 } }
-export! { 988, glProgramUniform3uiEXT, first_glProgramUniform3uiEXT, hook_glProgramUniform3uiEXT, (program: u32, location: i32, v0: u32, v1: u32, v2: u32) -> (), {
+export! { 986, glProgramUniform3uiEXT, first_glProgramUniform3uiEXT, hook_glProgramUniform3uiEXT, (program: u32, location: i32, v0: u32, v1: u32, v2: u32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform3uiEXT(program, location, v0, v1, v2) };
 } }
-export! { 989, glProgramUniform3uiv, first_glProgramUniform3uiv, hook_glProgramUniform3uiv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 987, glProgramUniform3uiv, first_glProgramUniform3uiv, hook_glProgramUniform3uiv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform3uiv(program, location, count, value) };
 } }
-export! { 990, glProgramUniform3uivEXT, first_glProgramUniform3uivEXT, hook_glProgramUniform3uivEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 988, glProgramUniform3uivEXT, first_glProgramUniform3uivEXT, hook_glProgramUniform3uivEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform3uivEXT(program, location, count, value) };
 } }
-export! { 991, glProgramUniform4d, first_glProgramUniform4d, hook_glProgramUniform4d, (program: u32, location: i32, v0: f64, v1: f64, v2: f64, v3: f64) -> (), {
+export! { 989, glProgramUniform4d, first_glProgramUniform4d, hook_glProgramUniform4d, (program: u32, location: i32, v0: f64, v1: f64, v2: f64, v3: f64) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform4d(program, location, v0, v1, v2, v3) };
 } }
-export! { 992, glProgramUniform4dv, first_glProgramUniform4dv, hook_glProgramUniform4dv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 990, glProgramUniform4dv, first_glProgramUniform4dv, hook_glProgramUniform4dv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform4dv(program, location, count, value) };
 } }
-export! { 993, glProgramUniform4f, first_glProgramUniform4f, hook_glProgramUniform4f, (program: u32, location: i32, v0: f32, v1: f32, v2: f32, v3: f32) -> (), {
+export! { 991, glProgramUniform4f, first_glProgramUniform4f, hook_glProgramUniform4f, (program: u32, location: i32, v0: f32, v1: f32, v2: f32, v3: f32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform4f(program, location, v0, v1, v2, v3) };
 } }
-export! { 994, glProgramUniform4fEXT, first_glProgramUniform4fEXT, hook_glProgramUniform4fEXT, (program: u32, location: i32, v0: f32, v1: f32, v2: f32, v3: f32) -> (), {
+export! { 992, glProgramUniform4fEXT, first_glProgramUniform4fEXT, hook_glProgramUniform4fEXT, (program: u32, location: i32, v0: f32, v1: f32, v2: f32, v3: f32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform4fEXT(program, location, v0, v1, v2, v3) };
 } }
-export! { 995, glProgramUniform4fv, first_glProgramUniform4fv, hook_glProgramUniform4fv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 993, glProgramUniform4fv, first_glProgramUniform4fv, hook_glProgramUniform4fv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform4fv(program, location, count, value) };
 } }
-export! { 996, glProgramUniform4fvEXT, first_glProgramUniform4fvEXT, hook_glProgramUniform4fvEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 994, glProgramUniform4fvEXT, first_glProgramUniform4fvEXT, hook_glProgramUniform4fvEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform4fvEXT(program, location, count, value) };
 } }
-export! { 997, glProgramUniform4i, first_glProgramUniform4i, hook_glProgramUniform4i, (program: u32, location: i32, v0: i32, v1: i32, v2: i32, v3: i32) -> (), {
+export! { 995, glProgramUniform4i, first_glProgramUniform4i, hook_glProgramUniform4i, (program: u32, location: i32, v0: i32, v1: i32, v2: i32, v3: i32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform4i(program, location, v0, v1, v2, v3) };
 } }
-export! { 998, glProgramUniform4iEXT, first_glProgramUniform4iEXT, hook_glProgramUniform4iEXT, (program: u32, location: i32, v0: i32, v1: i32, v2: i32, v3: i32) -> (), {
+export! { 996, glProgramUniform4iEXT, first_glProgramUniform4iEXT, hook_glProgramUniform4iEXT, (program: u32, location: i32, v0: i32, v1: i32, v2: i32, v3: i32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform4iEXT(program, location, v0, v1, v2, v3) };
 } }
-export! { 999, glProgramUniform4iv, first_glProgramUniform4iv, hook_glProgramUniform4iv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 997, glProgramUniform4iv, first_glProgramUniform4iv, hook_glProgramUniform4iv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform4iv(program, location, count, value) };
 } }
-export! { 1000, glProgramUniform4ivEXT, first_glProgramUniform4ivEXT, hook_glProgramUniform4ivEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 998, glProgramUniform4ivEXT, first_glProgramUniform4ivEXT, hook_glProgramUniform4ivEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform4ivEXT(program, location, count, value) };
 } }
-export! { 1001, glProgramUniform4ui, first_glProgramUniform4ui, hook_glProgramUniform4ui, (program: u32, location: i32, v0: u32, v1: u32, v2: u32, v3: u32) -> (), {
+export! { 999, glProgramUniform4ui, first_glProgramUniform4ui, hook_glProgramUniform4ui, (program: u32, location: i32, v0: u32, v1: u32, v2: u32, v3: u32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform4ui(program, location, v0, v1, v2, v3) };
 } }
-export! { 1002, glProgramUniform4uiEXT, first_glProgramUniform4uiEXT, hook_glProgramUniform4uiEXT, (program: u32, location: i32, v0: u32, v1: u32, v2: u32, v3: u32) -> (), {
+export! { 1000, glProgramUniform4uiEXT, first_glProgramUniform4uiEXT, hook_glProgramUniform4uiEXT, (program: u32, location: i32, v0: u32, v1: u32, v2: u32, v3: u32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform4uiEXT(program, location, v0, v1, v2, v3) };
 } }
-export! { 1003, glProgramUniform4uiv, first_glProgramUniform4uiv, hook_glProgramUniform4uiv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 1001, glProgramUniform4uiv, first_glProgramUniform4uiv, hook_glProgramUniform4uiv, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform4uiv(program, location, count, value) };
 } }
-export! { 1004, glProgramUniform4uivEXT, first_glProgramUniform4uivEXT, hook_glProgramUniform4uivEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
+export! { 1002, glProgramUniform4uivEXT, first_glProgramUniform4uivEXT, hook_glProgramUniform4uivEXT, (program: u32, location: i32, count: i32, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniform4uivEXT(program, location, count, value) };
 } }
-export! { 1005, glProgramUniformMatrix2dv, first_glProgramUniformMatrix2dv, hook_glProgramUniformMatrix2dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1003, glProgramUniformMatrix2dv, first_glProgramUniformMatrix2dv, hook_glProgramUniformMatrix2dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix2dv(program, location, count, transpose, value) };
 } }
-export! { 1006, glProgramUniformMatrix2fv, first_glProgramUniformMatrix2fv, hook_glProgramUniformMatrix2fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1004, glProgramUniformMatrix2fv, first_glProgramUniformMatrix2fv, hook_glProgramUniformMatrix2fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix2fv(program, location, count, transpose, value) };
 } }
-export! { 1007, glProgramUniformMatrix2fvEXT, first_glProgramUniformMatrix2fvEXT, hook_glProgramUniformMatrix2fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1005, glProgramUniformMatrix2fvEXT, first_glProgramUniformMatrix2fvEXT, hook_glProgramUniformMatrix2fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix2fvEXT(program, location, count, transpose, value) };
 } }
-export! { 1008, glProgramUniformMatrix2x3dv, first_glProgramUniformMatrix2x3dv, hook_glProgramUniformMatrix2x3dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1006, glProgramUniformMatrix2x3dv, first_glProgramUniformMatrix2x3dv, hook_glProgramUniformMatrix2x3dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix2x3dv(program, location, count, transpose, value) };
 } }
-export! { 1009, glProgramUniformMatrix2x3fv, first_glProgramUniformMatrix2x3fv, hook_glProgramUniformMatrix2x3fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1007, glProgramUniformMatrix2x3fv, first_glProgramUniformMatrix2x3fv, hook_glProgramUniformMatrix2x3fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix2x3fv(program, location, count, transpose, value) };
 } }
-export! { 1010, glProgramUniformMatrix2x3fvEXT, first_glProgramUniformMatrix2x3fvEXT, hook_glProgramUniformMatrix2x3fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1008, glProgramUniformMatrix2x3fvEXT, first_glProgramUniformMatrix2x3fvEXT, hook_glProgramUniformMatrix2x3fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix2x3fvEXT(program, location, count, transpose, value) };
 } }
-export! { 1011, glProgramUniformMatrix2x4dv, first_glProgramUniformMatrix2x4dv, hook_glProgramUniformMatrix2x4dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1009, glProgramUniformMatrix2x4dv, first_glProgramUniformMatrix2x4dv, hook_glProgramUniformMatrix2x4dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix2x4dv(program, location, count, transpose, value) };
 } }
-export! { 1012, glProgramUniformMatrix2x4fv, first_glProgramUniformMatrix2x4fv, hook_glProgramUniformMatrix2x4fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1010, glProgramUniformMatrix2x4fv, first_glProgramUniformMatrix2x4fv, hook_glProgramUniformMatrix2x4fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix2x4fv(program, location, count, transpose, value) };
 } }
-export! { 1013, glProgramUniformMatrix2x4fvEXT, first_glProgramUniformMatrix2x4fvEXT, hook_glProgramUniformMatrix2x4fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1011, glProgramUniformMatrix2x4fvEXT, first_glProgramUniformMatrix2x4fvEXT, hook_glProgramUniformMatrix2x4fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix2x4fvEXT(program, location, count, transpose, value) };
 } }
-export! { 1014, glProgramUniformMatrix3dv, first_glProgramUniformMatrix3dv, hook_glProgramUniformMatrix3dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1012, glProgramUniformMatrix3dv, first_glProgramUniformMatrix3dv, hook_glProgramUniformMatrix3dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix3dv(program, location, count, transpose, value) };
 } }
-export! { 1015, glProgramUniformMatrix3fv, first_glProgramUniformMatrix3fv, hook_glProgramUniformMatrix3fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1013, glProgramUniformMatrix3fv, first_glProgramUniformMatrix3fv, hook_glProgramUniformMatrix3fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix3fv(program, location, count, transpose, value) };
 } }
-export! { 1016, glProgramUniformMatrix3fvEXT, first_glProgramUniformMatrix3fvEXT, hook_glProgramUniformMatrix3fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1014, glProgramUniformMatrix3fvEXT, first_glProgramUniformMatrix3fvEXT, hook_glProgramUniformMatrix3fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix3fvEXT(program, location, count, transpose, value) };
 } }
-export! { 1017, glProgramUniformMatrix3x2dv, first_glProgramUniformMatrix3x2dv, hook_glProgramUniformMatrix3x2dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1015, glProgramUniformMatrix3x2dv, first_glProgramUniformMatrix3x2dv, hook_glProgramUniformMatrix3x2dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix3x2dv(program, location, count, transpose, value) };
 } }
-export! { 1018, glProgramUniformMatrix3x2fv, first_glProgramUniformMatrix3x2fv, hook_glProgramUniformMatrix3x2fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1016, glProgramUniformMatrix3x2fv, first_glProgramUniformMatrix3x2fv, hook_glProgramUniformMatrix3x2fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix3x2fv(program, location, count, transpose, value) };
 } }
-export! { 1019, glProgramUniformMatrix3x2fvEXT, first_glProgramUniformMatrix3x2fvEXT, hook_glProgramUniformMatrix3x2fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1017, glProgramUniformMatrix3x2fvEXT, first_glProgramUniformMatrix3x2fvEXT, hook_glProgramUniformMatrix3x2fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix3x2fvEXT(program, location, count, transpose, value) };
 } }
-export! { 1020, glProgramUniformMatrix3x4dv, first_glProgramUniformMatrix3x4dv, hook_glProgramUniformMatrix3x4dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1018, glProgramUniformMatrix3x4dv, first_glProgramUniformMatrix3x4dv, hook_glProgramUniformMatrix3x4dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix3x4dv(program, location, count, transpose, value) };
 } }
-export! { 1021, glProgramUniformMatrix3x4fv, first_glProgramUniformMatrix3x4fv, hook_glProgramUniformMatrix3x4fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1019, glProgramUniformMatrix3x4fv, first_glProgramUniformMatrix3x4fv, hook_glProgramUniformMatrix3x4fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix3x4fv(program, location, count, transpose, value) };
 } }
-export! { 1022, glProgramUniformMatrix3x4fvEXT, first_glProgramUniformMatrix3x4fvEXT, hook_glProgramUniformMatrix3x4fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1020, glProgramUniformMatrix3x4fvEXT, first_glProgramUniformMatrix3x4fvEXT, hook_glProgramUniformMatrix3x4fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix3x4fvEXT(program, location, count, transpose, value) };
 } }
-export! { 1023, glProgramUniformMatrix4dv, first_glProgramUniformMatrix4dv, hook_glProgramUniformMatrix4dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1021, glProgramUniformMatrix4dv, first_glProgramUniformMatrix4dv, hook_glProgramUniformMatrix4dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix4dv(program, location, count, transpose, value) };
 } }
-export! { 1024, glProgramUniformMatrix4fv, first_glProgramUniformMatrix4fv, hook_glProgramUniformMatrix4fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1022, glProgramUniformMatrix4fv, first_glProgramUniformMatrix4fv, hook_glProgramUniformMatrix4fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix4fv(program, location, count, transpose, value) };
 } }
-export! { 1025, glProgramUniformMatrix4fvEXT, first_glProgramUniformMatrix4fvEXT, hook_glProgramUniformMatrix4fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1023, glProgramUniformMatrix4fvEXT, first_glProgramUniformMatrix4fvEXT, hook_glProgramUniformMatrix4fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix4fvEXT(program, location, count, transpose, value) };
 } }
-export! { 1026, glProgramUniformMatrix4x2dv, first_glProgramUniformMatrix4x2dv, hook_glProgramUniformMatrix4x2dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1024, glProgramUniformMatrix4x2dv, first_glProgramUniformMatrix4x2dv, hook_glProgramUniformMatrix4x2dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix4x2dv(program, location, count, transpose, value) };
 } }
-export! { 1027, glProgramUniformMatrix4x2fv, first_glProgramUniformMatrix4x2fv, hook_glProgramUniformMatrix4x2fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1025, glProgramUniformMatrix4x2fv, first_glProgramUniformMatrix4x2fv, hook_glProgramUniformMatrix4x2fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix4x2fv(program, location, count, transpose, value) };
 } }
-export! { 1028, glProgramUniformMatrix4x2fvEXT, first_glProgramUniformMatrix4x2fvEXT, hook_glProgramUniformMatrix4x2fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1026, glProgramUniformMatrix4x2fvEXT, first_glProgramUniformMatrix4x2fvEXT, hook_glProgramUniformMatrix4x2fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix4x2fvEXT(program, location, count, transpose, value) };
 } }
-export! { 1029, glProgramUniformMatrix4x3dv, first_glProgramUniformMatrix4x3dv, hook_glProgramUniformMatrix4x3dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1027, glProgramUniformMatrix4x3dv, first_glProgramUniformMatrix4x3dv, hook_glProgramUniformMatrix4x3dv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix4x3dv(program, location, count, transpose, value) };
 } }
-export! { 1030, glProgramUniformMatrix4x3fv, first_glProgramUniformMatrix4x3fv, hook_glProgramUniformMatrix4x3fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1028, glProgramUniformMatrix4x3fv, first_glProgramUniformMatrix4x3fv, hook_glProgramUniformMatrix4x3fv, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix4x3fv(program, location, count, transpose, value) };
 } }
-export! { 1031, glProgramUniformMatrix4x3fvEXT, first_glProgramUniformMatrix4x3fvEXT, hook_glProgramUniformMatrix4x3fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
+export! { 1029, glProgramUniformMatrix4x3fvEXT, first_glProgramUniformMatrix4x3fvEXT, hook_glProgramUniformMatrix4x3fvEXT, (program: u32, location: i32, count: i32, transpose: u8, value: Ptr) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glProgramUniformMatrix4x3fvEXT(program, location, count, transpose, value) };
 } }
-export! { 1032, glUniformBlockBinding, first_glUniformBlockBinding, hook_glUniformBlockBinding, (program: u32, uniformBlockIndex: u32, uniformBlockBinding: u32) -> (), {
+export! { 1030, glUniformBlockBinding, first_glUniformBlockBinding, hook_glUniformBlockBinding, (program: u32, uniformBlockIndex: u32, uniformBlockBinding: u32) -> (), {
     hooks::uniform();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glUniformBlockBinding(program, uniformBlockIndex, uniformBlockBinding) };
 } }
-export! { 1033, glLinkProgram, first_glLinkProgram, hook_glLinkProgram, (program: u32) -> (), {
+export! { 1031, glLinkProgram, first_glLinkProgram, hook_glLinkProgram, (program: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glLinkProgram(program) }
 } }
-export! { 1034, glLinkProgramARB, first_glLinkProgramARB, hook_glLinkProgramARB, (programObj: u32) -> (), {
+export! { 1032, glLinkProgramARB, first_glLinkProgramARB, hook_glLinkProgramARB, (programObj: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glLinkProgram(programObj) }
 } }
-export! { 1035, glProgramBinary, first_glProgramBinary, hook_glProgramBinary, (program: u32, binaryFormat: u32, binary: Ptr, length: i32) -> (), {
+export! { 1033, glProgramBinary, first_glProgramBinary, hook_glProgramBinary, (program: u32, binaryFormat: u32, binary: Ptr, length: i32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glProgramBinary(program, binaryFormat, binary, length) }
 } }
-export! { 1036, glProgramBinaryOES, first_glProgramBinaryOES, hook_glProgramBinaryOES, (program: u32, binaryFormat: u32, binary: Ptr, length: i32) -> (), {
+export! { 1034, glProgramBinaryOES, first_glProgramBinaryOES, hook_glProgramBinaryOES, (program: u32, binaryFormat: u32, binary: Ptr, length: i32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glProgramBinary(program, binaryFormat, binary, length) }
 } }
-export! { 1037, glUseProgram, first_glUseProgram, hook_glUseProgram, (program: u32) -> (), {
+export! { 1035, glUseProgram, first_glUseProgram, hook_glUseProgram, (program: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glUseProgram(program) }
 } }
-export! { 1038, glUseProgramObjectARB, first_glUseProgramObjectARB, hook_glUseProgramObjectARB, (programObj: u32) -> (), {
+export! { 1036, glUseProgramObjectARB, first_glUseProgramObjectARB, hook_glUseProgramObjectARB, (programObj: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glUseProgram(programObj) }
 } }
-export! { 1039, glDeleteProgram, first_glDeleteProgram, hook_glDeleteProgram, (program: u32) -> (), {
+export! { 1037, glDeleteProgram, first_glDeleteProgram, hook_glDeleteProgram, (program: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDeleteProgram(program) }
 } }
-export! { 1040, glGetProgramiv, first_glGetProgramiv, hook_glGetProgramiv, (program: u32, pname: u32, params: Ptr) -> (), {
+export! { 1038, glGetProgramiv, first_glGetProgramiv, hook_glGetProgramiv, (program: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetProgramiv(program, pname, params) }
 } }
-export! { 1041, glClear, first_glClear, hook_glClear, (mask: u32) -> (), {
+export! { 1039, glClear, first_glClear, hook_glClear, (mask: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glClear(mask) }
 } }
-export! { 1042, glClearBufferfi, first_glClearBufferfi, hook_glClearBufferfi, (buffer: u32, drawbuffer: i32, depth: f32, stencil: i32) -> (), {
+export! { 1040, glClearBufferfi, first_glClearBufferfi, hook_glClearBufferfi, (buffer: u32, drawbuffer: i32, depth: f32, stencil: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::CLEAR, &mut |gl| unsafe { gl.glClearBufferfi(buffer, drawbuffer, depth, stencil) })
 } }
-export! { 1043, glClearBufferfv, first_glClearBufferfv, hook_glClearBufferfv, (buffer: u32, drawbuffer: i32, value: Ptr) -> (), {
+export! { 1041, glClearBufferfv, first_glClearBufferfv, hook_glClearBufferfv, (buffer: u32, drawbuffer: i32, value: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::CLEAR, &mut |gl| unsafe { gl.glClearBufferfv(buffer, drawbuffer, value) })
 } }
-export! { 1044, glClearBufferiv, first_glClearBufferiv, hook_glClearBufferiv, (buffer: u32, drawbuffer: i32, value: Ptr) -> (), {
+export! { 1042, glClearBufferiv, first_glClearBufferiv, hook_glClearBufferiv, (buffer: u32, drawbuffer: i32, value: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::CLEAR, &mut |gl| unsafe { gl.glClearBufferiv(buffer, drawbuffer, value) })
 } }
-export! { 1045, glClearBufferuiv, first_glClearBufferuiv, hook_glClearBufferuiv, (buffer: u32, drawbuffer: i32, value: Ptr) -> (), {
+export! { 1043, glClearBufferuiv, first_glClearBufferuiv, hook_glClearBufferuiv, (buffer: u32, drawbuffer: i32, value: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::CLEAR, &mut |gl| unsafe { gl.glClearBufferuiv(buffer, drawbuffer, value) })
 } }
-export! { 1046, glDrawArrays, first_glDrawArrays, hook_glDrawArrays, (mode: u32, first: i32, count: i32) -> (), {
+export! { 1044, glDrawArrays, first_glDrawArrays, hook_glDrawArrays, (mode: u32, first: i32, count: i32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDrawArrays(mode, first, count) }
 } }
-export! { 1047, glDrawArraysEXT, first_glDrawArraysEXT, hook_glDrawArraysEXT, (mode: u32, first: i32, count: i32) -> (), {
+export! { 1045, glDrawArraysEXT, first_glDrawArraysEXT, hook_glDrawArraysEXT, (mode: u32, first: i32, count: i32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDrawArrays(mode, first, count) }
 } }
-export! { 1048, glDrawElements, first_glDrawElements, hook_glDrawElements, (mode: u32, count: i32, type_: u32, indices: Ptr) -> (), {
+export! { 1046, glDrawElements, first_glDrawElements, hook_glDrawElements, (mode: u32, count: i32, type_: u32, indices: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDrawElements(mode, count, type_, indices) }
 } }
-export! { 1049, glDrawRangeElements, first_glDrawRangeElements, hook_glDrawRangeElements, (mode: u32, start: u32, end: u32, count: i32, type_: u32, indices: Ptr) -> (), {
+export! { 1047, glDrawRangeElements, first_glDrawRangeElements, hook_glDrawRangeElements, (mode: u32, start: u32, end: u32, count: i32, type_: u32, indices: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDrawRangeElements(mode, start, end, count, type_, indices) }
 } }
-export! { 1050, glDrawRangeElementsEXT, first_glDrawRangeElementsEXT, hook_glDrawRangeElementsEXT, (mode: u32, start: u32, end: u32, count: i32, type_: u32, indices: Ptr) -> (), {
+export! { 1048, glDrawRangeElementsEXT, first_glDrawRangeElementsEXT, hook_glDrawRangeElementsEXT, (mode: u32, start: u32, end: u32, count: i32, type_: u32, indices: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDrawRangeElements(mode, start, end, count, type_, indices) }
 } }
-export! { 1051, glMultiDrawArrays, first_glMultiDrawArrays, hook_glMultiDrawArrays, (mode: u32, first: Ptr, count: Ptr, drawcount: i32) -> (), {
+export! { 1049, glMultiDrawArrays, first_glMultiDrawArrays, hook_glMultiDrawArrays, (mode: u32, first: Ptr, count: Ptr, drawcount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawArrays(mode, first, count, drawcount) })
 } }
-export! { 1052, glMultiDrawArraysEXT, first_glMultiDrawArraysEXT, hook_glMultiDrawArraysEXT, (mode: u32, first: Ptr, count: Ptr, primcount: i32) -> (), {
+export! { 1050, glMultiDrawArraysEXT, first_glMultiDrawArraysEXT, hook_glMultiDrawArraysEXT, (mode: u32, first: Ptr, count: Ptr, primcount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawArraysEXT(mode, first, count, primcount) })
 } }
-export! { 1053, glMultiDrawElements, first_glMultiDrawElements, hook_glMultiDrawElements, (mode: u32, count: Ptr, type_: u32, indices: Ptr, drawcount: i32) -> (), {
+export! { 1051, glMultiDrawElements, first_glMultiDrawElements, hook_glMultiDrawElements, (mode: u32, count: Ptr, type_: u32, indices: Ptr, drawcount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawElements(mode, count, type_, indices, drawcount) })
 } }
-export! { 1054, glMultiDrawElementsEXT, first_glMultiDrawElementsEXT, hook_glMultiDrawElementsEXT, (mode: u32, count: Ptr, type_: u32, indices: Ptr, primcount: i32) -> (), {
+export! { 1052, glMultiDrawElementsEXT, first_glMultiDrawElementsEXT, hook_glMultiDrawElementsEXT, (mode: u32, count: Ptr, type_: u32, indices: Ptr, primcount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawElementsEXT(mode, count, type_, indices, primcount) })
 } }
-export! { 1055, glDrawElementsBaseVertex, first_glDrawElementsBaseVertex, hook_glDrawElementsBaseVertex, (mode: u32, count: i32, type_: u32, indices: Ptr, basevertex: i32) -> (), {
+export! { 1053, glDrawElementsBaseVertex, first_glDrawElementsBaseVertex, hook_glDrawElementsBaseVertex, (mode: u32, count: i32, type_: u32, indices: Ptr, basevertex: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsBaseVertex(mode, count, type_, indices, basevertex) })
 } }
-export! { 1056, glDrawElementsBaseVertexEXT, first_glDrawElementsBaseVertexEXT, hook_glDrawElementsBaseVertexEXT, (mode: u32, count: i32, type_: u32, indices: Ptr, basevertex: i32) -> (), {
+export! { 1054, glDrawElementsBaseVertexEXT, first_glDrawElementsBaseVertexEXT, hook_glDrawElementsBaseVertexEXT, (mode: u32, count: i32, type_: u32, indices: Ptr, basevertex: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsBaseVertexEXT(mode, count, type_, indices, basevertex) })
 } }
-export! { 1057, glDrawElementsBaseVertexOES, first_glDrawElementsBaseVertexOES, hook_glDrawElementsBaseVertexOES, (mode: u32, count: i32, type_: u32, indices: Ptr, basevertex: i32) -> (), {
+export! { 1055, glDrawElementsBaseVertexOES, first_glDrawElementsBaseVertexOES, hook_glDrawElementsBaseVertexOES, (mode: u32, count: i32, type_: u32, indices: Ptr, basevertex: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsBaseVertexOES(mode, count, type_, indices, basevertex) })
 } }
-export! { 1058, glDrawRangeElementsBaseVertex, first_glDrawRangeElementsBaseVertex, hook_glDrawRangeElementsBaseVertex, (mode: u32, start: u32, end: u32, count: i32, type_: u32, indices: Ptr, basevertex: i32) -> (), {
+export! { 1056, glDrawRangeElementsBaseVertex, first_glDrawRangeElementsBaseVertex, hook_glDrawRangeElementsBaseVertex, (mode: u32, start: u32, end: u32, count: i32, type_: u32, indices: Ptr, basevertex: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawRangeElementsBaseVertex(mode, start, end, count, type_, indices, basevertex) })
 } }
-export! { 1059, glDrawRangeElementsBaseVertexEXT, first_glDrawRangeElementsBaseVertexEXT, hook_glDrawRangeElementsBaseVertexEXT, (mode: u32, start: u32, end: u32, count: i32, type_: u32, indices: Ptr, basevertex: i32) -> (), {
+export! { 1057, glDrawRangeElementsBaseVertexEXT, first_glDrawRangeElementsBaseVertexEXT, hook_glDrawRangeElementsBaseVertexEXT, (mode: u32, start: u32, end: u32, count: i32, type_: u32, indices: Ptr, basevertex: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawRangeElementsBaseVertexEXT(mode, start, end, count, type_, indices, basevertex) })
 } }
-export! { 1060, glDrawRangeElementsBaseVertexOES, first_glDrawRangeElementsBaseVertexOES, hook_glDrawRangeElementsBaseVertexOES, (mode: u32, start: u32, end: u32, count: i32, type_: u32, indices: Ptr, basevertex: i32) -> (), {
+export! { 1058, glDrawRangeElementsBaseVertexOES, first_glDrawRangeElementsBaseVertexOES, hook_glDrawRangeElementsBaseVertexOES, (mode: u32, start: u32, end: u32, count: i32, type_: u32, indices: Ptr, basevertex: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawRangeElementsBaseVertexOES(mode, start, end, count, type_, indices, basevertex) })
 } }
-export! { 1061, glMultiDrawElementsBaseVertex, first_glMultiDrawElementsBaseVertex, hook_glMultiDrawElementsBaseVertex, (mode: u32, count: Ptr, type_: u32, indices: Ptr, drawcount: i32, basevertex: Ptr) -> (), {
+export! { 1059, glMultiDrawElementsBaseVertex, first_glMultiDrawElementsBaseVertex, hook_glMultiDrawElementsBaseVertex, (mode: u32, count: Ptr, type_: u32, indices: Ptr, drawcount: i32, basevertex: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawElementsBaseVertex(mode, count, type_, indices, drawcount, basevertex) })
 } }
-export! { 1062, glMultiDrawElementsBaseVertexEXT, first_glMultiDrawElementsBaseVertexEXT, hook_glMultiDrawElementsBaseVertexEXT, (mode: u32, count: Ptr, type_: u32, indices: Ptr, drawcount: i32, basevertex: Ptr) -> (), {
+export! { 1060, glMultiDrawElementsBaseVertexEXT, first_glMultiDrawElementsBaseVertexEXT, hook_glMultiDrawElementsBaseVertexEXT, (mode: u32, count: Ptr, type_: u32, indices: Ptr, drawcount: i32, basevertex: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawElementsBaseVertexEXT(mode, count, type_, indices, drawcount, basevertex) })
 } }
-export! { 1063, glDrawArraysInstanced, first_glDrawArraysInstanced, hook_glDrawArraysInstanced, (mode: u32, first: i32, count: i32, instancecount: i32) -> (), {
+export! { 1061, glDrawArraysInstanced, first_glDrawArraysInstanced, hook_glDrawArraysInstanced, (mode: u32, first: i32, count: i32, instancecount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawArraysInstanced(mode, first, count, instancecount) })
 } }
-export! { 1064, glDrawArraysInstancedANGLE, first_glDrawArraysInstancedANGLE, hook_glDrawArraysInstancedANGLE, (mode: u32, first: i32, count: i32, primcount: i32) -> (), {
+export! { 1062, glDrawArraysInstancedANGLE, first_glDrawArraysInstancedANGLE, hook_glDrawArraysInstancedANGLE, (mode: u32, first: i32, count: i32, primcount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawArraysInstancedANGLE(mode, first, count, primcount) })
 } }
-export! { 1065, glDrawArraysInstancedARB, first_glDrawArraysInstancedARB, hook_glDrawArraysInstancedARB, (mode: u32, first: i32, count: i32, primcount: i32) -> (), {
+export! { 1063, glDrawArraysInstancedARB, first_glDrawArraysInstancedARB, hook_glDrawArraysInstancedARB, (mode: u32, first: i32, count: i32, primcount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawArraysInstancedARB(mode, first, count, primcount) })
 } }
-export! { 1066, glDrawArraysInstancedEXT, first_glDrawArraysInstancedEXT, hook_glDrawArraysInstancedEXT, (mode: u32, start: i32, count: i32, primcount: i32) -> (), {
+export! { 1064, glDrawArraysInstancedEXT, first_glDrawArraysInstancedEXT, hook_glDrawArraysInstancedEXT, (mode: u32, start: i32, count: i32, primcount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawArraysInstancedEXT(mode, start, count, primcount) })
 } }
-export! { 1067, glDrawArraysInstancedNV, first_glDrawArraysInstancedNV, hook_glDrawArraysInstancedNV, (mode: u32, first: i32, count: i32, primcount: i32) -> (), {
+export! { 1065, glDrawArraysInstancedNV, first_glDrawArraysInstancedNV, hook_glDrawArraysInstancedNV, (mode: u32, first: i32, count: i32, primcount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawArraysInstancedNV(mode, first, count, primcount) })
 } }
-export! { 1068, glDrawElementsInstanced, first_glDrawElementsInstanced, hook_glDrawElementsInstanced, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32) -> (), {
+export! { 1066, glDrawElementsInstanced, first_glDrawElementsInstanced, hook_glDrawElementsInstanced, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsInstanced(mode, count, type_, indices, instancecount) })
 } }
-export! { 1069, glDrawElementsInstancedANGLE, first_glDrawElementsInstancedANGLE, hook_glDrawElementsInstancedANGLE, (mode: u32, count: i32, type_: u32, indices: Ptr, primcount: i32) -> (), {
+export! { 1067, glDrawElementsInstancedANGLE, first_glDrawElementsInstancedANGLE, hook_glDrawElementsInstancedANGLE, (mode: u32, count: i32, type_: u32, indices: Ptr, primcount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsInstancedANGLE(mode, count, type_, indices, primcount) })
 } }
-export! { 1070, glDrawElementsInstancedARB, first_glDrawElementsInstancedARB, hook_glDrawElementsInstancedARB, (mode: u32, count: i32, type_: u32, indices: Ptr, primcount: i32) -> (), {
+export! { 1068, glDrawElementsInstancedARB, first_glDrawElementsInstancedARB, hook_glDrawElementsInstancedARB, (mode: u32, count: i32, type_: u32, indices: Ptr, primcount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsInstancedARB(mode, count, type_, indices, primcount) })
 } }
-export! { 1071, glDrawElementsInstancedEXT, first_glDrawElementsInstancedEXT, hook_glDrawElementsInstancedEXT, (mode: u32, count: i32, type_: u32, indices: Ptr, primcount: i32) -> (), {
+export! { 1069, glDrawElementsInstancedEXT, first_glDrawElementsInstancedEXT, hook_glDrawElementsInstancedEXT, (mode: u32, count: i32, type_: u32, indices: Ptr, primcount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsInstancedEXT(mode, count, type_, indices, primcount) })
 } }
-export! { 1072, glDrawElementsInstancedNV, first_glDrawElementsInstancedNV, hook_glDrawElementsInstancedNV, (mode: u32, count: i32, type_: u32, indices: Ptr, primcount: i32) -> (), {
+export! { 1070, glDrawElementsInstancedNV, first_glDrawElementsInstancedNV, hook_glDrawElementsInstancedNV, (mode: u32, count: i32, type_: u32, indices: Ptr, primcount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsInstancedNV(mode, count, type_, indices, primcount) })
 } }
-export! { 1073, glDrawElementsInstancedBaseVertex, first_glDrawElementsInstancedBaseVertex, hook_glDrawElementsInstancedBaseVertex, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32, basevertex: i32) -> (), {
+export! { 1071, glDrawElementsInstancedBaseVertex, first_glDrawElementsInstancedBaseVertex, hook_glDrawElementsInstancedBaseVertex, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32, basevertex: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsInstancedBaseVertex(mode, count, type_, indices, instancecount, basevertex) })
 } }
-export! { 1074, glDrawElementsInstancedBaseVertexEXT, first_glDrawElementsInstancedBaseVertexEXT, hook_glDrawElementsInstancedBaseVertexEXT, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32, basevertex: i32) -> (), {
+export! { 1072, glDrawElementsInstancedBaseVertexEXT, first_glDrawElementsInstancedBaseVertexEXT, hook_glDrawElementsInstancedBaseVertexEXT, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32, basevertex: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsInstancedBaseVertexEXT(mode, count, type_, indices, instancecount, basevertex) })
 } }
-export! { 1075, glDrawElementsInstancedBaseVertexOES, first_glDrawElementsInstancedBaseVertexOES, hook_glDrawElementsInstancedBaseVertexOES, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32, basevertex: i32) -> (), {
+export! { 1073, glDrawElementsInstancedBaseVertexOES, first_glDrawElementsInstancedBaseVertexOES, hook_glDrawElementsInstancedBaseVertexOES, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32, basevertex: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsInstancedBaseVertexOES(mode, count, type_, indices, instancecount, basevertex) })
 } }
-export! { 1076, glDrawArraysInstancedBaseInstance, first_glDrawArraysInstancedBaseInstance, hook_glDrawArraysInstancedBaseInstance, (mode: u32, first: i32, count: i32, instancecount: i32, baseinstance: u32) -> (), {
+export! { 1074, glDrawArraysInstancedBaseInstance, first_glDrawArraysInstancedBaseInstance, hook_glDrawArraysInstancedBaseInstance, (mode: u32, first: i32, count: i32, instancecount: i32, baseinstance: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawArraysInstancedBaseInstance(mode, first, count, instancecount, baseinstance) })
 } }
-export! { 1077, glDrawArraysInstancedBaseInstanceEXT, first_glDrawArraysInstancedBaseInstanceEXT, hook_glDrawArraysInstancedBaseInstanceEXT, (mode: u32, first: i32, count: i32, instancecount: i32, baseinstance: u32) -> (), {
+export! { 1075, glDrawArraysInstancedBaseInstanceEXT, first_glDrawArraysInstancedBaseInstanceEXT, hook_glDrawArraysInstancedBaseInstanceEXT, (mode: u32, first: i32, count: i32, instancecount: i32, baseinstance: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawArraysInstancedBaseInstanceEXT(mode, first, count, instancecount, baseinstance) })
 } }
-export! { 1078, glDrawElementsInstancedBaseInstance, first_glDrawElementsInstancedBaseInstance, hook_glDrawElementsInstancedBaseInstance, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32, baseinstance: u32) -> (), {
+export! { 1076, glDrawElementsInstancedBaseInstance, first_glDrawElementsInstancedBaseInstance, hook_glDrawElementsInstancedBaseInstance, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32, baseinstance: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsInstancedBaseInstance(mode, count, type_, indices, instancecount, baseinstance) })
 } }
-export! { 1079, glDrawElementsInstancedBaseInstanceEXT, first_glDrawElementsInstancedBaseInstanceEXT, hook_glDrawElementsInstancedBaseInstanceEXT, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32, baseinstance: u32) -> (), {
+export! { 1077, glDrawElementsInstancedBaseInstanceEXT, first_glDrawElementsInstancedBaseInstanceEXT, hook_glDrawElementsInstancedBaseInstanceEXT, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32, baseinstance: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsInstancedBaseInstanceEXT(mode, count, type_, indices, instancecount, baseinstance) })
 } }
-export! { 1080, glDrawElementsInstancedBaseVertexBaseInstance, first_glDrawElementsInstancedBaseVertexBaseInstance, hook_glDrawElementsInstancedBaseVertexBaseInstance, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32, basevertex: i32, baseinstance: u32) -> (), {
+export! { 1078, glDrawElementsInstancedBaseVertexBaseInstance, first_glDrawElementsInstancedBaseVertexBaseInstance, hook_glDrawElementsInstancedBaseVertexBaseInstance, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32, basevertex: i32, baseinstance: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsInstancedBaseVertexBaseInstance(mode, count, type_, indices, instancecount, basevertex, baseinstance) })
 } }
-export! { 1081, glDrawElementsInstancedBaseVertexBaseInstanceEXT, first_glDrawElementsInstancedBaseVertexBaseInstanceEXT, hook_glDrawElementsInstancedBaseVertexBaseInstanceEXT, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32, basevertex: i32, baseinstance: u32) -> (), {
+export! { 1079, glDrawElementsInstancedBaseVertexBaseInstanceEXT, first_glDrawElementsInstancedBaseVertexBaseInstanceEXT, hook_glDrawElementsInstancedBaseVertexBaseInstanceEXT, (mode: u32, count: i32, type_: u32, indices: Ptr, instancecount: i32, basevertex: i32, baseinstance: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsInstancedBaseVertexBaseInstanceEXT(mode, count, type_, indices, instancecount, basevertex, baseinstance) })
 } }
-export! { 1082, glDrawArraysIndirect, first_glDrawArraysIndirect, hook_glDrawArraysIndirect, (mode: u32, indirect: Ptr) -> (), {
+export! { 1080, glDrawArraysIndirect, first_glDrawArraysIndirect, hook_glDrawArraysIndirect, (mode: u32, indirect: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawArraysIndirect(mode, indirect) })
 } }
-export! { 1083, glDrawElementsIndirect, first_glDrawElementsIndirect, hook_glDrawElementsIndirect, (mode: u32, type_: u32, indirect: Ptr) -> (), {
+export! { 1081, glDrawElementsIndirect, first_glDrawElementsIndirect, hook_glDrawElementsIndirect, (mode: u32, type_: u32, indirect: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawElementsIndirect(mode, type_, indirect) })
 } }
-export! { 1084, glMultiDrawArraysIndirect, first_glMultiDrawArraysIndirect, hook_glMultiDrawArraysIndirect, (mode: u32, indirect: Ptr, drawcount: i32, stride: i32) -> (), {
+export! { 1082, glMultiDrawArraysIndirect, first_glMultiDrawArraysIndirect, hook_glMultiDrawArraysIndirect, (mode: u32, indirect: Ptr, drawcount: i32, stride: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawArraysIndirect(mode, indirect, drawcount, stride) })
 } }
-export! { 1085, glMultiDrawArraysIndirectAMD, first_glMultiDrawArraysIndirectAMD, hook_glMultiDrawArraysIndirectAMD, (mode: u32, indirect: Ptr, primcount: i32, stride: i32) -> (), {
+export! { 1083, glMultiDrawArraysIndirectAMD, first_glMultiDrawArraysIndirectAMD, hook_glMultiDrawArraysIndirectAMD, (mode: u32, indirect: Ptr, primcount: i32, stride: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawArraysIndirectAMD(mode, indirect, primcount, stride) })
 } }
-export! { 1086, glMultiDrawArraysIndirectEXT, first_glMultiDrawArraysIndirectEXT, hook_glMultiDrawArraysIndirectEXT, (mode: u32, indirect: Ptr, drawcount: i32, stride: i32) -> (), {
+export! { 1084, glMultiDrawArraysIndirectEXT, first_glMultiDrawArraysIndirectEXT, hook_glMultiDrawArraysIndirectEXT, (mode: u32, indirect: Ptr, drawcount: i32, stride: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawArraysIndirectEXT(mode, indirect, drawcount, stride) })
 } }
-export! { 1087, glMultiDrawElementsIndirect, first_glMultiDrawElementsIndirect, hook_glMultiDrawElementsIndirect, (mode: u32, type_: u32, indirect: Ptr, drawcount: i32, stride: i32) -> (), {
+export! { 1085, glMultiDrawElementsIndirect, first_glMultiDrawElementsIndirect, hook_glMultiDrawElementsIndirect, (mode: u32, type_: u32, indirect: Ptr, drawcount: i32, stride: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawElementsIndirect(mode, type_, indirect, drawcount, stride) })
 } }
-export! { 1088, glMultiDrawElementsIndirectAMD, first_glMultiDrawElementsIndirectAMD, hook_glMultiDrawElementsIndirectAMD, (mode: u32, type_: u32, indirect: Ptr, primcount: i32, stride: i32) -> (), {
+export! { 1086, glMultiDrawElementsIndirectAMD, first_glMultiDrawElementsIndirectAMD, hook_glMultiDrawElementsIndirectAMD, (mode: u32, type_: u32, indirect: Ptr, primcount: i32, stride: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawElementsIndirectAMD(mode, type_, indirect, primcount, stride) })
 } }
-export! { 1089, glMultiDrawElementsIndirectEXT, first_glMultiDrawElementsIndirectEXT, hook_glMultiDrawElementsIndirectEXT, (mode: u32, type_: u32, indirect: Ptr, drawcount: i32, stride: i32) -> (), {
+export! { 1087, glMultiDrawElementsIndirectEXT, first_glMultiDrawElementsIndirectEXT, hook_glMultiDrawElementsIndirectEXT, (mode: u32, type_: u32, indirect: Ptr, drawcount: i32, stride: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glMultiDrawElementsIndirectEXT(mode, type_, indirect, drawcount, stride) })
 } }
-export! { 1090, glDrawTransformFeedback, first_glDrawTransformFeedback, hook_glDrawTransformFeedback, (mode: u32, id: u32) -> (), {
+export! { 1088, glDrawTransformFeedback, first_glDrawTransformFeedback, hook_glDrawTransformFeedback, (mode: u32, id: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawTransformFeedback(mode, id) })
 } }
-export! { 1091, glDrawTransformFeedbackEXT, first_glDrawTransformFeedbackEXT, hook_glDrawTransformFeedbackEXT, (mode: u32, id: u32) -> (), {
+export! { 1089, glDrawTransformFeedbackEXT, first_glDrawTransformFeedbackEXT, hook_glDrawTransformFeedbackEXT, (mode: u32, id: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawTransformFeedbackEXT(mode, id) })
 } }
-export! { 1092, glDrawTransformFeedbackNV, first_glDrawTransformFeedbackNV, hook_glDrawTransformFeedbackNV, (mode: u32, id: u32) -> (), {
+export! { 1090, glDrawTransformFeedbackNV, first_glDrawTransformFeedbackNV, hook_glDrawTransformFeedbackNV, (mode: u32, id: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawTransformFeedbackNV(mode, id) })
 } }
-export! { 1093, glDrawTransformFeedbackInstanced, first_glDrawTransformFeedbackInstanced, hook_glDrawTransformFeedbackInstanced, (mode: u32, id: u32, instancecount: i32) -> (), {
+export! { 1091, glDrawTransformFeedbackInstanced, first_glDrawTransformFeedbackInstanced, hook_glDrawTransformFeedbackInstanced, (mode: u32, id: u32, instancecount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawTransformFeedbackInstanced(mode, id, instancecount) })
 } }
-export! { 1094, glDrawTransformFeedbackInstancedEXT, first_glDrawTransformFeedbackInstancedEXT, hook_glDrawTransformFeedbackInstancedEXT, (mode: u32, id: u32, instancecount: i32) -> (), {
+export! { 1092, glDrawTransformFeedbackInstancedEXT, first_glDrawTransformFeedbackInstancedEXT, hook_glDrawTransformFeedbackInstancedEXT, (mode: u32, id: u32, instancecount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawTransformFeedbackInstancedEXT(mode, id, instancecount) })
 } }
-export! { 1095, glDrawTransformFeedbackStream, first_glDrawTransformFeedbackStream, hook_glDrawTransformFeedbackStream, (mode: u32, id: u32, stream: u32) -> (), {
+export! { 1093, glDrawTransformFeedbackStream, first_glDrawTransformFeedbackStream, hook_glDrawTransformFeedbackStream, (mode: u32, id: u32, stream: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawTransformFeedbackStream(mode, id, stream) })
 } }
-export! { 1096, glDrawTransformFeedbackStreamInstanced, first_glDrawTransformFeedbackStreamInstanced, hook_glDrawTransformFeedbackStreamInstanced, (mode: u32, id: u32, stream: u32, instancecount: i32) -> (), {
+export! { 1094, glDrawTransformFeedbackStreamInstanced, first_glDrawTransformFeedbackStreamInstanced, hook_glDrawTransformFeedbackStreamInstanced, (mode: u32, id: u32, stream: u32, instancecount: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glDrawTransformFeedbackStreamInstanced(mode, id, stream, instancecount) })
 } }
-export! { 1097, glRectd, first_glRectd, hook_glRectd, (x1: f64, y1: f64, x2: f64, y2: f64) -> (), {
+export! { 1095, glRectd, first_glRectd, hook_glRectd, (x1: f64, y1: f64, x2: f64, y2: f64) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glRectd(x1, y1, x2, y2) })
 } }
-export! { 1098, glRectdv, first_glRectdv, hook_glRectdv, (v1: Ptr, v2: Ptr) -> (), {
+export! { 1096, glRectdv, first_glRectdv, hook_glRectdv, (v1: Ptr, v2: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glRectdv(v1, v2) })
 } }
-export! { 1099, glRectf, first_glRectf, hook_glRectf, (x1: f32, y1: f32, x2: f32, y2: f32) -> (), {
+export! { 1097, glRectf, first_glRectf, hook_glRectf, (x1: f32, y1: f32, x2: f32, y2: f32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glRectf(x1, y1, x2, y2) })
 } }
-export! { 1100, glRectfv, first_glRectfv, hook_glRectfv, (v1: Ptr, v2: Ptr) -> (), {
+export! { 1098, glRectfv, first_glRectfv, hook_glRectfv, (v1: Ptr, v2: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glRectfv(v1, v2) })
 } }
-export! { 1101, glRecti, first_glRecti, hook_glRecti, (x1: i32, y1: i32, x2: i32, y2: i32) -> (), {
+export! { 1099, glRecti, first_glRecti, hook_glRecti, (x1: i32, y1: i32, x2: i32, y2: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glRecti(x1, y1, x2, y2) })
 } }
-export! { 1102, glRectiv, first_glRectiv, hook_glRectiv, (v1: Ptr, v2: Ptr) -> (), {
+export! { 1100, glRectiv, first_glRectiv, hook_glRectiv, (v1: Ptr, v2: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glRectiv(v1, v2) })
 } }
-export! { 1103, glRects, first_glRects, hook_glRects, (x1: i16, y1: i16, x2: i16, y2: i16) -> (), {
+export! { 1101, glRects, first_glRects, hook_glRects, (x1: i16, y1: i16, x2: i16, y2: i16) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glRects(x1, y1, x2, y2) })
 } }
-export! { 1104, glRectsv, first_glRectsv, hook_glRectsv, (v1: Ptr, v2: Ptr) -> (), {
+export! { 1102, glRectsv, first_glRectsv, hook_glRectsv, (v1: Ptr, v2: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glRectsv(v1, v2) })
 } }
-export! { 1105, glEvalMesh1, first_glEvalMesh1, hook_glEvalMesh1, (mode: u32, i1: i32, i2: i32) -> (), {
+export! { 1103, glEvalMesh1, first_glEvalMesh1, hook_glEvalMesh1, (mode: u32, i1: i32, i2: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glEvalMesh1(mode, i1, i2) })
 } }
-export! { 1106, glEvalMesh2, first_glEvalMesh2, hook_glEvalMesh2, (mode: u32, i1: i32, i2: i32, j1: i32, j2: i32) -> (), {
+export! { 1104, glEvalMesh2, first_glEvalMesh2, hook_glEvalMesh2, (mode: u32, i1: i32, i2: i32, j1: i32, j2: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::draw(Kind::ARRAYS, &mut |gl| unsafe { gl.glEvalMesh2(mode, i1, i2, j1, j2) })
 } }
-export! { 1107, glAccum, first_glAccum, hook_glAccum, (op: u32, value: f32) -> (), {
+export! { 1105, glAccum, first_glAccum, hook_glAccum, (op: u32, value: f32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glAccum(op, value) }
 } }
-export! { 1108, glBitmap, first_glBitmap, hook_glBitmap, (width: i32, height: i32, xorig: f32, yorig: f32, xmove: f32, ymove: f32, bitmap: Ptr) -> (), {
+export! { 1106, glBitmap, first_glBitmap, hook_glBitmap, (width: i32, height: i32, xorig: f32, yorig: f32, xmove: f32, ymove: f32, bitmap: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBitmap(width, height, xorig, yorig, xmove, ymove, bitmap) }
 } }
-export! { 1109, glDrawPixels, first_glDrawPixels, hook_glDrawPixels, (width: i32, height: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
+export! { 1107, glDrawPixels, first_glDrawPixels, hook_glDrawPixels, (width: i32, height: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDrawPixels(width, height, format, type_, pixels) }
 } }
-export! { 1110, glCopyPixels, first_glCopyPixels, hook_glCopyPixels, (x: i32, y: i32, width: i32, height: i32, type_: u32) -> (), {
+export! { 1108, glCopyPixels, first_glCopyPixels, hook_glCopyPixels, (x: i32, y: i32, width: i32, height: i32, type_: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glCopyPixels(x, y, width, height, type_) }
 } }
-export! { 1111, glNewList, first_glNewList, hook_glNewList, (list: u32, mode: u32) -> (), {
+export! { 1109, glNewList, first_glNewList, hook_glNewList, (list: u32, mode: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glNewList(list, mode) }
 } }
-export! { 1112, glEndList, first_glEndList, hook_glEndList, () -> (), {
+export! { 1110, glEndList, first_glEndList, hook_glEndList, () -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glEndList() }
 } }
-export! { 1113, glCallList, first_glCallList, hook_glCallList, (list: u32) -> (), {
+export! { 1111, glCallList, first_glCallList, hook_glCallList, (list: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glCallList(list) }
 } }
-export! { 1114, glCallLists, first_glCallLists, hook_glCallLists, (n: i32, type_: u32, lists: Ptr) -> (), {
+export! { 1112, glCallLists, first_glCallLists, hook_glCallLists, (n: i32, type_: u32, lists: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glCallLists(n, type_, lists) }
 } }
-export! { 1115, glDeleteLists, first_glDeleteLists, hook_glDeleteLists, (list: u32, range: i32) -> (), {
+export! { 1113, glDeleteLists, first_glDeleteLists, hook_glDeleteLists, (list: u32, range: i32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDeleteLists(list, range) }
 } }
-export! { 1116, glGenLists, first_glGenLists, hook_glGenLists, (range: i32) -> u32, {
+export! { 1114, glGenLists, first_glGenLists, hook_glGenLists, (range: i32) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::glGenLists(range) }
 } }
-export! { 1117, glIsList, first_glIsList, hook_glIsList, (list: u32) -> u8, {
+export! { 1115, glIsList, first_glIsList, hook_glIsList, (list: u32) -> u8, {
     // SAFETY: the program's own arguments.
     unsafe { special::glIsList(list) }
 } }
-export! { 1118, glBindTexture, first_glBindTexture, hook_glBindTexture, (target: u32, texture: u32) -> (), {
+export! { 1116, glBindTexture, first_glBindTexture, hook_glBindTexture, (target: u32, texture: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBindTexture(target, texture) }
 } }
-export! { 1119, glBindTextureEXT, first_glBindTextureEXT, hook_glBindTextureEXT, (target: u32, texture: u32) -> (), {
+export! { 1117, glBindTextureEXT, first_glBindTextureEXT, hook_glBindTextureEXT, (target: u32, texture: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBindTexture(target, texture) }
 } }
-export! { 1120, glDeleteTextures, first_glDeleteTextures, hook_glDeleteTextures, (n: i32, textures: Ptr) -> (), {
+export! { 1118, glDeleteTextures, first_glDeleteTextures, hook_glDeleteTextures, (n: i32, textures: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDeleteTextures(n, textures) }
 } }
-export! { 1121, glIsTexture, first_glIsTexture, hook_glIsTexture, (texture: u32) -> u8, {
+export! { 1119, glIsTexture, first_glIsTexture, hook_glIsTexture, (texture: u32) -> u8, {
     // SAFETY: the program's own arguments.
     unsafe { special::glIsTexture(texture) }
 } }
-export! { 1122, glIsFramebuffer, first_glIsFramebuffer, hook_glIsFramebuffer, (framebuffer: u32) -> u8, {
+export! { 1120, glIsFramebuffer, first_glIsFramebuffer, hook_glIsFramebuffer, (framebuffer: u32) -> u8, {
     // SAFETY: the program's own arguments.
     unsafe { special::glIsFramebuffer(framebuffer) }
 } }
-export! { 1123, glIsFramebufferEXT, first_glIsFramebufferEXT, hook_glIsFramebufferEXT, (framebuffer: u32) -> u8, {
+export! { 1121, glIsFramebufferEXT, first_glIsFramebufferEXT, hook_glIsFramebufferEXT, (framebuffer: u32) -> u8, {
     // SAFETY: the program's own arguments.
     unsafe { special::glIsFramebuffer(framebuffer) }
 } }
-export! { 1124, glBindFramebuffer, first_glBindFramebuffer, hook_glBindFramebuffer, (target: u32, framebuffer: u32) -> (), {
+export! { 1122, glBindFramebuffer, first_glBindFramebuffer, hook_glBindFramebuffer, (target: u32, framebuffer: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBindFramebuffer(target, framebuffer) }
 } }
-export! { 1125, glBindFramebufferEXT, first_glBindFramebufferEXT, hook_glBindFramebufferEXT, (target: u32, framebuffer: u32) -> (), {
+export! { 1123, glBindFramebufferEXT, first_glBindFramebufferEXT, hook_glBindFramebufferEXT, (target: u32, framebuffer: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBindFramebufferEXT(target, framebuffer) }
 } }
-export! { 1126, glDeleteFramebuffers, first_glDeleteFramebuffers, hook_glDeleteFramebuffers, (n: i32, framebuffers: Ptr) -> (), {
+export! { 1124, glDeleteFramebuffers, first_glDeleteFramebuffers, hook_glDeleteFramebuffers, (n: i32, framebuffers: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDeleteFramebuffers(n, framebuffers) }
 } }
-export! { 1127, glDeleteFramebuffersEXT, first_glDeleteFramebuffersEXT, hook_glDeleteFramebuffersEXT, (n: i32, framebuffers: Ptr) -> (), {
+export! { 1125, glDeleteFramebuffersEXT, first_glDeleteFramebuffersEXT, hook_glDeleteFramebuffersEXT, (n: i32, framebuffers: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDeleteFramebuffers(n, framebuffers) }
 } }
-export! { 1128, glDrawBuffer, first_glDrawBuffer, hook_glDrawBuffer, (buf: u32) -> (), {
+export! { 1126, glDrawBuffer, first_glDrawBuffer, hook_glDrawBuffer, (buf: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDrawBuffer(buf) }
 } }
-export! { 1129, glDrawBuffers, first_glDrawBuffers, hook_glDrawBuffers, (n: i32, bufs: Ptr) -> (), {
+export! { 1127, glDrawBuffers, first_glDrawBuffers, hook_glDrawBuffers, (n: i32, bufs: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDrawBuffers(n, bufs) }
 } }
-export! { 1130, glDrawBuffersARB, first_glDrawBuffersARB, hook_glDrawBuffersARB, (n: i32, bufs: Ptr) -> (), {
+export! { 1128, glDrawBuffersARB, first_glDrawBuffersARB, hook_glDrawBuffersARB, (n: i32, bufs: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDrawBuffers(n, bufs) }
 } }
-export! { 1131, glDrawBuffersATI, first_glDrawBuffersATI, hook_glDrawBuffersATI, (n: i32, bufs: Ptr) -> (), {
+export! { 1129, glDrawBuffersATI, first_glDrawBuffersATI, hook_glDrawBuffersATI, (n: i32, bufs: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDrawBuffers(n, bufs) }
 } }
-export! { 1132, glDrawBuffersEXT, first_glDrawBuffersEXT, hook_glDrawBuffersEXT, (n: i32, bufs: Ptr) -> (), {
+export! { 1130, glDrawBuffersEXT, first_glDrawBuffersEXT, hook_glDrawBuffersEXT, (n: i32, bufs: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDrawBuffers(n, bufs) }
 } }
-export! { 1133, glReadBuffer, first_glReadBuffer, hook_glReadBuffer, (src: u32) -> (), {
+export! { 1131, glReadBuffer, first_glReadBuffer, hook_glReadBuffer, (src: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glReadBuffer(src) }
 } }
-export! { 1134, glNamedFramebufferDrawBuffer, first_glNamedFramebufferDrawBuffer, hook_glNamedFramebufferDrawBuffer, (framebuffer: u32, buf: u32) -> (), {
+export! { 1132, glNamedFramebufferDrawBuffer, first_glNamedFramebufferDrawBuffer, hook_glNamedFramebufferDrawBuffer, (framebuffer: u32, buf: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glNamedFramebufferDrawBuffer(framebuffer, buf) }
 } }
-export! { 1135, glNamedFramebufferDrawBuffers, first_glNamedFramebufferDrawBuffers, hook_glNamedFramebufferDrawBuffers, (framebuffer: u32, n: i32, bufs: Ptr) -> (), {
+export! { 1133, glNamedFramebufferDrawBuffers, first_glNamedFramebufferDrawBuffers, hook_glNamedFramebufferDrawBuffers, (framebuffer: u32, n: i32, bufs: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glNamedFramebufferDrawBuffers(framebuffer, n, bufs) }
 } }
-export! { 1136, glNamedFramebufferReadBuffer, first_glNamedFramebufferReadBuffer, hook_glNamedFramebufferReadBuffer, (framebuffer: u32, src: u32) -> (), {
+export! { 1134, glNamedFramebufferReadBuffer, first_glNamedFramebufferReadBuffer, hook_glNamedFramebufferReadBuffer, (framebuffer: u32, src: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glNamedFramebufferReadBuffer(framebuffer, src) }
 } }
-export! { 1137, glFramebufferDrawBufferEXT, first_glFramebufferDrawBufferEXT, hook_glFramebufferDrawBufferEXT, (framebuffer: u32, mode: u32) -> (), {
+export! { 1135, glFramebufferDrawBufferEXT, first_glFramebufferDrawBufferEXT, hook_glFramebufferDrawBufferEXT, (framebuffer: u32, mode: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glFramebufferDrawBufferEXT(framebuffer, mode) }
 } }
-export! { 1138, glFramebufferDrawBuffersEXT, first_glFramebufferDrawBuffersEXT, hook_glFramebufferDrawBuffersEXT, (framebuffer: u32, n: i32, bufs: Ptr) -> (), {
+export! { 1136, glFramebufferDrawBuffersEXT, first_glFramebufferDrawBuffersEXT, hook_glFramebufferDrawBuffersEXT, (framebuffer: u32, n: i32, bufs: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glFramebufferDrawBuffersEXT(framebuffer, n, bufs) }
 } }
-export! { 1139, glFramebufferReadBufferEXT, first_glFramebufferReadBufferEXT, hook_glFramebufferReadBufferEXT, (framebuffer: u32, mode: u32) -> (), {
+export! { 1137, glFramebufferReadBufferEXT, first_glFramebufferReadBufferEXT, hook_glFramebufferReadBufferEXT, (framebuffer: u32, mode: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glFramebufferReadBufferEXT(framebuffer, mode) }
 } }
-export! { 1140, glBlitFramebuffer, first_glBlitFramebuffer, hook_glBlitFramebuffer, (srcX0: i32, srcY0: i32, srcX1: i32, srcY1: i32, dstX0: i32, dstY0: i32, dstX1: i32, dstY1: i32, mask: u32, filter: u32) -> (), {
+export! { 1138, glBlitFramebuffer, first_glBlitFramebuffer, hook_glBlitFramebuffer, (srcX0: i32, srcY0: i32, srcX1: i32, srcY1: i32, dstX0: i32, dstY0: i32, dstX1: i32, dstY1: i32, mask: u32, filter: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBlitFramebuffer(srcX0, srcY0, srcX1, srcY1, dstX0, dstY0, dstX1, dstY1, mask, filter) }
 } }
-export! { 1141, glBlitFramebufferEXT, first_glBlitFramebufferEXT, hook_glBlitFramebufferEXT, (srcX0: i32, srcY0: i32, srcX1: i32, srcY1: i32, dstX0: i32, dstY0: i32, dstX1: i32, dstY1: i32, mask: u32, filter: u32) -> (), {
+export! { 1139, glBlitFramebufferEXT, first_glBlitFramebufferEXT, hook_glBlitFramebufferEXT, (srcX0: i32, srcY0: i32, srcX1: i32, srcY1: i32, dstX0: i32, dstY0: i32, dstX1: i32, dstY1: i32, mask: u32, filter: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBlitFramebuffer(srcX0, srcY0, srcX1, srcY1, dstX0, dstY0, dstX1, dstY1, mask, filter) }
 } }
-export! { 1142, glBlitFramebufferNV, first_glBlitFramebufferNV, hook_glBlitFramebufferNV, (srcX0: i32, srcY0: i32, srcX1: i32, srcY1: i32, dstX0: i32, dstY0: i32, dstX1: i32, dstY1: i32, mask: u32, filter: u32) -> (), {
+export! { 1140, glBlitFramebufferNV, first_glBlitFramebufferNV, hook_glBlitFramebufferNV, (srcX0: i32, srcY0: i32, srcX1: i32, srcY1: i32, dstX0: i32, dstY0: i32, dstX1: i32, dstY1: i32, mask: u32, filter: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBlitFramebuffer(srcX0, srcY0, srcX1, srcY1, dstX0, dstY0, dstX1, dstY1, mask, filter) }
 } }
-export! { 1143, glBlitNamedFramebuffer, first_glBlitNamedFramebuffer, hook_glBlitNamedFramebuffer, (readFramebuffer: u32, drawFramebuffer: u32, srcX0: i32, srcY0: i32, srcX1: i32, srcY1: i32, dstX0: i32, dstY0: i32, dstX1: i32, dstY1: i32, mask: u32, filter: u32) -> (), {
+export! { 1141, glBlitNamedFramebuffer, first_glBlitNamedFramebuffer, hook_glBlitNamedFramebuffer, (readFramebuffer: u32, drawFramebuffer: u32, srcX0: i32, srcY0: i32, srcX1: i32, srcY1: i32, dstX0: i32, dstY0: i32, dstX1: i32, dstY1: i32, mask: u32, filter: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBlitNamedFramebuffer(readFramebuffer, drawFramebuffer, srcX0, srcY0, srcX1, srcY1, dstX0, dstY0, dstX1, dstY1, mask, filter) }
 } }
-export! { 1144, glClearNamedFramebufferfv, first_glClearNamedFramebufferfv, hook_glClearNamedFramebufferfv, (framebuffer: u32, buffer: u32, drawbuffer: i32, value: Ptr) -> (), {
+export! { 1142, glClearNamedFramebufferfv, first_glClearNamedFramebufferfv, hook_glClearNamedFramebufferfv, (framebuffer: u32, buffer: u32, drawbuffer: i32, value: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glClearNamedFramebufferfv(framebuffer, buffer, drawbuffer, value) }
 } }
-export! { 1145, glClearNamedFramebufferiv, first_glClearNamedFramebufferiv, hook_glClearNamedFramebufferiv, (framebuffer: u32, buffer: u32, drawbuffer: i32, value: Ptr) -> (), {
+export! { 1143, glClearNamedFramebufferiv, first_glClearNamedFramebufferiv, hook_glClearNamedFramebufferiv, (framebuffer: u32, buffer: u32, drawbuffer: i32, value: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glClearNamedFramebufferiv(framebuffer, buffer, drawbuffer, value) }
 } }
-export! { 1146, glClearNamedFramebufferuiv, first_glClearNamedFramebufferuiv, hook_glClearNamedFramebufferuiv, (framebuffer: u32, buffer: u32, drawbuffer: i32, value: Ptr) -> (), {
+export! { 1144, glClearNamedFramebufferuiv, first_glClearNamedFramebufferuiv, hook_glClearNamedFramebufferuiv, (framebuffer: u32, buffer: u32, drawbuffer: i32, value: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glClearNamedFramebufferuiv(framebuffer, buffer, drawbuffer, value) }
 } }
-export! { 1147, glClearNamedFramebufferfi, first_glClearNamedFramebufferfi, hook_glClearNamedFramebufferfi, (framebuffer: u32, buffer: u32, drawbuffer: i32, depth: f32, stencil: i32) -> (), {
+export! { 1145, glClearNamedFramebufferfi, first_glClearNamedFramebufferfi, hook_glClearNamedFramebufferfi, (framebuffer: u32, buffer: u32, drawbuffer: i32, depth: f32, stencil: i32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glClearNamedFramebufferfi(framebuffer, buffer, drawbuffer, depth, stencil) }
 } }
-export! { 1148, glGetIntegerv, first_glGetIntegerv, hook_glGetIntegerv, (pname: u32, data: Ptr) -> (), {
+export! { 1146, glGetIntegerv, first_glGetIntegerv, hook_glGetIntegerv, (pname: u32, data: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetIntegerv(pname, data) }
 } }
-export! { 1149, glGetBooleanv, first_glGetBooleanv, hook_glGetBooleanv, (pname: u32, data: Ptr) -> (), {
+export! { 1147, glGetBooleanv, first_glGetBooleanv, hook_glGetBooleanv, (pname: u32, data: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetBooleanv(pname, data) }
 } }
-export! { 1150, glGetFloatv, first_glGetFloatv, hook_glGetFloatv, (pname: u32, data: Ptr) -> (), {
+export! { 1148, glGetFloatv, first_glGetFloatv, hook_glGetFloatv, (pname: u32, data: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetFloatv(pname, data) }
 } }
-export! { 1151, glGetDoublev, first_glGetDoublev, hook_glGetDoublev, (pname: u32, data: Ptr) -> (), {
+export! { 1149, glGetDoublev, first_glGetDoublev, hook_glGetDoublev, (pname: u32, data: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetDoublev(pname, data) }
 } }
-export! { 1152, glGetInteger64v, first_glGetInteger64v, hook_glGetInteger64v, (pname: u32, data: Ptr) -> (), {
+export! { 1150, glGetInteger64v, first_glGetInteger64v, hook_glGetInteger64v, (pname: u32, data: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetInteger64v(pname, data) }
 } }
-export! { 1153, glGetInteger64vAPPLE, first_glGetInteger64vAPPLE, hook_glGetInteger64vAPPLE, (pname: u32, params: Ptr) -> (), {
+export! { 1151, glGetInteger64vAPPLE, first_glGetInteger64vAPPLE, hook_glGetInteger64vAPPLE, (pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetInteger64v(pname, params) }
 } }
-export! { 1154, glGetInteger64vEXT, first_glGetInteger64vEXT, hook_glGetInteger64vEXT, (pname: u32, data: Ptr) -> (), {
+export! { 1152, glGetInteger64vEXT, first_glGetInteger64vEXT, hook_glGetInteger64vEXT, (pname: u32, data: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetInteger64v(pname, data) }
 } }
-export! { 1155, glFramebufferTexture3DOES, first_glFramebufferTexture3DOES, hook_glFramebufferTexture3DOES, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32, zoffset: i32) -> (), {
+export! { 1153, glFramebufferTexture3DOES, first_glFramebufferTexture3DOES, hook_glFramebufferTexture3DOES, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32, zoffset: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferTexture3DOES(target, attachment, textarget, texture, level, zoffset) })
 } }
-export! { 1156, glFramebufferTexture2DMultisampleEXT, first_glFramebufferTexture2DMultisampleEXT, hook_glFramebufferTexture2DMultisampleEXT, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32, samples: i32) -> (), {
+export! { 1154, glFramebufferTexture2DMultisampleEXT, first_glFramebufferTexture2DMultisampleEXT, hook_glFramebufferTexture2DMultisampleEXT, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32, samples: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferTexture2DMultisampleEXT(target, attachment, textarget, texture, level, samples) })
 } }
-export! { 1157, glFramebufferTexture, first_glFramebufferTexture, hook_glFramebufferTexture, (target: u32, attachment: u32, texture: u32, level: i32) -> (), {
+export! { 1155, glFramebufferTexture, first_glFramebufferTexture, hook_glFramebufferTexture, (target: u32, attachment: u32, texture: u32, level: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferTexture(target, attachment, texture, level) })
 } }
-export! { 1158, glFramebufferTextureARB, first_glFramebufferTextureARB, hook_glFramebufferTextureARB, (target: u32, attachment: u32, texture: u32, level: i32) -> (), {
+export! { 1156, glFramebufferTextureARB, first_glFramebufferTextureARB, hook_glFramebufferTextureARB, (target: u32, attachment: u32, texture: u32, level: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferTextureARB(target, attachment, texture, level) })
 } }
-export! { 1159, glFramebufferTextureEXT, first_glFramebufferTextureEXT, hook_glFramebufferTextureEXT, (target: u32, attachment: u32, texture: u32, level: i32) -> (), {
+export! { 1157, glFramebufferTextureEXT, first_glFramebufferTextureEXT, hook_glFramebufferTextureEXT, (target: u32, attachment: u32, texture: u32, level: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferTextureEXT(target, attachment, texture, level) })
 } }
-export! { 1160, glFramebufferTextureOES, first_glFramebufferTextureOES, hook_glFramebufferTextureOES, (target: u32, attachment: u32, texture: u32, level: i32) -> (), {
+export! { 1158, glFramebufferTextureOES, first_glFramebufferTextureOES, hook_glFramebufferTextureOES, (target: u32, attachment: u32, texture: u32, level: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferTextureOES(target, attachment, texture, level) })
 } }
-export! { 1161, glFramebufferTexture1D, first_glFramebufferTexture1D, hook_glFramebufferTexture1D, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32) -> (), {
+export! { 1159, glFramebufferTexture1D, first_glFramebufferTexture1D, hook_glFramebufferTexture1D, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferTexture1D(target, attachment, textarget, texture, level) })
 } }
-export! { 1162, glFramebufferTexture1DEXT, first_glFramebufferTexture1DEXT, hook_glFramebufferTexture1DEXT, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32) -> (), {
+export! { 1160, glFramebufferTexture1DEXT, first_glFramebufferTexture1DEXT, hook_glFramebufferTexture1DEXT, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferTexture1DEXT(target, attachment, textarget, texture, level) })
 } }
-export! { 1163, glFramebufferTexture2D, first_glFramebufferTexture2D, hook_glFramebufferTexture2D, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32) -> (), {
+export! { 1161, glFramebufferTexture2D, first_glFramebufferTexture2D, hook_glFramebufferTexture2D, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferTexture2D(target, attachment, textarget, texture, level) })
 } }
-export! { 1164, glFramebufferTexture2DEXT, first_glFramebufferTexture2DEXT, hook_glFramebufferTexture2DEXT, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32) -> (), {
+export! { 1162, glFramebufferTexture2DEXT, first_glFramebufferTexture2DEXT, hook_glFramebufferTexture2DEXT, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferTexture2DEXT(target, attachment, textarget, texture, level) })
 } }
-export! { 1165, glFramebufferTexture3D, first_glFramebufferTexture3D, hook_glFramebufferTexture3D, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32, zoffset: i32) -> (), {
+export! { 1163, glFramebufferTexture3D, first_glFramebufferTexture3D, hook_glFramebufferTexture3D, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32, zoffset: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferTexture3D(target, attachment, textarget, texture, level, zoffset) })
 } }
-export! { 1166, glFramebufferTexture3DEXT, first_glFramebufferTexture3DEXT, hook_glFramebufferTexture3DEXT, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32, zoffset: i32) -> (), {
+export! { 1164, glFramebufferTexture3DEXT, first_glFramebufferTexture3DEXT, hook_glFramebufferTexture3DEXT, (target: u32, attachment: u32, textarget: u32, texture: u32, level: i32, zoffset: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferTexture3DEXT(target, attachment, textarget, texture, level, zoffset) })
 } }
-export! { 1167, glFramebufferTextureLayer, first_glFramebufferTextureLayer, hook_glFramebufferTextureLayer, (target: u32, attachment: u32, texture: u32, level: i32, layer: i32) -> (), {
+export! { 1165, glFramebufferTextureLayer, first_glFramebufferTextureLayer, hook_glFramebufferTextureLayer, (target: u32, attachment: u32, texture: u32, level: i32, layer: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferTextureLayer(target, attachment, texture, level, layer) })
 } }
-export! { 1168, glFramebufferTextureLayerARB, first_glFramebufferTextureLayerARB, hook_glFramebufferTextureLayerARB, (target: u32, attachment: u32, texture: u32, level: i32, layer: i32) -> (), {
+export! { 1166, glFramebufferTextureLayerARB, first_glFramebufferTextureLayerARB, hook_glFramebufferTextureLayerARB, (target: u32, attachment: u32, texture: u32, level: i32, layer: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferTextureLayerARB(target, attachment, texture, level, layer) })
 } }
-export! { 1169, glFramebufferTextureLayerEXT, first_glFramebufferTextureLayerEXT, hook_glFramebufferTextureLayerEXT, (target: u32, attachment: u32, texture: u32, level: i32, layer: i32) -> (), {
+export! { 1167, glFramebufferTextureLayerEXT, first_glFramebufferTextureLayerEXT, hook_glFramebufferTextureLayerEXT, (target: u32, attachment: u32, texture: u32, level: i32, layer: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferTextureLayerEXT(target, attachment, texture, level, layer) })
 } }
-export! { 1170, glFramebufferRenderbuffer, first_glFramebufferRenderbuffer, hook_glFramebufferRenderbuffer, (target: u32, attachment: u32, renderbuffertarget: u32, renderbuffer: u32) -> (), {
+export! { 1168, glFramebufferRenderbuffer, first_glFramebufferRenderbuffer, hook_glFramebufferRenderbuffer, (target: u32, attachment: u32, renderbuffertarget: u32, renderbuffer: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferRenderbuffer(target, attachment, renderbuffertarget, renderbuffer) })
 } }
-export! { 1171, glFramebufferRenderbufferEXT, first_glFramebufferRenderbufferEXT, hook_glFramebufferRenderbufferEXT, (target: u32, attachment: u32, renderbuffertarget: u32, renderbuffer: u32) -> (), {
+export! { 1169, glFramebufferRenderbufferEXT, first_glFramebufferRenderbufferEXT, hook_glFramebufferRenderbufferEXT, (target: u32, attachment: u32, renderbuffertarget: u32, renderbuffer: u32) -> (), {
     // SAFETY: the program's own call.
     hooks::attach(target, &mut |gl| unsafe { gl.glFramebufferRenderbufferEXT(target, attachment, renderbuffertarget, renderbuffer) })
 } }
-export! { 1172, glNamedFramebufferTexture, first_glNamedFramebufferTexture, hook_glNamedFramebufferTexture, (framebuffer: u32, attachment: u32, texture: u32, level: i32) -> (), {
+export! { 1170, glNamedFramebufferTexture, first_glNamedFramebufferTexture, hook_glNamedFramebufferTexture, (framebuffer: u32, attachment: u32, texture: u32, level: i32) -> (), {
     hooks::attached();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glNamedFramebufferTexture(framebuffer, attachment, texture, level) };
 } }
-export! { 1173, glNamedFramebufferTextureLayer, first_glNamedFramebufferTextureLayer, hook_glNamedFramebufferTextureLayer, (framebuffer: u32, attachment: u32, texture: u32, level: i32, layer: i32) -> (), {
+export! { 1171, glNamedFramebufferTextureLayer, first_glNamedFramebufferTextureLayer, hook_glNamedFramebufferTextureLayer, (framebuffer: u32, attachment: u32, texture: u32, level: i32, layer: i32) -> (), {
     hooks::attached();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glNamedFramebufferTextureLayer(framebuffer, attachment, texture, level, layer) };
 } }
-export! { 1174, glNamedFramebufferRenderbuffer, first_glNamedFramebufferRenderbuffer, hook_glNamedFramebufferRenderbuffer, (framebuffer: u32, attachment: u32, renderbuffertarget: u32, renderbuffer: u32) -> (), {
+export! { 1172, glNamedFramebufferRenderbuffer, first_glNamedFramebufferRenderbuffer, hook_glNamedFramebufferRenderbuffer, (framebuffer: u32, attachment: u32, renderbuffertarget: u32, renderbuffer: u32) -> (), {
     hooks::attached();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glNamedFramebufferRenderbuffer(framebuffer, attachment, renderbuffertarget, renderbuffer) };
 } }
-export! { 1175, glGetFramebufferAttachmentParameteriv, first_glGetFramebufferAttachmentParameteriv, hook_glGetFramebufferAttachmentParameteriv, (target: u32, attachment: u32, pname: u32, params: Ptr) -> (), {
+export! { 1173, glGetFramebufferAttachmentParameteriv, first_glGetFramebufferAttachmentParameteriv, hook_glGetFramebufferAttachmentParameteriv, (target: u32, attachment: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glGetFramebufferAttachmentParameteriv(target, attachment, pname, params) })
 } }
-export! { 1176, glGetFramebufferAttachmentParameterivEXT, first_glGetFramebufferAttachmentParameterivEXT, hook_glGetFramebufferAttachmentParameterivEXT, (target: u32, attachment: u32, pname: u32, params: Ptr) -> (), {
+export! { 1174, glGetFramebufferAttachmentParameterivEXT, first_glGetFramebufferAttachmentParameterivEXT, hook_glGetFramebufferAttachmentParameterivEXT, (target: u32, attachment: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glGetFramebufferAttachmentParameterivEXT(target, attachment, pname, params) })
 } }
-export! { 1177, glCheckFramebufferStatus, first_glCheckFramebufferStatus, hook_glCheckFramebufferStatus, (target: u32) -> u32, {
+export! { 1175, glCheckFramebufferStatus, first_glCheckFramebufferStatus, hook_glCheckFramebufferStatus, (target: u32) -> u32, {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glCheckFramebufferStatus(target) })
 } }
-export! { 1178, glCheckFramebufferStatusEXT, first_glCheckFramebufferStatusEXT, hook_glCheckFramebufferStatusEXT, (target: u32) -> u32, {
+export! { 1176, glCheckFramebufferStatusEXT, first_glCheckFramebufferStatusEXT, hook_glCheckFramebufferStatusEXT, (target: u32) -> u32, {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glCheckFramebufferStatusEXT(target) })
 } }
-export! { 1179, glFramebufferParameteri, first_glFramebufferParameteri, hook_glFramebufferParameteri, (target: u32, pname: u32, param: i32) -> (), {
+export! { 1177, glFramebufferParameteri, first_glFramebufferParameteri, hook_glFramebufferParameteri, (target: u32, pname: u32, param: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glFramebufferParameteri(target, pname, param) })
 } }
-export! { 1180, glGetFramebufferParameteriv, first_glGetFramebufferParameteriv, hook_glGetFramebufferParameteriv, (target: u32, pname: u32, params: Ptr) -> (), {
+export! { 1178, glGetFramebufferParameteriv, first_glGetFramebufferParameteriv, hook_glGetFramebufferParameteriv, (target: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glGetFramebufferParameteriv(target, pname, params) })
 } }
-export! { 1181, glInvalidateFramebuffer, first_glInvalidateFramebuffer, hook_glInvalidateFramebuffer, (target: u32, numAttachments: i32, attachments: Ptr) -> (), {
+export! { 1179, glInvalidateFramebuffer, first_glInvalidateFramebuffer, hook_glInvalidateFramebuffer, (target: u32, numAttachments: i32, attachments: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glInvalidateFramebuffer(target, numAttachments, attachments) })
 } }
-export! { 1182, glInvalidateSubFramebuffer, first_glInvalidateSubFramebuffer, hook_glInvalidateSubFramebuffer, (target: u32, numAttachments: i32, attachments: Ptr, x: i32, y: i32, width: i32, height: i32) -> (), {
+export! { 1180, glInvalidateSubFramebuffer, first_glInvalidateSubFramebuffer, hook_glInvalidateSubFramebuffer, (target: u32, numAttachments: i32, attachments: Ptr, x: i32, y: i32, width: i32, height: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glInvalidateSubFramebuffer(target, numAttachments, attachments, x, y, width, height) })
 } }
-export! { 1183, glDiscardFramebufferEXT, first_glDiscardFramebufferEXT, hook_glDiscardFramebufferEXT, (target: u32, numAttachments: i32, attachments: Ptr) -> (), {
+export! { 1181, glDiscardFramebufferEXT, first_glDiscardFramebufferEXT, hook_glDiscardFramebufferEXT, (target: u32, numAttachments: i32, attachments: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::hide(target, &mut |gl| unsafe { gl.glDiscardFramebufferEXT(target, numAttachments, attachments) })
 } }
-export! { 1184, glCopyTexImage1D, first_glCopyTexImage1D, hook_glCopyTexImage1D, (target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, border: i32) -> (), {
+export! { 1182, glCopyTexImage1D, first_glCopyTexImage1D, hook_glCopyTexImage1D, (target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, border: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::copy(target, x, width, &mut |gl| unsafe { gl.glCopyTexImage1D(target, level, internalformat, x, y, width, border) })
 } }
-export! { 1185, glCopyTexImage1DEXT, first_glCopyTexImage1DEXT, hook_glCopyTexImage1DEXT, (target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, border: i32) -> (), {
+export! { 1183, glCopyTexImage1DEXT, first_glCopyTexImage1DEXT, hook_glCopyTexImage1DEXT, (target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, border: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::copy(target, x, width, &mut |gl| unsafe { gl.glCopyTexImage1DEXT(target, level, internalformat, x, y, width, border) })
 } }
-export! { 1186, glCopyTexImage2D, first_glCopyTexImage2D, hook_glCopyTexImage2D, (target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, height: i32, border: i32) -> (), {
+export! { 1184, glCopyTexImage2D, first_glCopyTexImage2D, hook_glCopyTexImage2D, (target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, height: i32, border: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::copy(target, x, width, &mut |gl| unsafe { gl.glCopyTexImage2D(target, level, internalformat, x, y, width, height, border) })
 } }
-export! { 1187, glCopyTexImage2DEXT, first_glCopyTexImage2DEXT, hook_glCopyTexImage2DEXT, (target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, height: i32, border: i32) -> (), {
+export! { 1185, glCopyTexImage2DEXT, first_glCopyTexImage2DEXT, hook_glCopyTexImage2DEXT, (target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, height: i32, border: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::copy(target, x, width, &mut |gl| unsafe { gl.glCopyTexImage2DEXT(target, level, internalformat, x, y, width, height, border) })
 } }
-export! { 1188, glCopyTexSubImage1D, first_glCopyTexSubImage1D, hook_glCopyTexSubImage1D, (target: u32, level: i32, xoffset: i32, x: i32, y: i32, width: i32) -> (), {
+export! { 1186, glCopyTexSubImage1D, first_glCopyTexSubImage1D, hook_glCopyTexSubImage1D, (target: u32, level: i32, xoffset: i32, x: i32, y: i32, width: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::copy(target, x, width, &mut |gl| unsafe { gl.glCopyTexSubImage1D(target, level, xoffset, x, y, width) })
 } }
-export! { 1189, glCopyTexSubImage1DEXT, first_glCopyTexSubImage1DEXT, hook_glCopyTexSubImage1DEXT, (target: u32, level: i32, xoffset: i32, x: i32, y: i32, width: i32) -> (), {
+export! { 1187, glCopyTexSubImage1DEXT, first_glCopyTexSubImage1DEXT, hook_glCopyTexSubImage1DEXT, (target: u32, level: i32, xoffset: i32, x: i32, y: i32, width: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::copy(target, x, width, &mut |gl| unsafe { gl.glCopyTexSubImage1DEXT(target, level, xoffset, x, y, width) })
 } }
-export! { 1190, glCopyTexSubImage2D, first_glCopyTexSubImage2D, hook_glCopyTexSubImage2D, (target: u32, level: i32, xoffset: i32, yoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
+export! { 1188, glCopyTexSubImage2D, first_glCopyTexSubImage2D, hook_glCopyTexSubImage2D, (target: u32, level: i32, xoffset: i32, yoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::copy(target, x, width, &mut |gl| unsafe { gl.glCopyTexSubImage2D(target, level, xoffset, yoffset, x, y, width, height) })
 } }
-export! { 1191, glCopyTexSubImage2DEXT, first_glCopyTexSubImage2DEXT, hook_glCopyTexSubImage2DEXT, (target: u32, level: i32, xoffset: i32, yoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
+export! { 1189, glCopyTexSubImage2DEXT, first_glCopyTexSubImage2DEXT, hook_glCopyTexSubImage2DEXT, (target: u32, level: i32, xoffset: i32, yoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::copy(target, x, width, &mut |gl| unsafe { gl.glCopyTexSubImage2DEXT(target, level, xoffset, yoffset, x, y, width, height) })
 } }
-export! { 1192, glReadPixels, first_glReadPixels, hook_glReadPixels, (x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
+export! { 1190, glReadPixels, first_glReadPixels, hook_glReadPixels, (x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::read_now(x, width, &mut |gl| unsafe { gl.glReadPixels(x, y, width, height, format, type_, pixels) })
 } }
-export! { 1193, glReadnPixels, first_glReadnPixels, hook_glReadnPixels, (x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, bufSize: i32, data: Ptr) -> (), {
+export! { 1191, glReadnPixels, first_glReadnPixels, hook_glReadnPixels, (x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, bufSize: i32, data: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::read_now(x, width, &mut |gl| unsafe { gl.glReadnPixels(x, y, width, height, format, type_, bufSize, data) })
 } }
-export! { 1194, glReadnPixelsARB, first_glReadnPixelsARB, hook_glReadnPixelsARB, (x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, bufSize: i32, data: Ptr) -> (), {
+export! { 1192, glReadnPixelsARB, first_glReadnPixelsARB, hook_glReadnPixelsARB, (x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, bufSize: i32, data: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::read_now(x, width, &mut |gl| unsafe { gl.glReadnPixelsARB(x, y, width, height, format, type_, bufSize, data) })
 } }
-export! { 1195, glReadnPixelsEXT, first_glReadnPixelsEXT, hook_glReadnPixelsEXT, (x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, bufSize: i32, data: Ptr) -> (), {
+export! { 1193, glReadnPixelsEXT, first_glReadnPixelsEXT, hook_glReadnPixelsEXT, (x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, bufSize: i32, data: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::read_now(x, width, &mut |gl| unsafe { gl.glReadnPixelsEXT(x, y, width, height, format, type_, bufSize, data) })
 } }
-export! { 1196, glReadnPixelsKHR, first_glReadnPixelsKHR, hook_glReadnPixelsKHR, (x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, bufSize: i32, data: Ptr) -> (), {
+export! { 1194, glReadnPixelsKHR, first_glReadnPixelsKHR, hook_glReadnPixelsKHR, (x: i32, y: i32, width: i32, height: i32, format: u32, type_: u32, bufSize: i32, data: Ptr) -> (), {
     // SAFETY: the program's own call.
     hooks::read_now(x, width, &mut |gl| unsafe { gl.glReadnPixelsKHR(x, y, width, height, format, type_, bufSize, data) })
 } }
-export! { 1197, glCopyTexSubImage3D, first_glCopyTexSubImage3D, hook_glCopyTexSubImage3D, (target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
+export! { 1195, glCopyTexSubImage3D, first_glCopyTexSubImage3D, hook_glCopyTexSubImage3D, (target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyTexSubImage3D(target, level, xoffset, yoffset, zoffset, x, y, width, height) })
 } }
-export! { 1198, glCopyTexSubImage3DEXT, first_glCopyTexSubImage3DEXT, hook_glCopyTexSubImage3DEXT, (target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
+export! { 1196, glCopyTexSubImage3DEXT, first_glCopyTexSubImage3DEXT, hook_glCopyTexSubImage3DEXT, (target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyTexSubImage3DEXT(target, level, xoffset, yoffset, zoffset, x, y, width, height) })
 } }
-export! { 1199, glCopyTexSubImage3DOES, first_glCopyTexSubImage3DOES, hook_glCopyTexSubImage3DOES, (target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
+export! { 1197, glCopyTexSubImage3DOES, first_glCopyTexSubImage3DOES, hook_glCopyTexSubImage3DOES, (target: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyTexSubImage3DOES(target, level, xoffset, yoffset, zoffset, x, y, width, height) })
 } }
-export! { 1200, glCopyTextureSubImage1D, first_glCopyTextureSubImage1D, hook_glCopyTextureSubImage1D, (texture: u32, level: i32, xoffset: i32, x: i32, y: i32, width: i32) -> (), {
+export! { 1198, glCopyTextureSubImage1D, first_glCopyTextureSubImage1D, hook_glCopyTextureSubImage1D, (texture: u32, level: i32, xoffset: i32, x: i32, y: i32, width: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyTextureSubImage1D(texture, level, xoffset, x, y, width) })
 } }
-export! { 1201, glCopyTextureSubImage2D, first_glCopyTextureSubImage2D, hook_glCopyTextureSubImage2D, (texture: u32, level: i32, xoffset: i32, yoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
+export! { 1199, glCopyTextureSubImage2D, first_glCopyTextureSubImage2D, hook_glCopyTextureSubImage2D, (texture: u32, level: i32, xoffset: i32, yoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyTextureSubImage2D(texture, level, xoffset, yoffset, x, y, width, height) })
 } }
-export! { 1202, glCopyTextureSubImage3D, first_glCopyTextureSubImage3D, hook_glCopyTextureSubImage3D, (texture: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
+export! { 1200, glCopyTextureSubImage3D, first_glCopyTextureSubImage3D, hook_glCopyTextureSubImage3D, (texture: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, x: i32, y: i32, width: i32, height: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyTextureSubImage3D(texture, level, xoffset, yoffset, zoffset, x, y, width, height) })
 } }
-export! { 1203, glCopyMultiTexImage1DEXT, first_glCopyMultiTexImage1DEXT, hook_glCopyMultiTexImage1DEXT, (texunit: u32, target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, border: i32) -> (), {
+export! { 1201, glCopyMultiTexImage1DEXT, first_glCopyMultiTexImage1DEXT, hook_glCopyMultiTexImage1DEXT, (texunit: u32, target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, border: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyMultiTexImage1DEXT(texunit, target, level, internalformat, x, y, width, border) })
 } }
-export! { 1204, glCopyMultiTexImage2DEXT, first_glCopyMultiTexImage2DEXT, hook_glCopyMultiTexImage2DEXT, (texunit: u32, target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, height: i32, border: i32) -> (), {
+export! { 1202, glCopyMultiTexImage2DEXT, first_glCopyMultiTexImage2DEXT, hook_glCopyMultiTexImage2DEXT, (texunit: u32, target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, height: i32, border: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyMultiTexImage2DEXT(texunit, target, level, internalformat, x, y, width, height, border) })
 } }
-export! { 1205, glCopyTextureImage1DEXT, first_glCopyTextureImage1DEXT, hook_glCopyTextureImage1DEXT, (texture: u32, target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, border: i32) -> (), {
+export! { 1203, glCopyTextureImage1DEXT, first_glCopyTextureImage1DEXT, hook_glCopyTextureImage1DEXT, (texture: u32, target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, border: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyTextureImage1DEXT(texture, target, level, internalformat, x, y, width, border) })
 } }
-export! { 1206, glCopyTextureImage2DEXT, first_glCopyTextureImage2DEXT, hook_glCopyTextureImage2DEXT, (texture: u32, target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, height: i32, border: i32) -> (), {
+export! { 1204, glCopyTextureImage2DEXT, first_glCopyTextureImage2DEXT, hook_glCopyTextureImage2DEXT, (texture: u32, target: u32, level: i32, internalformat: u32, x: i32, y: i32, width: i32, height: i32, border: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyTextureImage2DEXT(texture, target, level, internalformat, x, y, width, height, border) })
 } }
-export! { 1207, glCopyColorTable, first_glCopyColorTable, hook_glCopyColorTable, (target: u32, internalformat: u32, x: i32, y: i32, width: i32) -> (), {
+export! { 1205, glCopyColorTable, first_glCopyColorTable, hook_glCopyColorTable, (target: u32, internalformat: u32, x: i32, y: i32, width: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyColorTable(target, internalformat, x, y, width) })
 } }
-export! { 1208, glCopyColorTableSGI, first_glCopyColorTableSGI, hook_glCopyColorTableSGI, (target: u32, internalformat: u32, x: i32, y: i32, width: i32) -> (), {
+export! { 1206, glCopyColorTableSGI, first_glCopyColorTableSGI, hook_glCopyColorTableSGI, (target: u32, internalformat: u32, x: i32, y: i32, width: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyColorTableSGI(target, internalformat, x, y, width) })
 } }
-export! { 1209, glCopyConvolutionFilter1D, first_glCopyConvolutionFilter1D, hook_glCopyConvolutionFilter1D, (target: u32, internalformat: u32, x: i32, y: i32, width: i32) -> (), {
+export! { 1207, glCopyConvolutionFilter1D, first_glCopyConvolutionFilter1D, hook_glCopyConvolutionFilter1D, (target: u32, internalformat: u32, x: i32, y: i32, width: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyConvolutionFilter1D(target, internalformat, x, y, width) })
 } }
-export! { 1210, glCopyConvolutionFilter1DEXT, first_glCopyConvolutionFilter1DEXT, hook_glCopyConvolutionFilter1DEXT, (target: u32, internalformat: u32, x: i32, y: i32, width: i32) -> (), {
+export! { 1208, glCopyConvolutionFilter1DEXT, first_glCopyConvolutionFilter1DEXT, hook_glCopyConvolutionFilter1DEXT, (target: u32, internalformat: u32, x: i32, y: i32, width: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyConvolutionFilter1DEXT(target, internalformat, x, y, width) })
 } }
-export! { 1211, glCopyConvolutionFilter2D, first_glCopyConvolutionFilter2D, hook_glCopyConvolutionFilter2D, (target: u32, internalformat: u32, x: i32, y: i32, width: i32, height: i32) -> (), {
+export! { 1209, glCopyConvolutionFilter2D, first_glCopyConvolutionFilter2D, hook_glCopyConvolutionFilter2D, (target: u32, internalformat: u32, x: i32, y: i32, width: i32, height: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyConvolutionFilter2D(target, internalformat, x, y, width, height) })
 } }
-export! { 1212, glCopyConvolutionFilter2DEXT, first_glCopyConvolutionFilter2DEXT, hook_glCopyConvolutionFilter2DEXT, (target: u32, internalformat: u32, x: i32, y: i32, width: i32, height: i32) -> (), {
+export! { 1210, glCopyConvolutionFilter2DEXT, first_glCopyConvolutionFilter2DEXT, hook_glCopyConvolutionFilter2DEXT, (target: u32, internalformat: u32, x: i32, y: i32, width: i32, height: i32) -> (), {
     // SAFETY: the program's own call.
     hooks::read(x, width, &mut |gl| unsafe { gl.glCopyConvolutionFilter2DEXT(target, internalformat, x, y, width, height) })
 } }
-export! { 1213, glReadBufferNV, first_glReadBufferNV, hook_glReadBufferNV, (mode: u32) -> (), {
+export! { 1211, glReadBufferNV, first_glReadBufferNV, hook_glReadBufferNV, (mode: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glReadBufferNV(mode) }
 } }
-export! { 1214, glBlitFramebufferANGLE, first_glBlitFramebufferANGLE, hook_glBlitFramebufferANGLE, (srcX0: i32, srcY0: i32, srcX1: i32, srcY1: i32, dstX0: i32, dstY0: i32, dstX1: i32, dstY1: i32, mask: u32, filter: u32) -> (), {
+export! { 1212, glBlitFramebufferANGLE, first_glBlitFramebufferANGLE, hook_glBlitFramebufferANGLE, (srcX0: i32, srcY0: i32, srcX1: i32, srcY1: i32, dstX0: i32, dstY0: i32, dstX1: i32, dstY1: i32, mask: u32, filter: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBlitFramebufferANGLE(srcX0, srcY0, srcX1, srcY1, dstX0, dstY0, dstX1, dstY1, mask, filter) }
 } }
-export! { 1215, glBeginQueryEXT, first_glBeginQueryEXT, hook_glBeginQueryEXT, (target: u32, id: u32) -> (), {
+export! { 1213, glBeginQueryEXT, first_glBeginQueryEXT, hook_glBeginQueryEXT, (target: u32, id: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBeginQueryEXT(target, id) }
 } }
-export! { 1216, glEndQueryEXT, first_glEndQueryEXT, hook_glEndQueryEXT, (target: u32) -> (), {
+export! { 1214, glEndQueryEXT, first_glEndQueryEXT, hook_glEndQueryEXT, (target: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glEndQueryEXT(target) }
 } }
-export! { 1217, glGetQueryivEXT, first_glGetQueryivEXT, hook_glGetQueryivEXT, (target: u32, pname: u32, params: Ptr) -> (), {
+export! { 1215, glGetQueryivEXT, first_glGetQueryivEXT, hook_glGetQueryivEXT, (target: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryivEXT(target, pname, params) }
 } }
-export! { 1218, glGetQueryObjectuivEXT, first_glGetQueryObjectuivEXT, hook_glGetQueryObjectuivEXT, (id: u32, pname: u32, params: Ptr) -> (), {
+export! { 1216, glGetQueryObjectuivEXT, first_glGetQueryObjectuivEXT, hook_glGetQueryObjectuivEXT, (id: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryObjectuivEXT(id, pname, params) }
 } }
-export! { 1219, glFinish, first_glFinish, hook_glFinish, () -> (), {
+export! { 1217, glFinish, first_glFinish, hook_glFinish, () -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glFinish() }
 } }
-export! { 1220, glFlush, first_glFlush, hook_glFlush, () -> (), {
+export! { 1218, glFlush, first_glFlush, hook_glFlush, () -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glFlush() }
 } }
-export! { 1221, glGetError, first_glGetError, hook_glGetError, () -> u32, {
+export! { 1219, glGetError, first_glGetError, hook_glGetError, () -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetError() }
 } }
-export! { 1222, glBeginConditionalRender, first_glBeginConditionalRender, hook_glBeginConditionalRender, (id: u32, mode: u32) -> (), {
+export! { 1220, glBeginConditionalRender, first_glBeginConditionalRender, hook_glBeginConditionalRender, (id: u32, mode: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBeginConditionalRender(id, mode) }
 } }
-export! { 1223, glBeginConditionalRenderNV, first_glBeginConditionalRenderNV, hook_glBeginConditionalRenderNV, (id: u32, mode: u32) -> (), {
+export! { 1221, glBeginConditionalRenderNV, first_glBeginConditionalRenderNV, hook_glBeginConditionalRenderNV, (id: u32, mode: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBeginConditionalRender(id, mode) }
 } }
-export! { 1224, glEndConditionalRender, first_glEndConditionalRender, hook_glEndConditionalRender, () -> (), {
+export! { 1222, glEndConditionalRender, first_glEndConditionalRender, hook_glEndConditionalRender, () -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glEndConditionalRender() }
 } }
-export! { 1225, glEndConditionalRenderNV, first_glEndConditionalRenderNV, hook_glEndConditionalRenderNV, () -> (), {
+export! { 1223, glEndConditionalRenderNV, first_glEndConditionalRenderNV, hook_glEndConditionalRenderNV, () -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glEndConditionalRender() }
 } }
-export! { 1226, glEndConditionalRenderNVX, first_glEndConditionalRenderNVX, hook_glEndConditionalRenderNVX, () -> (), {
+export! { 1224, glEndConditionalRenderNVX, first_glEndConditionalRenderNVX, hook_glEndConditionalRenderNVX, () -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glEndConditionalRender() }
 } }
-export! { 1227, glBeginQuery, first_glBeginQuery, hook_glBeginQuery, (target: u32, id: u32) -> (), {
+export! { 1225, glBeginQuery, first_glBeginQuery, hook_glBeginQuery, (target: u32, id: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBeginQuery(target, id) }
 } }
-export! { 1228, glBeginQueryARB, first_glBeginQueryARB, hook_glBeginQueryARB, (target: u32, id: u32) -> (), {
+export! { 1226, glBeginQueryARB, first_glBeginQueryARB, hook_glBeginQueryARB, (target: u32, id: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glBeginQuery(target, id) }
 } }
-export! { 1229, glEndQuery, first_glEndQuery, hook_glEndQuery, (target: u32) -> (), {
+export! { 1227, glEndQuery, first_glEndQuery, hook_glEndQuery, (target: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glEndQuery(target) }
 } }
-export! { 1230, glEndQueryARB, first_glEndQueryARB, hook_glEndQueryARB, (target: u32) -> (), {
+export! { 1228, glEndQueryARB, first_glEndQueryARB, hook_glEndQueryARB, (target: u32) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glEndQuery(target) }
 } }
-export! { 1231, glDeleteQueries, first_glDeleteQueries, hook_glDeleteQueries, (n: i32, ids: Ptr) -> (), {
+export! { 1229, glDeleteQueries, first_glDeleteQueries, hook_glDeleteQueries, (n: i32, ids: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDeleteQueries(n, ids) }
 } }
-export! { 1232, glDeleteQueriesARB, first_glDeleteQueriesARB, hook_glDeleteQueriesARB, (n: i32, ids: Ptr) -> (), {
+export! { 1230, glDeleteQueriesARB, first_glDeleteQueriesARB, hook_glDeleteQueriesARB, (n: i32, ids: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDeleteQueries(n, ids) }
 } }
-export! { 1233, glGetQueryiv, first_glGetQueryiv, hook_glGetQueryiv, (target: u32, pname: u32, params: Ptr) -> (), {
+export! { 1231, glGetQueryiv, first_glGetQueryiv, hook_glGetQueryiv, (target: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryiv(target, pname, params) }
 } }
-export! { 1234, glGetQueryivARB, first_glGetQueryivARB, hook_glGetQueryivARB, (target: u32, pname: u32, params: Ptr) -> (), {
+export! { 1232, glGetQueryivARB, first_glGetQueryivARB, hook_glGetQueryivARB, (target: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryiv(target, pname, params) }
 } }
-export! { 1235, glGetQueryObjectiv, first_glGetQueryObjectiv, hook_glGetQueryObjectiv, (id: u32, pname: u32, params: Ptr) -> (), {
+export! { 1233, glGetQueryObjectiv, first_glGetQueryObjectiv, hook_glGetQueryObjectiv, (id: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryObjectiv(id, pname, params) }
 } }
-export! { 1236, glGetQueryObjectivARB, first_glGetQueryObjectivARB, hook_glGetQueryObjectivARB, (id: u32, pname: u32, params: Ptr) -> (), {
+export! { 1234, glGetQueryObjectivARB, first_glGetQueryObjectivARB, hook_glGetQueryObjectivARB, (id: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryObjectiv(id, pname, params) }
 } }
-export! { 1237, glGetQueryObjectivEXT, first_glGetQueryObjectivEXT, hook_glGetQueryObjectivEXT, (id: u32, pname: u32, params: Ptr) -> (), {
+export! { 1235, glGetQueryObjectivEXT, first_glGetQueryObjectivEXT, hook_glGetQueryObjectivEXT, (id: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryObjectiv(id, pname, params) }
 } }
-export! { 1238, glGetQueryObjectuiv, first_glGetQueryObjectuiv, hook_glGetQueryObjectuiv, (id: u32, pname: u32, params: Ptr) -> (), {
+export! { 1236, glGetQueryObjectuiv, first_glGetQueryObjectuiv, hook_glGetQueryObjectuiv, (id: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryObjectuiv(id, pname, params) }
 } }
-export! { 1239, glGetQueryObjectuivARB, first_glGetQueryObjectuivARB, hook_glGetQueryObjectuivARB, (id: u32, pname: u32, params: Ptr) -> (), {
+export! { 1237, glGetQueryObjectuivARB, first_glGetQueryObjectuivARB, hook_glGetQueryObjectuivARB, (id: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryObjectuiv(id, pname, params) }
 } }
-export! { 1240, glGetQueryObjecti64v, first_glGetQueryObjecti64v, hook_glGetQueryObjecti64v, (id: u32, pname: u32, params: Ptr) -> (), {
+export! { 1238, glGetQueryObjecti64v, first_glGetQueryObjecti64v, hook_glGetQueryObjecti64v, (id: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryObjecti64v(id, pname, params) }
 } }
-export! { 1241, glGetQueryObjecti64vEXT, first_glGetQueryObjecti64vEXT, hook_glGetQueryObjecti64vEXT, (id: u32, pname: u32, params: Ptr) -> (), {
+export! { 1239, glGetQueryObjecti64vEXT, first_glGetQueryObjecti64vEXT, hook_glGetQueryObjecti64vEXT, (id: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryObjecti64v(id, pname, params) }
 } }
-export! { 1242, glGetQueryObjectui64v, first_glGetQueryObjectui64v, hook_glGetQueryObjectui64v, (id: u32, pname: u32, params: Ptr) -> (), {
+export! { 1240, glGetQueryObjectui64v, first_glGetQueryObjectui64v, hook_glGetQueryObjectui64v, (id: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryObjectui64v(id, pname, params) }
 } }
-export! { 1243, glGetQueryObjectui64vEXT, first_glGetQueryObjectui64vEXT, hook_glGetQueryObjectui64vEXT, (id: u32, pname: u32, params: Ptr) -> (), {
+export! { 1241, glGetQueryObjectui64vEXT, first_glGetQueryObjectui64vEXT, hook_glGetQueryObjectui64vEXT, (id: u32, pname: u32, params: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glGetQueryObjectui64v(id, pname, params) }
 } }
-export! { 1244, glIsEnabled, first_glIsEnabled, hook_glIsEnabled, (cap: u32) -> u8, {
+export! { 1242, glIsEnabled, first_glIsEnabled, hook_glIsEnabled, (cap: u32) -> u8, {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glIsEnabled(cap) }
 } }
-export! { 1245, glIsEnabledi, first_glIsEnabledi, hook_glIsEnabledi, (target: u32, index: u32) -> u8, {
+export! { 1243, glIsEnabledi, first_glIsEnabledi, hook_glIsEnabledi, (target: u32, index: u32) -> u8, {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glIsEnabledi(target, index) }
 } }
-export! { 1246, glIsEnabledIndexedEXT, first_glIsEnabledIndexedEXT, hook_glIsEnabledIndexedEXT, (target: u32, index: u32) -> u8, {
+export! { 1244, glIsEnabledIndexedEXT, first_glIsEnabledIndexedEXT, hook_glIsEnabledIndexedEXT, (target: u32, index: u32) -> u8, {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glIsEnabledIndexedEXT(target, index) }
 } }
-export! { 1247, glIsEnablediEXT, first_glIsEnablediEXT, hook_glIsEnablediEXT, (target: u32, index: u32) -> u8, {
+export! { 1245, glIsEnablediEXT, first_glIsEnablediEXT, hook_glIsEnablediEXT, (target: u32, index: u32) -> u8, {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glIsEnablediEXT(target, index) }
 } }
-export! { 1248, glIsEnablediNV, first_glIsEnablediNV, hook_glIsEnablediNV, (target: u32, index: u32) -> u8, {
+export! { 1246, glIsEnablediNV, first_glIsEnablediNV, hook_glIsEnablediNV, (target: u32, index: u32) -> u8, {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glIsEnablediNV(target, index) }
 } }
-export! { 1249, glIsEnablediOES, first_glIsEnablediOES, hook_glIsEnablediOES, (target: u32, index: u32) -> u8, {
+export! { 1247, glIsEnablediOES, first_glIsEnablediOES, hook_glIsEnablediOES, (target: u32, index: u32) -> u8, {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glIsEnablediOES(target, index) }
 } }
-export! { 1250, glGetTexGendv, first_glGetTexGendv, hook_glGetTexGendv, (coord: u32, pname: u32, params: Ptr) -> (), {
+export! { 1248, glGetTexGendv, first_glGetTexGendv, hook_glGetTexGendv, (coord: u32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetTexGendv(coord, pname, params) };
 } }
-export! { 1251, glGetTexGenfv, first_glGetTexGenfv, hook_glGetTexGenfv, (coord: u32, pname: u32, params: Ptr) -> (), {
+export! { 1249, glGetTexGenfv, first_glGetTexGenfv, hook_glGetTexGenfv, (coord: u32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetTexGenfv(coord, pname, params) };
 } }
-export! { 1252, glGetTexGeniv, first_glGetTexGeniv, hook_glGetTexGeniv, (coord: u32, pname: u32, params: Ptr) -> (), {
+export! { 1250, glGetTexGeniv, first_glGetTexGeniv, hook_glGetTexGeniv, (coord: u32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetTexGeniv(coord, pname, params) };
 } }
-export! { 1253, glGetTexEnvfv, first_glGetTexEnvfv, hook_glGetTexEnvfv, (target: u32, pname: u32, params: Ptr) -> (), {
+export! { 1251, glGetTexEnvfv, first_glGetTexEnvfv, hook_glGetTexEnvfv, (target: u32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetTexEnvfv(target, pname, params) };
 } }
-export! { 1254, glGetTexEnviv, first_glGetTexEnviv, hook_glGetTexEnviv, (target: u32, pname: u32, params: Ptr) -> (), {
+export! { 1252, glGetTexEnviv, first_glGetTexEnviv, hook_glGetTexEnviv, (target: u32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetTexEnviv(target, pname, params) };
 } }
-export! { 1255, glGetLightfv, first_glGetLightfv, hook_glGetLightfv, (light: u32, pname: u32, params: Ptr) -> (), {
+export! { 1253, glGetLightfv, first_glGetLightfv, hook_glGetLightfv, (light: u32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetLightfv(light, pname, params) };
 } }
-export! { 1256, glGetLightiv, first_glGetLightiv, hook_glGetLightiv, (light: u32, pname: u32, params: Ptr) -> (), {
+export! { 1254, glGetLightiv, first_glGetLightiv, hook_glGetLightiv, (light: u32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetLightiv(light, pname, params) };
 } }
-export! { 1257, glGetMaterialfv, first_glGetMaterialfv, hook_glGetMaterialfv, (face: u32, pname: u32, params: Ptr) -> (), {
+export! { 1255, glGetMaterialfv, first_glGetMaterialfv, hook_glGetMaterialfv, (face: u32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetMaterialfv(face, pname, params) };
 } }
-export! { 1258, glGetMaterialiv, first_glGetMaterialiv, hook_glGetMaterialiv, (face: u32, pname: u32, params: Ptr) -> (), {
+export! { 1256, glGetMaterialiv, first_glGetMaterialiv, hook_glGetMaterialiv, (face: u32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetMaterialiv(face, pname, params) };
 } }
-export! { 1259, glGetTexParameterfv, first_glGetTexParameterfv, hook_glGetTexParameterfv, (target: u32, pname: u32, params: Ptr) -> (), {
+export! { 1257, glGetTexParameterfv, first_glGetTexParameterfv, hook_glGetTexParameterfv, (target: u32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetTexParameterfv(target, pname, params) };
 } }
-export! { 1260, glGetTexParameteriv, first_glGetTexParameteriv, hook_glGetTexParameteriv, (target: u32, pname: u32, params: Ptr) -> (), {
+export! { 1258, glGetTexParameteriv, first_glGetTexParameteriv, hook_glGetTexParameteriv, (target: u32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetTexParameteriv(target, pname, params) };
 } }
-export! { 1261, glGetTexLevelParameterfv, first_glGetTexLevelParameterfv, hook_glGetTexLevelParameterfv, (target: u32, level: i32, pname: u32, params: Ptr) -> (), {
+export! { 1259, glGetTexLevelParameterfv, first_glGetTexLevelParameterfv, hook_glGetTexLevelParameterfv, (target: u32, level: i32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetTexLevelParameterfv(target, level, pname, params) };
 } }
-export! { 1262, glGetTexLevelParameteriv, first_glGetTexLevelParameteriv, hook_glGetTexLevelParameteriv, (target: u32, level: i32, pname: u32, params: Ptr) -> (), {
+export! { 1260, glGetTexLevelParameteriv, first_glGetTexLevelParameteriv, hook_glGetTexLevelParameteriv, (target: u32, level: i32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetTexLevelParameteriv(target, level, pname, params) };
 } }
-export! { 1263, glGetClipPlane, first_glGetClipPlane, hook_glGetClipPlane, (plane: u32, equation: Ptr) -> (), {
+export! { 1261, glGetClipPlane, first_glGetClipPlane, hook_glGetClipPlane, (plane: u32, equation: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetClipPlane(plane, equation) };
 } }
-export! { 1264, glGetMapdv, first_glGetMapdv, hook_glGetMapdv, (target: u32, query: u32, v: Ptr) -> (), {
+export! { 1262, glGetMapdv, first_glGetMapdv, hook_glGetMapdv, (target: u32, query: u32, v: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetMapdv(target, query, v) };
 } }
-export! { 1265, glGetMapfv, first_glGetMapfv, hook_glGetMapfv, (target: u32, query: u32, v: Ptr) -> (), {
+export! { 1263, glGetMapfv, first_glGetMapfv, hook_glGetMapfv, (target: u32, query: u32, v: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetMapfv(target, query, v) };
 } }
-export! { 1266, glGetMapiv, first_glGetMapiv, hook_glGetMapiv, (target: u32, query: u32, v: Ptr) -> (), {
+export! { 1264, glGetMapiv, first_glGetMapiv, hook_glGetMapiv, (target: u32, query: u32, v: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetMapiv(target, query, v) };
 } }
-export! { 1267, glGetPixelMapfv, first_glGetPixelMapfv, hook_glGetPixelMapfv, (map: u32, values: Ptr) -> (), {
+export! { 1265, glGetPixelMapfv, first_glGetPixelMapfv, hook_glGetPixelMapfv, (map: u32, values: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetPixelMapfv(map, values) };
 } }
-export! { 1268, glGetPixelMapuiv, first_glGetPixelMapuiv, hook_glGetPixelMapuiv, (map: u32, values: Ptr) -> (), {
+export! { 1266, glGetPixelMapuiv, first_glGetPixelMapuiv, hook_glGetPixelMapuiv, (map: u32, values: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetPixelMapuiv(map, values) };
 } }
-export! { 1269, glGetPixelMapusv, first_glGetPixelMapusv, hook_glGetPixelMapusv, (map: u32, values: Ptr) -> (), {
+export! { 1267, glGetPixelMapusv, first_glGetPixelMapusv, hook_glGetPixelMapusv, (map: u32, values: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetPixelMapusv(map, values) };
 } }
-export! { 1270, glGetPolygonStipple, first_glGetPolygonStipple, hook_glGetPolygonStipple, (mask: Ptr) -> (), {
+export! { 1268, glGetPolygonStipple, first_glGetPolygonStipple, hook_glGetPolygonStipple, (mask: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetPolygonStipple(mask) };
 } }
-export! { 1271, glGetPointerv, first_glGetPointerv, hook_glGetPointerv, (pname: u32, params: Ptr) -> (), {
+export! { 1269, glGetPointerv, first_glGetPointerv, hook_glGetPointerv, (pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetPointerv(pname, params) };
 } }
-export! { 1272, glGetPointervEXT, first_glGetPointervEXT, hook_glGetPointervEXT, (pname: u32, params: Ptr) -> (), {
+export! { 1270, glGetPointervEXT, first_glGetPointervEXT, hook_glGetPointervEXT, (pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetPointervEXT(pname, params) };
 } }
-export! { 1273, glGetPointervKHR, first_glGetPointervKHR, hook_glGetPointervKHR, (pname: u32, params: Ptr) -> (), {
+export! { 1271, glGetPointervKHR, first_glGetPointervKHR, hook_glGetPointervKHR, (pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetPointervKHR(pname, params) };
 } }
-export! { 1274, glGetIntegeri_v, first_glGetIntegeri_v, hook_glGetIntegeri_v, (target: u32, index: u32, data: Ptr) -> (), {
+export! { 1272, glGetIntegeri_v, first_glGetIntegeri_v, hook_glGetIntegeri_v, (target: u32, index: u32, data: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetIntegeri_v(target, index, data) };
 } }
-export! { 1275, glGetIntegerIndexedvEXT, first_glGetIntegerIndexedvEXT, hook_glGetIntegerIndexedvEXT, (target: u32, index: u32, data: Ptr) -> (), {
+export! { 1273, glGetIntegerIndexedvEXT, first_glGetIntegerIndexedvEXT, hook_glGetIntegerIndexedvEXT, (target: u32, index: u32, data: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetIntegerIndexedvEXT(target, index, data) };
 } }
-export! { 1276, glGetTexImage, first_glGetTexImage, hook_glGetTexImage, (target: u32, level: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
+export! { 1274, glGetTexImage, first_glGetTexImage, hook_glGetTexImage, (target: u32, level: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
     hooks::settle();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetTexImage(target, level, format, type_, pixels) };
 } }
-export! { 1277, glGetnTexImage, first_glGetnTexImage, hook_glGetnTexImage, (target: u32, level: i32, format: u32, type_: u32, bufSize: i32, pixels: Ptr) -> (), {
+export! { 1275, glGetnTexImage, first_glGetnTexImage, hook_glGetnTexImage, (target: u32, level: i32, format: u32, type_: u32, bufSize: i32, pixels: Ptr) -> (), {
     hooks::settle();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetnTexImage(target, level, format, type_, bufSize, pixels) };
 } }
-export! { 1278, glGetCompressedTexImage, first_glGetCompressedTexImage, hook_glGetCompressedTexImage, (target: u32, level: i32, img: Ptr) -> (), {
+export! { 1276, glGetCompressedTexImage, first_glGetCompressedTexImage, hook_glGetCompressedTexImage, (target: u32, level: i32, img: Ptr) -> (), {
     hooks::settle();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetCompressedTexImage(target, level, img) };
 } }
-export! { 1279, glGetCompressedTexImageARB, first_glGetCompressedTexImageARB, hook_glGetCompressedTexImageARB, (target: u32, level: i32, img: Ptr) -> (), {
+export! { 1277, glGetCompressedTexImageARB, first_glGetCompressedTexImageARB, hook_glGetCompressedTexImageARB, (target: u32, level: i32, img: Ptr) -> (), {
     hooks::settle();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetCompressedTexImageARB(target, level, img) };
 } }
-export! { 1280, glGetnCompressedTexImage, first_glGetnCompressedTexImage, hook_glGetnCompressedTexImage, (target: u32, lod: i32, bufSize: i32, pixels: Ptr) -> (), {
+export! { 1278, glGetnCompressedTexImage, first_glGetnCompressedTexImage, hook_glGetnCompressedTexImage, (target: u32, lod: i32, bufSize: i32, pixels: Ptr) -> (), {
     hooks::settle();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetnCompressedTexImage(target, lod, bufSize, pixels) };
 } }
-export! { 1281, glGetUniformfv, first_glGetUniformfv, hook_glGetUniformfv, (program: u32, location: i32, params: Ptr) -> (), {
+export! { 1279, glGetUniformfv, first_glGetUniformfv, hook_glGetUniformfv, (program: u32, location: i32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetUniformfv(program, location, params) };
 } }
-export! { 1282, glGetUniformfvARB, first_glGetUniformfvARB, hook_glGetUniformfvARB, (programObj: u32, location: i32, params: Ptr) -> (), {
+export! { 1280, glGetUniformfvARB, first_glGetUniformfvARB, hook_glGetUniformfvARB, (programObj: u32, location: i32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetUniformfvARB(programObj, location, params) };
 } }
-export! { 1283, glGetUniformiv, first_glGetUniformiv, hook_glGetUniformiv, (program: u32, location: i32, params: Ptr) -> (), {
+export! { 1281, glGetUniformiv, first_glGetUniformiv, hook_glGetUniformiv, (program: u32, location: i32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetUniformiv(program, location, params) };
 } }
-export! { 1284, glGetUniformivARB, first_glGetUniformivARB, hook_glGetUniformivARB, (programObj: u32, location: i32, params: Ptr) -> (), {
+export! { 1282, glGetUniformivARB, first_glGetUniformivARB, hook_glGetUniformivARB, (programObj: u32, location: i32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetUniformivARB(programObj, location, params) };
 } }
-export! { 1285, glGetVertexAttribdv, first_glGetVertexAttribdv, hook_glGetVertexAttribdv, (index: u32, pname: u32, params: Ptr) -> (), {
+export! { 1283, glGetVertexAttribdv, first_glGetVertexAttribdv, hook_glGetVertexAttribdv, (index: u32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribdv(index, pname, params) };
 } }
-export! { 1286, glGetVertexAttribdvARB, first_glGetVertexAttribdvARB, hook_glGetVertexAttribdvARB, (index: u32, pname: u32, params: Ptr) -> (), {
+export! { 1284, glGetVertexAttribdvARB, first_glGetVertexAttribdvARB, hook_glGetVertexAttribdvARB, (index: u32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribdvARB(index, pname, params) };
 } }
-export! { 1287, glGetVertexAttribdvNV, first_glGetVertexAttribdvNV, hook_glGetVertexAttribdvNV, (index: u32, pname: u32, params: Ptr) -> (), {
+export! { 1285, glGetVertexAttribdvNV, first_glGetVertexAttribdvNV, hook_glGetVertexAttribdvNV, (index: u32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribdvNV(index, pname, params) };
 } }
-export! { 1288, glGetVertexAttribfv, first_glGetVertexAttribfv, hook_glGetVertexAttribfv, (index: u32, pname: u32, params: Ptr) -> (), {
+export! { 1286, glGetVertexAttribfv, first_glGetVertexAttribfv, hook_glGetVertexAttribfv, (index: u32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribfv(index, pname, params) };
 } }
-export! { 1289, glGetVertexAttribfvARB, first_glGetVertexAttribfvARB, hook_glGetVertexAttribfvARB, (index: u32, pname: u32, params: Ptr) -> (), {
+export! { 1287, glGetVertexAttribfvARB, first_glGetVertexAttribfvARB, hook_glGetVertexAttribfvARB, (index: u32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribfvARB(index, pname, params) };
 } }
-export! { 1290, glGetVertexAttribfvNV, first_glGetVertexAttribfvNV, hook_glGetVertexAttribfvNV, (index: u32, pname: u32, params: Ptr) -> (), {
+export! { 1288, glGetVertexAttribfvNV, first_glGetVertexAttribfvNV, hook_glGetVertexAttribfvNV, (index: u32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribfvNV(index, pname, params) };
 } }
-export! { 1291, glGetVertexAttribiv, first_glGetVertexAttribiv, hook_glGetVertexAttribiv, (index: u32, pname: u32, params: Ptr) -> (), {
+export! { 1289, glGetVertexAttribiv, first_glGetVertexAttribiv, hook_glGetVertexAttribiv, (index: u32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribiv(index, pname, params) };
 } }
-export! { 1292, glGetVertexAttribivARB, first_glGetVertexAttribivARB, hook_glGetVertexAttribivARB, (index: u32, pname: u32, params: Ptr) -> (), {
+export! { 1290, glGetVertexAttribivARB, first_glGetVertexAttribivARB, hook_glGetVertexAttribivARB, (index: u32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribivARB(index, pname, params) };
 } }
-export! { 1293, glGetVertexAttribivNV, first_glGetVertexAttribivNV, hook_glGetVertexAttribivNV, (index: u32, pname: u32, params: Ptr) -> (), {
+export! { 1291, glGetVertexAttribivNV, first_glGetVertexAttribivNV, hook_glGetVertexAttribivNV, (index: u32, pname: u32, params: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribivNV(index, pname, params) };
 } }
-export! { 1294, glGetVertexAttribPointerv, first_glGetVertexAttribPointerv, hook_glGetVertexAttribPointerv, (index: u32, pname: u32, pointer: Ptr) -> (), {
+export! { 1292, glGetVertexAttribPointerv, first_glGetVertexAttribPointerv, hook_glGetVertexAttribPointerv, (index: u32, pname: u32, pointer: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribPointerv(index, pname, pointer) };
 } }
-export! { 1295, glGetVertexAttribPointervARB, first_glGetVertexAttribPointervARB, hook_glGetVertexAttribPointervARB, (index: u32, pname: u32, pointer: Ptr) -> (), {
+export! { 1293, glGetVertexAttribPointervARB, first_glGetVertexAttribPointervARB, hook_glGetVertexAttribPointervARB, (index: u32, pname: u32, pointer: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribPointervARB(index, pname, pointer) };
 } }
-export! { 1296, glGetVertexAttribPointervNV, first_glGetVertexAttribPointervNV, hook_glGetVertexAttribPointervNV, (index: u32, pname: u32, pointer: Ptr) -> (), {
+export! { 1294, glGetVertexAttribPointervNV, first_glGetVertexAttribPointervNV, hook_glGetVertexAttribPointervNV, (index: u32, pname: u32, pointer: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetVertexAttribPointervNV(index, pname, pointer) };
 } }
-export! { 1297, glFeedbackBuffer, first_glFeedbackBuffer, hook_glFeedbackBuffer, (size: i32, type_: u32, buffer: Ptr) -> (), {
+export! { 1295, glFeedbackBuffer, first_glFeedbackBuffer, hook_glFeedbackBuffer, (size: i32, type_: u32, buffer: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glFeedbackBuffer(size, type_, buffer) };
 } }
-export! { 1298, glSelectBuffer, first_glSelectBuffer, hook_glSelectBuffer, (size: i32, buffer: Ptr) -> (), {
+export! { 1296, glSelectBuffer, first_glSelectBuffer, hook_glSelectBuffer, (size: i32, buffer: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glSelectBuffer(size, buffer) };
 } }
-export! { 1299, glGenTextures, first_glGenTextures, hook_glGenTextures, (n: i32, textures: Ptr) -> (), {
+export! { 1297, glGenTextures, first_glGenTextures, hook_glGenTextures, (n: i32, textures: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGenTextures(n, textures) };
 } }
-export! { 1300, glGenFramebuffers, first_glGenFramebuffers, hook_glGenFramebuffers, (n: i32, framebuffers: Ptr) -> (), {
+export! { 1298, glGenFramebuffers, first_glGenFramebuffers, hook_glGenFramebuffers, (n: i32, framebuffers: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGenFramebuffers(n, framebuffers) };
 } }
-export! { 1301, glGenFramebuffersEXT, first_glGenFramebuffersEXT, hook_glGenFramebuffersEXT, (n: i32, framebuffers: Ptr) -> (), {
+export! { 1299, glGenFramebuffersEXT, first_glGenFramebuffersEXT, hook_glGenFramebuffersEXT, (n: i32, framebuffers: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGenFramebuffersEXT(n, framebuffers) };
 } }
-export! { 1302, glGenRenderbuffers, first_glGenRenderbuffers, hook_glGenRenderbuffers, (n: i32, renderbuffers: Ptr) -> (), {
+export! { 1300, glGenRenderbuffers, first_glGenRenderbuffers, hook_glGenRenderbuffers, (n: i32, renderbuffers: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGenRenderbuffers(n, renderbuffers) };
 } }
-export! { 1303, glGenRenderbuffersEXT, first_glGenRenderbuffersEXT, hook_glGenRenderbuffersEXT, (n: i32, renderbuffers: Ptr) -> (), {
+export! { 1301, glGenRenderbuffersEXT, first_glGenRenderbuffersEXT, hook_glGenRenderbuffersEXT, (n: i32, renderbuffers: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGenRenderbuffersEXT(n, renderbuffers) };
 } }
-export! { 1304, glBindRenderbuffer, first_glBindRenderbuffer, hook_glBindRenderbuffer, (target: u32, renderbuffer: u32) -> (), {
+export! { 1302, glBindRenderbuffer, first_glBindRenderbuffer, hook_glBindRenderbuffer, (target: u32, renderbuffer: u32) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBindRenderbuffer(target, renderbuffer) };
 } }
-export! { 1305, glRenderbufferStorage, first_glRenderbufferStorage, hook_glRenderbufferStorage, (target: u32, internalformat: u32, width: i32, height: i32) -> (), {
+export! { 1303, glRenderbufferStorage, first_glRenderbufferStorage, hook_glRenderbufferStorage, (target: u32, internalformat: u32, width: i32, height: i32) -> (), {
     hooks::storage();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glRenderbufferStorage(target, internalformat, width, height) };
 } }
-export! { 1306, glRenderbufferStorageEXT, first_glRenderbufferStorageEXT, hook_glRenderbufferStorageEXT, (target: u32, internalformat: u32, width: i32, height: i32) -> (), {
+export! { 1304, glRenderbufferStorageEXT, first_glRenderbufferStorageEXT, hook_glRenderbufferStorageEXT, (target: u32, internalformat: u32, width: i32, height: i32) -> (), {
     hooks::storage();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glRenderbufferStorageEXT(target, internalformat, width, height) };
 } }
-export! { 1307, glRenderbufferStorageMultisample, first_glRenderbufferStorageMultisample, hook_glRenderbufferStorageMultisample, (target: u32, samples: i32, internalformat: u32, width: i32, height: i32) -> (), {
+export! { 1305, glRenderbufferStorageMultisample, first_glRenderbufferStorageMultisample, hook_glRenderbufferStorageMultisample, (target: u32, samples: i32, internalformat: u32, width: i32, height: i32) -> (), {
     hooks::storage();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glRenderbufferStorageMultisample(target, samples, internalformat, width, height) };
 } }
-export! { 1308, glRenderbufferStorageMultisampleEXT, first_glRenderbufferStorageMultisampleEXT, hook_glRenderbufferStorageMultisampleEXT, (target: u32, samples: i32, internalformat: u32, width: i32, height: i32) -> (), {
+export! { 1306, glRenderbufferStorageMultisampleEXT, first_glRenderbufferStorageMultisampleEXT, hook_glRenderbufferStorageMultisampleEXT, (target: u32, samples: i32, internalformat: u32, width: i32, height: i32) -> (), {
     hooks::storage();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glRenderbufferStorageMultisampleEXT(target, samples, internalformat, width, height) };
 } }
-export! { 1309, glRenderbufferStorageMultisampleNV, first_glRenderbufferStorageMultisampleNV, hook_glRenderbufferStorageMultisampleNV, (target: u32, samples: i32, internalformat: u32, width: i32, height: i32) -> (), {
+export! { 1307, glRenderbufferStorageMultisampleNV, first_glRenderbufferStorageMultisampleNV, hook_glRenderbufferStorageMultisampleNV, (target: u32, samples: i32, internalformat: u32, width: i32, height: i32) -> (), {
     hooks::storage();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glRenderbufferStorageMultisampleNV(target, samples, internalformat, width, height) };
 } }
-export! { 1310, glEGLImageTargetRenderbufferStorageOES, first_glEGLImageTargetRenderbufferStorageOES, hook_glEGLImageTargetRenderbufferStorageOES, (target: u32, image: Ptr) -> (), {
+export! { 1308, glEGLImageTargetRenderbufferStorageOES, first_glEGLImageTargetRenderbufferStorageOES, hook_glEGLImageTargetRenderbufferStorageOES, (target: u32, image: Ptr) -> (), {
     hooks::storage();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glEGLImageTargetRenderbufferStorageOES(target, image) };
 } }
-export! { 1311, glDeleteRenderbuffers, first_glDeleteRenderbuffers, hook_glDeleteRenderbuffers, (n: i32, renderbuffers: Ptr) -> (), {
+export! { 1309, glDeleteRenderbuffers, first_glDeleteRenderbuffers, hook_glDeleteRenderbuffers, (n: i32, renderbuffers: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDeleteRenderbuffers(n, renderbuffers) }
 } }
-export! { 1312, glDeleteRenderbuffersEXT, first_glDeleteRenderbuffersEXT, hook_glDeleteRenderbuffersEXT, (n: i32, renderbuffers: Ptr) -> (), {
+export! { 1310, glDeleteRenderbuffersEXT, first_glDeleteRenderbuffersEXT, hook_glDeleteRenderbuffersEXT, (n: i32, renderbuffers: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glDeleteRenderbuffers(n, renderbuffers) }
 } }
-export! { 1313, glBindBuffer, first_glBindBuffer, hook_glBindBuffer, (target: u32, buffer: u32) -> (), {
+export! { 1311, glBindBuffer, first_glBindBuffer, hook_glBindBuffer, (target: u32, buffer: u32) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBindBuffer(target, buffer) };
 } }
-export! { 1314, glBindBufferARB, first_glBindBufferARB, hook_glBindBufferARB, (target: u32, buffer: u32) -> (), {
+export! { 1312, glBindBufferARB, first_glBindBufferARB, hook_glBindBufferARB, (target: u32, buffer: u32) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBindBufferARB(target, buffer) };
 } }
-export! { 1315, glBufferData, first_glBufferData, hook_glBufferData, (target: u32, size: isize, data: Ptr, usage: u32) -> (), {
+export! { 1313, glBufferData, first_glBufferData, hook_glBufferData, (target: u32, size: isize, data: Ptr, usage: u32) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBufferData(target, size, data, usage) };
 } }
-export! { 1316, glBufferDataARB, first_glBufferDataARB, hook_glBufferDataARB, (target: u32, size: isize, data: Ptr, usage: u32) -> (), {
+export! { 1314, glBufferDataARB, first_glBufferDataARB, hook_glBufferDataARB, (target: u32, size: isize, data: Ptr, usage: u32) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBufferDataARB(target, size, data, usage) };
 } }
-export! { 1317, glBufferSubData, first_glBufferSubData, hook_glBufferSubData, (target: u32, offset: isize, size: isize, data: Ptr) -> (), {
+export! { 1315, glBufferSubData, first_glBufferSubData, hook_glBufferSubData, (target: u32, offset: isize, size: isize, data: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBufferSubData(target, offset, size, data) };
 } }
-export! { 1318, glBufferSubDataARB, first_glBufferSubDataARB, hook_glBufferSubDataARB, (target: u32, offset: isize, size: isize, data: Ptr) -> (), {
+export! { 1316, glBufferSubDataARB, first_glBufferSubDataARB, hook_glBufferSubDataARB, (target: u32, offset: isize, size: isize, data: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBufferSubDataARB(target, offset, size, data) };
 } }
-export! { 1319, glDeleteBuffers, first_glDeleteBuffers, hook_glDeleteBuffers, (n: i32, buffers: Ptr) -> (), {
+export! { 1317, glDeleteBuffers, first_glDeleteBuffers, hook_glDeleteBuffers, (n: i32, buffers: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glDeleteBuffers(n, buffers) };
 } }
-export! { 1320, glDeleteBuffersARB, first_glDeleteBuffersARB, hook_glDeleteBuffersARB, (n: i32, buffers: Ptr) -> (), {
+export! { 1318, glDeleteBuffersARB, first_glDeleteBuffersARB, hook_glDeleteBuffersARB, (n: i32, buffers: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glDeleteBuffersARB(n, buffers) };
 } }
-export! { 1321, glPixelStoref, first_glPixelStoref, hook_glPixelStoref, (pname: u32, param: f32) -> (), {
+export! { 1319, glPixelStoref, first_glPixelStoref, hook_glPixelStoref, (pname: u32, param: f32) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPixelStoref(pname, param) };
 } }
-export! { 1322, glPixelStorei, first_glPixelStorei, hook_glPixelStorei, (pname: u32, param: i32) -> (), {
+export! { 1320, glPixelStorei, first_glPixelStorei, hook_glPixelStorei, (pname: u32, param: i32) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPixelStorei(pname, param) };
 } }
-export! { 1323, glPushClientAttrib, first_glPushClientAttrib, hook_glPushClientAttrib, (mask: u32) -> (), {
+export! { 1321, glPushClientAttrib, first_glPushClientAttrib, hook_glPushClientAttrib, (mask: u32) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPushClientAttrib(mask) };
 } }
-export! { 1324, glPopClientAttrib, first_glPopClientAttrib, hook_glPopClientAttrib, () -> (), {
+export! { 1322, glPopClientAttrib, first_glPopClientAttrib, hook_glPopClientAttrib, () -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glPopClientAttrib() };
 } }
-export! { 1325, glEnableClientState, first_glEnableClientState, hook_glEnableClientState, (array: u32) -> (), {
+export! { 1323, glEnableClientState, first_glEnableClientState, hook_glEnableClientState, (array: u32) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glEnableClientState(array) };
 } }
-export! { 1326, glDisableClientState, first_glDisableClientState, hook_glDisableClientState, (array: u32) -> (), {
+export! { 1324, glDisableClientState, first_glDisableClientState, hook_glDisableClientState, (array: u32) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glDisableClientState(array) };
 } }
-export! { 1327, glClientActiveTexture, first_glClientActiveTexture, hook_glClientActiveTexture, (texture: u32) -> (), {
+export! { 1325, glClientActiveTexture, first_glClientActiveTexture, hook_glClientActiveTexture, (texture: u32) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glClientActiveTexture(texture) };
 } }
-export! { 1328, glClientActiveTextureARB, first_glClientActiveTextureARB, hook_glClientActiveTextureARB, (texture: u32) -> (), {
+export! { 1326, glClientActiveTextureARB, first_glClientActiveTextureARB, hook_glClientActiveTextureARB, (texture: u32) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glClientActiveTextureARB(texture) };
 } }
-export! { 1329, glInterleavedArrays, first_glInterleavedArrays, hook_glInterleavedArrays, (format: u32, stride: i32, pointer: Ptr) -> (), {
+export! { 1327, glInterleavedArrays, first_glInterleavedArrays, hook_glInterleavedArrays, (format: u32, stride: i32, pointer: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glInterleavedArrays(format, stride, pointer) };
 } }
-export! { 1330, glColorPointer, first_glColorPointer, hook_glColorPointer, (size: i32, type_: u32, stride: i32, pointer: Ptr) -> (), {
+export! { 1328, glColorPointer, first_glColorPointer, hook_glColorPointer, (size: i32, type_: u32, stride: i32, pointer: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glColorPointer(size, type_, stride, pointer) };
 } }
-export! { 1331, glSecondaryColorPointer, first_glSecondaryColorPointer, hook_glSecondaryColorPointer, (size: i32, type_: u32, stride: i32, pointer: Ptr) -> (), {
+export! { 1329, glSecondaryColorPointer, first_glSecondaryColorPointer, hook_glSecondaryColorPointer, (size: i32, type_: u32, stride: i32, pointer: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glSecondaryColorPointer(size, type_, stride, pointer) };
 } }
-export! { 1332, glSecondaryColorPointerEXT, first_glSecondaryColorPointerEXT, hook_glSecondaryColorPointerEXT, (size: i32, type_: u32, stride: i32, pointer: Ptr) -> (), {
+export! { 1330, glSecondaryColorPointerEXT, first_glSecondaryColorPointerEXT, hook_glSecondaryColorPointerEXT, (size: i32, type_: u32, stride: i32, pointer: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glSecondaryColorPointerEXT(size, type_, stride, pointer) };
 } }
-export! { 1333, glTexCoordPointer, first_glTexCoordPointer, hook_glTexCoordPointer, (size: i32, type_: u32, stride: i32, pointer: Ptr) -> (), {
+export! { 1331, glTexCoordPointer, first_glTexCoordPointer, hook_glTexCoordPointer, (size: i32, type_: u32, stride: i32, pointer: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glTexCoordPointer(size, type_, stride, pointer) };
 } }
-export! { 1334, glVertexPointer, first_glVertexPointer, hook_glVertexPointer, (size: i32, type_: u32, stride: i32, pointer: Ptr) -> (), {
+export! { 1332, glVertexPointer, first_glVertexPointer, hook_glVertexPointer, (size: i32, type_: u32, stride: i32, pointer: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glVertexPointer(size, type_, stride, pointer) };
 } }
-export! { 1335, glEdgeFlagPointer, first_glEdgeFlagPointer, hook_glEdgeFlagPointer, (stride: i32, pointer: Ptr) -> (), {
+export! { 1333, glEdgeFlagPointer, first_glEdgeFlagPointer, hook_glEdgeFlagPointer, (stride: i32, pointer: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glEdgeFlagPointer(stride, pointer) };
 } }
-export! { 1336, glFogCoordPointer, first_glFogCoordPointer, hook_glFogCoordPointer, (type_: u32, stride: i32, pointer: Ptr) -> (), {
+export! { 1334, glFogCoordPointer, first_glFogCoordPointer, hook_glFogCoordPointer, (type_: u32, stride: i32, pointer: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glFogCoordPointer(type_, stride, pointer) };
 } }
-export! { 1337, glFogCoordPointerEXT, first_glFogCoordPointerEXT, hook_glFogCoordPointerEXT, (type_: u32, stride: i32, pointer: Ptr) -> (), {
+export! { 1335, glFogCoordPointerEXT, first_glFogCoordPointerEXT, hook_glFogCoordPointerEXT, (type_: u32, stride: i32, pointer: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glFogCoordPointerEXT(type_, stride, pointer) };
 } }
-export! { 1338, glIndexPointer, first_glIndexPointer, hook_glIndexPointer, (type_: u32, stride: i32, pointer: Ptr) -> (), {
+export! { 1336, glIndexPointer, first_glIndexPointer, hook_glIndexPointer, (type_: u32, stride: i32, pointer: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glIndexPointer(type_, stride, pointer) };
 } }
-export! { 1339, glNormalPointer, first_glNormalPointer, hook_glNormalPointer, (type_: u32, stride: i32, pointer: Ptr) -> (), {
+export! { 1337, glNormalPointer, first_glNormalPointer, hook_glNormalPointer, (type_: u32, stride: i32, pointer: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glNormalPointer(type_, stride, pointer) };
 } }
-export! { 1340, glVertexAttribPointer, first_glVertexAttribPointer, hook_glVertexAttribPointer, (index: u32, size: i32, type_: u32, normalized: u8, stride: i32, pointer: Ptr) -> (), {
+export! { 1338, glVertexAttribPointer, first_glVertexAttribPointer, hook_glVertexAttribPointer, (index: u32, size: i32, type_: u32, normalized: u8, stride: i32, pointer: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glVertexAttribPointer(index, size, type_, normalized, stride, pointer) };
 } }
-export! { 1341, glVertexAttribPointerARB, first_glVertexAttribPointerARB, hook_glVertexAttribPointerARB, (index: u32, size: i32, type_: u32, normalized: u8, stride: i32, pointer: Ptr) -> (), {
+export! { 1339, glVertexAttribPointerARB, first_glVertexAttribPointerARB, hook_glVertexAttribPointerARB, (index: u32, size: i32, type_: u32, normalized: u8, stride: i32, pointer: Ptr) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glVertexAttribPointerARB(index, size, type_, normalized, stride, pointer) };
 } }
-export! { 1342, glEnableVertexAttribArray, first_glEnableVertexAttribArray, hook_glEnableVertexAttribArray, (index: u32) -> (), {
+export! { 1340, glEnableVertexAttribArray, first_glEnableVertexAttribArray, hook_glEnableVertexAttribArray, (index: u32) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glEnableVertexAttribArray(index) };
 } }
-export! { 1343, glEnableVertexAttribArrayARB, first_glEnableVertexAttribArrayARB, hook_glEnableVertexAttribArrayARB, (index: u32) -> (), {
+export! { 1341, glEnableVertexAttribArrayARB, first_glEnableVertexAttribArrayARB, hook_glEnableVertexAttribArrayARB, (index: u32) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glEnableVertexAttribArrayARB(index) };
 } }
-export! { 1344, glDisableVertexAttribArray, first_glDisableVertexAttribArray, hook_glDisableVertexAttribArray, (index: u32) -> (), {
+export! { 1342, glDisableVertexAttribArray, first_glDisableVertexAttribArray, hook_glDisableVertexAttribArray, (index: u32) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glDisableVertexAttribArray(index) };
 } }
-export! { 1345, glDisableVertexAttribArrayARB, first_glDisableVertexAttribArrayARB, hook_glDisableVertexAttribArrayARB, (index: u32) -> (), {
+export! { 1343, glDisableVertexAttribArrayARB, first_glDisableVertexAttribArrayARB, hook_glDisableVertexAttribArrayARB, (index: u32) -> (), {
     hooks::ask();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glDisableVertexAttribArrayARB(index) };
 } }
-export! { 1346, glXChooseVisual, first_glXChooseVisual, hook_glXChooseVisual, (dpy: Ptr, screen: i32, attribs: Ptr) -> Ptr, {
+export! { 1344, glXChooseVisual, first_glXChooseVisual, hook_glXChooseVisual, (dpy: Ptr, screen: i32, attribs: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXChooseVisual(dpy, screen, attribs) }
 } }
-export! { 1347, glXChooseFBConfig, first_glXChooseFBConfig, hook_glXChooseFBConfig, (dpy: Ptr, screen: i32, attribs: Ptr, count: Ptr) -> Ptr, {
+export! { 1345, glXChooseFBConfig, first_glXChooseFBConfig, hook_glXChooseFBConfig, (dpy: Ptr, screen: i32, attribs: Ptr, count: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXChooseFBConfig(dpy, screen, attribs, count) }
 } }
-export! { 1348, glXChooseFBConfigSGIX, first_glXChooseFBConfigSGIX, hook_glXChooseFBConfigSGIX, (dpy: Ptr, screen: i32, attribs: Ptr, count: Ptr) -> Ptr, {
+export! { 1346, glXChooseFBConfigSGIX, first_glXChooseFBConfigSGIX, hook_glXChooseFBConfigSGIX, (dpy: Ptr, screen: i32, attribs: Ptr, count: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXChooseFBConfigSGIX(dpy, screen, attribs, count) }
 } }
-export! { 1349, glXSwapBuffers, first_glXSwapBuffers, hook_glXSwapBuffers, (dpy: Ptr, drawable: c_ulong) -> (), {
+export! { 1347, glXSwapBuffers, first_glXSwapBuffers, hook_glXSwapBuffers, (dpy: Ptr, drawable: c_ulong) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glXSwapBuffers(dpy, drawable) }
 } }
-export! { 1350, glXSwapBuffersMscOML, first_glXSwapBuffersMscOML, hook_glXSwapBuffersMscOML, (dpy: Ptr, drawable: c_ulong, target_msc: i64, divisor: i64, remainder: i64) -> i64, {
+export! { 1348, glXSwapBuffersMscOML, first_glXSwapBuffersMscOML, hook_glXSwapBuffersMscOML, (dpy: Ptr, drawable: c_ulong, target_msc: i64, divisor: i64, remainder: i64) -> i64, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXSwapBuffersMscOML(dpy, drawable, target_msc, divisor, remainder) }
 } }
-export! { 1351, glXMakeCurrent, first_glXMakeCurrent, hook_glXMakeCurrent, (dpy: Ptr, drawable: c_ulong, ctx: Ptr) -> i32, {
+export! { 1349, glXMakeCurrent, first_glXMakeCurrent, hook_glXMakeCurrent, (dpy: Ptr, drawable: c_ulong, ctx: Ptr) -> i32, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXMakeCurrent(dpy, drawable, ctx) }
 } }
-export! { 1352, glXMakeContextCurrent, first_glXMakeContextCurrent, hook_glXMakeContextCurrent, (dpy: Ptr, draw: c_ulong, read: c_ulong, ctx: Ptr) -> i32, {
+export! { 1350, glXMakeContextCurrent, first_glXMakeContextCurrent, hook_glXMakeContextCurrent, (dpy: Ptr, draw: c_ulong, read: c_ulong, ctx: Ptr) -> i32, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXMakeContextCurrent(dpy, draw, read, ctx) }
 } }
-export! { 1353, glXMakeCurrentReadSGI, first_glXMakeCurrentReadSGI, hook_glXMakeCurrentReadSGI, (dpy: Ptr, draw: c_ulong, read: c_ulong, ctx: Ptr) -> i32, {
+export! { 1351, glXMakeCurrentReadSGI, first_glXMakeCurrentReadSGI, hook_glXMakeCurrentReadSGI, (dpy: Ptr, draw: c_ulong, read: c_ulong, ctx: Ptr) -> i32, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXMakeCurrentReadSGI(dpy, draw, read, ctx) }
 } }
-export! { 1354, glXCreateContext, first_glXCreateContext, hook_glXCreateContext, (dpy: Ptr, vis: Ptr, share: Ptr, direct: i32) -> Ptr, {
+export! { 1352, glXCreateContext, first_glXCreateContext, hook_glXCreateContext, (dpy: Ptr, vis: Ptr, share: Ptr, direct: i32) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXCreateContext(dpy, vis, share, direct) }
 } }
-export! { 1355, glXCreateNewContext, first_glXCreateNewContext, hook_glXCreateNewContext, (dpy: Ptr, config: Ptr, kind: i32, share: Ptr, direct: i32) -> Ptr, {
+export! { 1353, glXCreateNewContext, first_glXCreateNewContext, hook_glXCreateNewContext, (dpy: Ptr, config: Ptr, kind: i32, share: Ptr, direct: i32) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXCreateNewContext(dpy, config, kind, share, direct) }
 } }
-export! { 1356, glXCreateContextAttribsARB, first_glXCreateContextAttribsARB, hook_glXCreateContextAttribsARB, (dpy: Ptr, config: Ptr, share: Ptr, direct: i32, attribs: Ptr) -> Ptr, {
+export! { 1354, glXCreateContextAttribsARB, first_glXCreateContextAttribsARB, hook_glXCreateContextAttribsARB, (dpy: Ptr, config: Ptr, share: Ptr, direct: i32, attribs: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXCreateContextAttribsARB(dpy, config, share, direct, attribs) }
 } }
-export! { 1357, glXCreateContextWithConfigSGIX, first_glXCreateContextWithConfigSGIX, hook_glXCreateContextWithConfigSGIX, (dpy: Ptr, config: Ptr, kind: i32, share: Ptr, direct: i32) -> Ptr, {
+export! { 1355, glXCreateContextWithConfigSGIX, first_glXCreateContextWithConfigSGIX, hook_glXCreateContextWithConfigSGIX, (dpy: Ptr, config: Ptr, kind: i32, share: Ptr, direct: i32) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXCreateContextWithConfigSGIX(dpy, config, kind, share, direct) }
 } }
-export! { 1358, glXDestroyContext, first_glXDestroyContext, hook_glXDestroyContext, (dpy: Ptr, ctx: Ptr) -> (), {
+export! { 1356, glXDestroyContext, first_glXDestroyContext, hook_glXDestroyContext, (dpy: Ptr, ctx: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glXDestroyContext(dpy, ctx) }
 } }
-export! { 1359, glXCreateWindow, first_glXCreateWindow, hook_glXCreateWindow, (dpy: Ptr, config: Ptr, win: c_ulong, attribs: Ptr) -> c_ulong, {
+export! { 1357, glXCreateWindow, first_glXCreateWindow, hook_glXCreateWindow, (dpy: Ptr, config: Ptr, win: c_ulong, attribs: Ptr) -> c_ulong, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXCreateWindow(dpy, config, win, attribs) }
 } }
-export! { 1360, glXDestroyWindow, first_glXDestroyWindow, hook_glXDestroyWindow, (dpy: Ptr, win: c_ulong) -> (), {
+export! { 1358, glXDestroyWindow, first_glXDestroyWindow, hook_glXDestroyWindow, (dpy: Ptr, win: c_ulong) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::glXDestroyWindow(dpy, win) }
 } }
-export! { 1361, glXGetProcAddress, first_glXGetProcAddress, hook_glXGetProcAddress, (name: Ptr) -> Ptr, {
+export! { 1359, glXGetProcAddress, first_glXGetProcAddress, hook_glXGetProcAddress, (name: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXGetProcAddress(name) }
 } }
-export! { 1362, glXGetProcAddressARB, first_glXGetProcAddressARB, hook_glXGetProcAddressARB, (name: Ptr) -> Ptr, {
+export! { 1360, glXGetProcAddressARB, first_glXGetProcAddressARB, hook_glXGetProcAddressARB, (name: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::glXGetProcAddressARB(name) }
 } }
-export! { 1364, eglSwapBuffers, first_eglSwapBuffers, hook_eglSwapBuffers, (dpy: Ptr, surface: Ptr) -> u32, {
+export! { 1362, eglSwapBuffers, first_eglSwapBuffers, hook_eglSwapBuffers, (dpy: Ptr, surface: Ptr) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglSwapBuffers(dpy, surface) }
 } }
-export! { 1365, eglSwapBuffersWithDamageKHR, first_eglSwapBuffersWithDamageKHR, hook_eglSwapBuffersWithDamageKHR, (dpy: Ptr, surface: Ptr, rects: Ptr, n: i32) -> u32, {
+export! { 1363, eglSwapBuffersWithDamageKHR, first_eglSwapBuffersWithDamageKHR, hook_eglSwapBuffersWithDamageKHR, (dpy: Ptr, surface: Ptr, rects: Ptr, n: i32) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglSwapBuffersWithDamageKHR(dpy, surface, rects, n) }
 } }
-export! { 1366, eglSwapBuffersWithDamageEXT, first_eglSwapBuffersWithDamageEXT, hook_eglSwapBuffersWithDamageEXT, (dpy: Ptr, surface: Ptr, rects: Ptr, n: i32) -> u32, {
+export! { 1364, eglSwapBuffersWithDamageEXT, first_eglSwapBuffersWithDamageEXT, hook_eglSwapBuffersWithDamageEXT, (dpy: Ptr, surface: Ptr, rects: Ptr, n: i32) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglSwapBuffersWithDamageEXT(dpy, surface, rects, n) }
 } }
-export! { 1367, eglMakeCurrent, first_eglMakeCurrent, hook_eglMakeCurrent, (dpy: Ptr, draw: Ptr, read: Ptr, ctx: Ptr) -> u32, {
+export! { 1365, eglMakeCurrent, first_eglMakeCurrent, hook_eglMakeCurrent, (dpy: Ptr, draw: Ptr, read: Ptr, ctx: Ptr) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglMakeCurrent(dpy, draw, read, ctx) }
 } }
-export! { 1368, eglCreateContext, first_eglCreateContext, hook_eglCreateContext, (dpy: Ptr, config: Ptr, share: Ptr, attribs: Ptr) -> Ptr, {
+export! { 1366, eglCreateContext, first_eglCreateContext, hook_eglCreateContext, (dpy: Ptr, config: Ptr, share: Ptr, attribs: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglCreateContext(dpy, config, share, attribs) }
 } }
-export! { 1369, eglDestroyContext, first_eglDestroyContext, hook_eglDestroyContext, (dpy: Ptr, ctx: Ptr) -> u32, {
+export! { 1367, eglDestroyContext, first_eglDestroyContext, hook_eglDestroyContext, (dpy: Ptr, ctx: Ptr) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglDestroyContext(dpy, ctx) }
 } }
-export! { 1370, eglReleaseThread, first_eglReleaseThread, hook_eglReleaseThread, () -> u32, {
+export! { 1368, eglReleaseThread, first_eglReleaseThread, hook_eglReleaseThread, () -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglReleaseThread() }
 } }
-export! { 1371, eglGetDisplay, first_eglGetDisplay, hook_eglGetDisplay, (native: Ptr) -> Ptr, {
+export! { 1369, eglGetDisplay, first_eglGetDisplay, hook_eglGetDisplay, (native: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglGetDisplay(native) }
 } }
-export! { 1372, eglGetPlatformDisplay, first_eglGetPlatformDisplay, hook_eglGetPlatformDisplay, (platform: u32, native: Ptr, attribs: Ptr) -> Ptr, {
+export! { 1370, eglGetPlatformDisplay, first_eglGetPlatformDisplay, hook_eglGetPlatformDisplay, (platform: u32, native: Ptr, attribs: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglGetPlatformDisplay(platform, native, attribs) }
 } }
-export! { 1373, eglGetPlatformDisplayEXT, first_eglGetPlatformDisplayEXT, hook_eglGetPlatformDisplayEXT, (platform: u32, native: Ptr, attribs: Ptr) -> Ptr, {
+export! { 1371, eglGetPlatformDisplayEXT, first_eglGetPlatformDisplayEXT, hook_eglGetPlatformDisplayEXT, (platform: u32, native: Ptr, attribs: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglGetPlatformDisplayEXT(platform, native, attribs) }
 } }
-export! { 1374, eglCreateWindowSurface, first_eglCreateWindowSurface, hook_eglCreateWindowSurface, (dpy: Ptr, config: Ptr, win: Ptr, attribs: Ptr) -> Ptr, {
+export! { 1372, eglCreateWindowSurface, first_eglCreateWindowSurface, hook_eglCreateWindowSurface, (dpy: Ptr, config: Ptr, win: Ptr, attribs: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglCreateWindowSurface(dpy, config, win, attribs) }
 } }
-export! { 1375, eglCreatePlatformWindowSurface, first_eglCreatePlatformWindowSurface, hook_eglCreatePlatformWindowSurface, (dpy: Ptr, config: Ptr, win: Ptr, attribs: Ptr) -> Ptr, {
+export! { 1373, eglCreatePlatformWindowSurface, first_eglCreatePlatformWindowSurface, hook_eglCreatePlatformWindowSurface, (dpy: Ptr, config: Ptr, win: Ptr, attribs: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglCreatePlatformWindowSurface(dpy, config, win, attribs) }
 } }
-export! { 1376, eglCreatePlatformWindowSurfaceEXT, first_eglCreatePlatformWindowSurfaceEXT, hook_eglCreatePlatformWindowSurfaceEXT, (dpy: Ptr, config: Ptr, win: Ptr, attribs: Ptr) -> Ptr, {
+export! { 1374, eglCreatePlatformWindowSurfaceEXT, first_eglCreatePlatformWindowSurfaceEXT, hook_eglCreatePlatformWindowSurfaceEXT, (dpy: Ptr, config: Ptr, win: Ptr, attribs: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglCreatePlatformWindowSurfaceEXT(dpy, config, win, attribs) }
 } }
-export! { 1377, eglDestroySurface, first_eglDestroySurface, hook_eglDestroySurface, (dpy: Ptr, surface: Ptr) -> u32, {
+export! { 1375, eglDestroySurface, first_eglDestroySurface, hook_eglDestroySurface, (dpy: Ptr, surface: Ptr) -> u32, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglDestroySurface(dpy, surface) }
 } }
-export! { 1378, eglGetProcAddress, first_eglGetProcAddress, hook_eglGetProcAddress, (name: Ptr) -> Ptr, {
+export! { 1376, eglGetProcAddress, first_eglGetProcAddress, hook_eglGetProcAddress, (name: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::eglGetProcAddress(name) }
 } }
-export! { 1383, OSMesaMakeCurrent, first_OSMesaMakeCurrent, hook_OSMesaMakeCurrent, (ctx: Ptr, buffer: Ptr, kind: u32, width: i32, height: i32) -> u8, {
+export! { 1381, OSMesaMakeCurrent, first_OSMesaMakeCurrent, hook_OSMesaMakeCurrent, (ctx: Ptr, buffer: Ptr, kind: u32, width: i32, height: i32) -> u8, {
     // SAFETY: the program's own arguments.
     unsafe { special::OSMesaMakeCurrent(ctx, buffer, kind, width, height) }
 } }
-export! { 1384, OSMesaCreateContext, first_OSMesaCreateContext, hook_OSMesaCreateContext, (format: u32, share: Ptr) -> Ptr, {
+export! { 1382, OSMesaCreateContext, first_OSMesaCreateContext, hook_OSMesaCreateContext, (format: u32, share: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::OSMesaCreateContext(format, share) }
 } }
-export! { 1385, OSMesaCreateContextExt, first_OSMesaCreateContextExt, hook_OSMesaCreateContextExt, (format: u32, depth: i32, stencil: i32, accum: i32, share: Ptr) -> Ptr, {
+export! { 1383, OSMesaCreateContextExt, first_OSMesaCreateContextExt, hook_OSMesaCreateContextExt, (format: u32, depth: i32, stencil: i32, accum: i32, share: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::OSMesaCreateContextExt(format, depth, stencil, accum, share) }
 } }
-export! { 1386, OSMesaCreateContextAttribs, first_OSMesaCreateContextAttribs, hook_OSMesaCreateContextAttribs, (attribs: Ptr, share: Ptr) -> Ptr, {
+export! { 1384, OSMesaCreateContextAttribs, first_OSMesaCreateContextAttribs, hook_OSMesaCreateContextAttribs, (attribs: Ptr, share: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::OSMesaCreateContextAttribs(attribs, share) }
 } }
-export! { 1387, OSMesaDestroyContext, first_OSMesaDestroyContext, hook_OSMesaDestroyContext, (ctx: Ptr) -> (), {
+export! { 1385, OSMesaDestroyContext, first_OSMesaDestroyContext, hook_OSMesaDestroyContext, (ctx: Ptr) -> (), {
     // SAFETY: the program's own arguments.
     unsafe { special::OSMesaDestroyContext(ctx) }
 } }
-export! { 1388, OSMesaGetProcAddress, first_OSMesaGetProcAddress, hook_OSMesaGetProcAddress, (name: Ptr) -> Ptr, {
+export! { 1386, OSMesaGetProcAddress, first_OSMesaGetProcAddress, hook_OSMesaGetProcAddress, (name: Ptr) -> Ptr, {
     // SAFETY: the program's own arguments.
     unsafe { special::OSMesaGetProcAddress(name) }
 } }

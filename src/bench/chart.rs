@@ -20,10 +20,10 @@ const TITLE: u32 = 84;
 const LEGEND: u32 = 36;
 /// Pixels for one word of the legend.
 const WORD: u32 = 260;
-const INK: RGBColor = RGBColor(40, 44, 52);
-const GREY: RGBColor = RGBColor(150, 155, 165);
+pub(super) const INK: RGBColor = RGBColor(40, 44, 52);
+pub(super) const GREY: RGBColor = RGBColor(150, 155, 165);
 /// Colours that people with any kind of colour blindness tell apart (Okabe and Ito, "Color universal design", 2008).
-const COLOURS: [RGBColor; 7] = [
+pub(super) const COLOURS: [RGBColor; 7] = [
     RGBColor(0, 114, 178),
     RGBColor(213, 94, 0),
     RGBColor(0, 158, 115),
@@ -36,7 +36,7 @@ const COLOURS: [RGBColor; 7] = [
 /// Where equal pictures stand on the axis, whose PSNR is infinite: above all others, and above what 8 bits can tell apart.
 const EXACT: f64 = 100.0;
 
-type Area<'a, B> = DrawingArea<B, Shift>;
+pub(super) type Area<'a, B> = DrawingArea<B, Shift>;
 type Plane<'a, B> = ChartContext<'a, B, Cartesian2d<LogCoord<f64>, RangedCoordf64>>;
 
 /// What [`write()`] can make.
@@ -59,8 +59,25 @@ impl Format {
     }
 }
 
+/// What [`save`] draws.
+pub(super) trait Drawing {
+    /// Pixels.
+    fn size(&self) -> (u32, u32);
+
+    /// All of it.
+    fn draw<B: DrawingBackend>(
+        &self,
+        area: &Area<B>,
+    ) -> Result<(), DrawingAreaErrorKind<B::ErrorType>>;
+}
+
 /// Draws the chart into a file.
 pub fn write(bench: &Bench, file: &Path) -> Result<(), BenchError> {
+    save(&Chart::new(bench), file)
+}
+
+/// Draws into a file of either format.
+pub(super) fn save(drawing: &impl Drawing, file: &Path) -> Result<(), BenchError> {
     let failed = |reason: &dyn std::fmt::Display| BenchError::Write {
         file: file.to_owned(),
         reason: reason.to_string(),
@@ -72,23 +89,27 @@ pub fn write(bench: &Bench, file: &Path) -> Result<(), BenchError> {
         epaint_default_fonts::UBUNTU_LIGHT,
     )
     .map_err(|_| BenchError::Chart("the built-in font cannot be read".to_owned()))?;
-    let chart = Chart::new(bench);
-    let (width, height) = chart.size();
+    let (width, height) = drawing.size();
     match Format::of(file)? {
         Format::Png => {
             let mut pixels = vec![0; 3 * width as usize * height as usize];
-            chart.draw(
-                &BitMapBackend::with_buffer(&mut pixels, (width, height)).into_drawing_area(),
-            )?;
+            let area = BitMapBackend::with_buffer(&mut pixels, (width, height));
+            drawn(drawing, &area.into_drawing_area())?;
             let picture = RgbImage::from_raw(width, height, pixels).unwrap_or_default();
             picture.save(file).map_err(|error| failed(&error))
         }
         Format::Svg => {
             let mut text = String::new();
-            chart.draw(&SVGBackend::with_string(&mut text, (width, height)).into_drawing_area())?;
+            let area = SVGBackend::with_string(&mut text, (width, height));
+            drawn(drawing, &area.into_drawing_area())?;
             std::fs::write(file, text).map_err(|error| failed(&error))
         }
     }
+}
+
+fn drawn<B: DrawingBackend>(drawing: &impl Drawing, area: &Area<B>) -> Result<(), BenchError> {
+    let drawn = drawing.draw(area);
+    drawn.map_err(|error| BenchError::Chart(error.to_string()))
 }
 
 /// What is on the chart.
@@ -132,14 +153,6 @@ impl<'a> Chart<'a> {
         }
     }
 
-    fn size(&self) -> (u32, u32) {
-        let rows = (self.panels.len() as u32).div_ceil(self.columns);
-        (
-            self.columns * PANEL.0,
-            TITLE + rows * PANEL.1 + self.legend_lines() * LEGEND + LEGEND / 2,
-        )
-    }
-
     /// Words of the legend beside each other.
     fn words(&self) -> u32 {
         (self.columns * PANEL.0 - 48) / WORD
@@ -148,42 +161,6 @@ impl<'a> Chart<'a> {
     /// The configurations and the front.
     fn legend_lines(&self) -> u32 {
         (self.names.len() as u32 + 1).div_ceil(self.words())
-    }
-
-    fn draw<B: DrawingBackend>(&self, area: &Area<B>) -> Result<(), BenchError> {
-        self.try_draw(area)
-            .map_err(|error| BenchError::Chart(error.to_string()))
-    }
-
-    fn try_draw<B: DrawingBackend>(
-        &self,
-        area: &Area<B>,
-    ) -> Result<(), DrawingAreaErrorKind<B::ErrorType>> {
-        area.fill(&WHITE)?;
-        let (width, height) = self.size();
-        area.draw(&Text::new(
-            "Frame time and error of the picture",
-            (24, 16),
-            font(32),
-        ))?;
-        area.draw(&Text::new(
-            format!("{}, {}", self.bench.renderer, self.bench.date),
-            (24, 54),
-            font(19).color(&GREY),
-        ))?;
-        for (at, rows) in self.panels.iter().enumerate() {
-            let (x, y) = (at as u32 % self.columns, at as u32 / self.columns);
-            let left = x * PANEL.0;
-            let top = TITLE + y * PANEL.1;
-            let panel = area.clone().shrink((left, top), PANEL);
-            self.panel(&panel, rows)?;
-        }
-        let below = area.clone().shrink(
-            (0, height - self.legend_lines() * LEGEND - LEGEND / 2),
-            (width, self.legend_lines() * LEGEND),
-        );
-        self.legend(&below)?;
-        area.present()
     }
 
     fn panel<B: DrawingBackend>(
@@ -298,6 +275,47 @@ impl<'a> Chart<'a> {
     }
 }
 
+impl Drawing for Chart<'_> {
+    fn size(&self) -> (u32, u32) {
+        let rows = (self.panels.len() as u32).div_ceil(self.columns);
+        (
+            self.columns * PANEL.0,
+            TITLE + rows * PANEL.1 + self.legend_lines() * LEGEND + LEGEND / 2,
+        )
+    }
+
+    fn draw<B: DrawingBackend>(
+        &self,
+        area: &Area<B>,
+    ) -> Result<(), DrawingAreaErrorKind<B::ErrorType>> {
+        area.fill(&WHITE)?;
+        let (width, height) = self.size();
+        area.draw(&Text::new(
+            "Frame time and error of the picture",
+            (24, 16),
+            font(32),
+        ))?;
+        area.draw(&Text::new(
+            format!("{}, {}", self.bench.renderer, self.bench.date),
+            (24, 54),
+            font(19).color(&GREY),
+        ))?;
+        for (at, rows) in self.panels.iter().enumerate() {
+            let (x, y) = (at as u32 % self.columns, at as u32 / self.columns);
+            let left = x * PANEL.0;
+            let top = TITLE + y * PANEL.1;
+            let panel = area.clone().shrink((left, top), PANEL);
+            self.panel(&panel, rows)?;
+        }
+        let below = area.clone().shrink(
+            (0, height - self.legend_lines() * LEGEND - LEGEND / 2),
+            (width, self.legend_lines() * LEGEND),
+        );
+        self.legend(&below)?;
+        area.present()
+    }
+}
+
 /// Where a row stands: times, and dB or [`EXACT`].
 fn place(row: &Row) -> (f64, f64) {
     (
@@ -342,7 +360,7 @@ fn mark<'a, B: DrawingBackend + 'a, C: Clone + 'static>(
     }
 }
 
-fn font(pixels: u32) -> TextStyle<'static> {
+pub(super) fn font(pixels: u32) -> TextStyle<'static> {
     ("sans-serif", pixels).into_font().color(&INK)
 }
 

@@ -20,6 +20,14 @@ pub enum BenchError {
     /// A number of frames that is none.
     #[error("--frames is '{0}'; give a whole number from 1 to 10000")]
     Frames(String),
+    /// Frames of a walk that are none.
+    #[error(
+        "--frames is '{0}'; a walk of --fps takes the last frame or both ends, such as 100..400, from 2 on and 900 frames at most"
+    )]
+    WalkFrames(String),
+    /// A walk without what is measured.
+    #[error("the program drew no frames by hybrid; {0}")]
+    NoWalk(String),
     /// An option of programs where none is started.
     #[error("{0} does not go with --preset popescu-table1, which starts no program; leave it out")]
     NoProgram(&'static str),
@@ -29,6 +37,11 @@ pub enum BenchError {
     /// Pictures of another kind.
     #[error("--chart is '{}'; --preset popescu-table1 draws pictures, give a name that ends in .png", _0.display())]
     SheetName(PathBuf),
+    /// A chart of what has none.
+    #[error(
+        "--chart is drawn of scenes and of walks; leave it out, or give --fps for a walk of the program"
+    )]
+    NoChart,
     /// A chart of another kind.
     #[error("--chart is '{}'; give a name that ends in .png or .svg", _0.display())]
     ChartName(PathBuf),
@@ -110,6 +123,8 @@ impl BenchError {
         match self {
             Self::Unknown { .. }
             | Self::Frames(_)
+            | Self::WalkFrames(_)
+            | Self::NoChart
             | Self::NoProgram(_)
             | Self::OneSize
             | Self::SheetName(_)
@@ -119,6 +134,7 @@ impl BenchError {
             | Self::Silent { .. }
             | Self::Answer { .. }
             | Self::Unproved(_)
+            | Self::NoWalk(_)
             | Self::NoPicture { .. } => 4,
         }
     }

@@ -17,6 +17,7 @@ pub mod protocol;
 mod scene;
 mod statistics;
 pub mod table;
+pub mod walk;
 
 pub use configuration::{
     AUTO, CONFIGURATIONS, Configuration, DEFAULT_CONFIGURATIONS, EXACT, Variant,

@@ -12,6 +12,7 @@ mod images;
 pub mod immediate;
 mod indices;
 mod pixels;
+mod positions;
 mod programs;
 #[allow(missing_docs, non_upper_case_globals, clippy::missing_safety_doc, reason = "generated; the names are the API's own")]
 #[rustfmt::skip]

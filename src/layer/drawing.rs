@@ -98,7 +98,10 @@ impl Primitives {
     fn send(&self, gl: &Gl, mode: u32) {
         let (Primitives::Arrays { count, .. } | Primitives::Elements { count, .. }) = *self;
         let count_up = count.max(0).unsigned_abs();
-        let list = corners(self.mode(), count_up).filter(|_| mode == c::PATCHES);
+        let list = match mode {
+            c::PATCHES => corners(self.mode(), count_up),
+            _ => None,
+        };
         match (*self, list) {
             (Primitives::Arrays { first, count, .. }, None) => gl.draw_arrays(mode, first, count),
             (Primitives::Arrays { first, .. }, Some(mut list)) => {
@@ -167,10 +170,12 @@ impl Layer {
         match plan.method {
             Method::Once => self.once(gl, call),
             Method::Replay => {
-                let drawing = primitives.drawing(gl);
-                self.draw_bent(gl, &plan, Again::Same, drawing, &mut |mode| {
-                    primitives.send(gl, mode);
-                });
+                if self.synthesis.bent.next.is_some() {
+                    let drawing = primitives.drawing(gl);
+                    self.draw_bent(gl, &plan, Again::Same, drawing, &mut |mode| {
+                        primitives.send(gl, mode);
+                    });
+                }
                 self.replay(gl, &plan, Again::Same, &mut |_| call());
             }
             Method::Instanced if plan.twin => {

@@ -193,9 +193,13 @@ impl Layer {
 
     /// Counts the frame and writes the report where one is asked for.
     pub fn count_frame(&mut self) {
-        if let (Some(ms), Some(drawn)) = (self.report.frame(), self.synthesis.number()) {
-            self.report.drew(ms, drawn);
-            self.synthesis.follow(ms);
+        if let (Some(ms), Some(number)) = (self.report.frame(), self.synthesis.number()) {
+            let drawn = self.synthesis.take_drawn();
+            self.report.drew(ms, drawn.unwrap_or(self.config.views));
+            // A menu, say, tells of nothing.
+            if drawn.is_some() || number == self.config.views {
+                self.synthesis.follow(ms);
+            }
         }
         self.report.memory(self.atlas.bytes);
         for (reason, count) in self.fallbacks.take() {

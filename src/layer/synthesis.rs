@@ -98,6 +98,8 @@ pub(super) struct Synthesis {
     sources: Option<Sources>,
     /// How many they are.
     number: Number,
+    /// As many were drawn in this frame.
+    drew: Option<u32>,
     /// The views of this frame are made.
     done: bool,
     pub(super) bent: Bent,
@@ -121,6 +123,10 @@ enum Number {
 impl Number {
     fn of(config: &Config) -> Number {
         match (config.synthesis(), config.true_views) {
+            // More are no sources for others.
+            (Some(Behind::Views), TrueViews::Fixed(count)) if count > Sources::MOST => {
+                Number::Fixed(config.views)
+            }
             (Some(Behind::Views), TrueViews::Fixed(count)) => Number::Fixed(count),
             (Some(Behind::Views), TrueViews::Rate(rate)) => {
                 Number::Governed(Governor::new(rate, config.views, Sources::MOST))
@@ -172,6 +178,11 @@ impl Synthesis {
     pub(super) fn drawn(&self) -> Shown {
         let sources = self.sources.iter();
         sources.flat_map(|sources| sources.iter()).collect()
+    }
+
+    /// How many views the frame drew, where others were made of them; none where all were drawn.
+    pub(super) fn take_drawn(&mut self) -> Option<u32> {
+        self.drew.take()
     }
 
     /// How many views a frame draws of those that others are made of; none where it is the own one alone.
@@ -236,8 +247,12 @@ impl Layer {
             self.fallbacks.add(Reason::Parted("another clear"));
             return self.make_views(gl);
         }
-        if !all || self.synthesis.done || !self.may_synthesise() {
+        if !all || self.synthesis.done {
             return;
+        }
+        if !self.may_synthesise() {
+            // The other views have nothing of what was shown last.
+            return self.make_views(gl);
         }
         // What was shown last is no more.
         self.synthesis.scene = None;
@@ -245,6 +260,7 @@ impl Layer {
         self.synthesis.surfaces.forget();
         let (own, views) = (self.atlas.tiles.own(), self.config.views);
         let count = self.synthesis.number();
+        let before = self.atlas.tiles.shown;
         self.synthesis.sources = count.map(|count| Sources::spread(own, views, count));
         self.synthesis.scene = Some(Scene {
             clear: gl.get_floats::<1>(c::DEPTH_CLEAR_VALUE)[0],
@@ -252,7 +268,11 @@ impl Layer {
         });
         self.atlas.tiles.shown = self.shown();
         // Views that were not drawn in the last frame have nothing to draw on.
-        if self.synthesis.sources.is_some() && !colours {
+        let sources = self.synthesis.sources.iter();
+        let new = sources
+            .flat_map(Sources::iter)
+            .any(|view| view != own && !before.has(view));
+        if new && !colours {
             self.queries.pause(gl);
             as_they_are(gl, || {
                 self.reading(gl, BACK, |layer| layer.atlas.share_own(gl));
@@ -271,6 +291,13 @@ impl Layer {
             || (x <= 0 && y <= 0 && x + width >= window[0] && y + height >= window[1])
     }
 
+    /// Views that are drawn where none is made.
+    fn needed(&self) -> u32 {
+        let (wanted, own) = (self.wanted_views(), self.atlas.tiles.own());
+        let needed = (0..self.config.views).filter(|&view| view == own || wanted.has(view));
+        needed.count() as u32
+    }
+
     fn may_synthesise(&self) -> bool {
         self.config.prove.is_none()
             && self.atlas.depth != 0
@@ -279,10 +306,7 @@ impl Layer {
             && self.accumulated.buffer.is_none()
             && !self.has_copies()
             && !self.live.flat
-            && self
-                .synthesis
-                .number()
-                .is_none_or(|n| n < self.config.views)
+            && self.synthesis.number().is_none_or(|n| n < self.needed())
     }
 
     /// What a draw that belongs to the scene is projected by, or what it is instead.
@@ -421,7 +445,7 @@ impl Layer {
         let (names, window) = (&mut self.names, &self.state.window);
         let layers = match &self.synthesis.number {
             Number::One => 1,
-            Number::Fixed(count) => *count,
+            Number::Fixed(count) => (*count).min(Sources::MOST),
             Number::Governed(_) => Sources::MOST.min(self.config.views),
         };
         let made = keep_bindings(gl, || self.atlas.make_field(gl, names, window, layers));
@@ -442,6 +466,7 @@ impl Layer {
 
     /// Learns of the views that are drawn, or of their copies, what others need of them; and the map for the next frame.
     fn measure(&mut self, gl: &Gl, heights: &Heights, copied: bool) -> Option<FieldTextures> {
+        self.synthesis.drew = heights.sources.map(|sources| sources.count());
         let mut textures = self.atlas.field(copied)?;
         let passes = self.synthesis.passes.as_ref()?;
         passes.measure(gl, &mut self.atlas, heights, &textures);

@@ -100,12 +100,18 @@ impl Governor {
                     self.patience = (2 * self.patience).min(TRIED[1]);
                     1
                 }
-                false => ((median - self.budget) / one).ceil().max(1.0) as usize,
+                false => ((median - self.budget) / one).ceil().max(1.0) as u32,
             };
-            return self.go(self.at.saturating_sub(too_many), median);
+            let fit = self.level().saturating_sub(too_many);
+            let below = self.levels.iter().take(self.at);
+            let to = below.filter(|&&level| level <= fit).count();
+            return self.go(to.saturating_sub(1), median);
         }
         self.tried = false;
-        let fits = median + one <= self.budget * FITS;
+        // From eight views it is all at once.
+        let next = self.levels.get(self.at + 1).copied();
+        let more = next.map_or(0, |next| next - self.level()) as f32;
+        let fits = median + more * one <= self.budget * FITS;
         let due = self.held >= if fits { HELD } else { self.patience };
         if due && self.at + 1 < self.levels.len() {
             self.tried = true;
@@ -213,5 +219,12 @@ mod tests {
         let governor = Governor::new(60.0, 48, 8);
         assert_eq!(governor.levels, [1, 2, 3, 4, 5, 6, 7, 8, 48]);
         assert_eq!(Governor::new(60.0, 2, 8).level(), 2);
+        let mut governor = Governor::new(60.0, 48, 8);
+        let levels = walk(&mut governor, 0..6000, |level, _, noise| {
+            noise * (2.0 + 0.5 * level as f32)
+        });
+        let late = levels[1000..].iter().filter(|&&level| level == 48).count();
+        assert!(late * 20 <= 5000, "all 48 take 26 ms, {late} times");
+        assert!(levels[1000..].iter().all(|&level| level >= 7));
     }
 }

@@ -2,14 +2,12 @@
 //! command has touched it.
 #![forbid(unsafe_code)]
 
-mod arrays;
 mod effect;
 mod framebuffer;
 mod lists;
 mod look;
 mod shaders;
 
-pub use arrays::Arrays;
 pub use effect::{Effect, Immediate};
 pub use framebuffer::{BACK, FRONT, Framebuffers, Window};
 pub use lists::{Body, Command, Compiling, Left, Lists, Run, Segment, Start};
@@ -117,8 +115,6 @@ pub struct State {
     pub list: Option<Compiling>,
     /// Immediate mode.
     pub begin: Begin,
-    /// glLockArraysEXT.
-    pub arrays: Arrays,
     /// GL_RENDER, GL_SELECT or GL_FEEDBACK.
     pub render_mode: u32,
     /// Between glBeginTransformFeedback and its end.
@@ -154,7 +150,6 @@ impl State {
             window,
             list: None,
             begin: Begin::Outside,
-            arrays: Arrays::default(),
             render_mode: c::RENDER,
             transform_feedback: false,
             program: 0,

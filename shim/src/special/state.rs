@@ -64,18 +64,6 @@ pub(crate) unsafe fn glDeleteTextures(n: i32, textures: Ptr) {
     unsafe { real().glDeleteTextures(n, textures) };
 }
 
-pub(crate) unsafe fn glLockArraysEXT(first: i32, count: i32) {
-    // SAFETY: the program's own call.
-    unsafe { real().glLockArraysEXT(first, count) };
-    peek(|l| l.state.arrays.lock(true));
-}
-
-pub(crate) unsafe fn glUnlockArraysEXT() {
-    // SAFETY: the program's own call.
-    unsafe { real().glUnlockArraysEXT() };
-    peek(|l| l.state.arrays.lock(false));
-}
-
 pub(crate) unsafe fn glPushAttrib(mask: u32) {
     // SAFETY: the program's own call.
     let mut push = || unsafe { real().glPushAttrib(mask) };

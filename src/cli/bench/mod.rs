@@ -5,6 +5,7 @@ mod disocclusion;
 mod hard;
 mod measure;
 mod prove;
+mod walk;
 
 use super::mask::size;
 use super::{Outcome, print, tell};
@@ -80,6 +81,10 @@ pub(crate) struct Arguments {
     /// How often each program has its turn [default: 15]
     #[arg(long, value_name = "N", allow_hyphen_values = true)]
     frames: Option<String>,
+    /// Hold so many frames per second of your own program by hybrid, and tell of each frame how many views that drew and how far its picture is off; the
+    /// program has to draw the same frames each time, as a replayed trace does
+    #[arg(long, value_name = "F", requires = "command", conflicts_with_all = ["strategy", "without", "view_scale"], allow_hyphen_values = true)]
+    fps: Option<String>,
     /// An experiment of a paper, with the paper's figures beside ours, see --list
     #[arg(long, value_name = "NAME")]
     preset: Option<String>,
@@ -105,7 +110,7 @@ pub(crate) struct Arguments {
     #[arg(long)]
     list: bool,
     /// A program of your own and its arguments: each configuration is proved on so many --frames of it
-    #[arg(last = true, value_name = "APP", conflicts_with_all = ["scene", "preset", "size", "chart", "without"])]
+    #[arg(last = true, value_name = "APP", conflicts_with_all = ["scene", "preset", "size", "without"])]
     command: Vec<OsString>,
 }
 
@@ -131,6 +136,10 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
         check_files(arguments)?;
         return disocclusion::run(arguments, preset, size);
     }
+    if let Some(rate) = &arguments.fps {
+        check_files(arguments)?;
+        return walk::run(arguments, rate);
+    }
     let frames = arguments.frames.as_deref().unwrap_or(FRAMES);
     let Some(rounds) = frames
         .parse()
@@ -140,6 +149,9 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
         return Err(BenchError::Frames(frames.to_owned()).into());
     };
     if !arguments.command.is_empty() {
+        if arguments.chart.is_some() {
+            return Err(BenchError::NoChart.into());
+        }
         check_files(arguments)?;
         return prove::run(arguments, rounds);
     }

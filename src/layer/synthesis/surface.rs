@@ -1,22 +1,27 @@
 //! Another pass over what was drawn before: a light map or a glow that is blended with a surface has the surface's depths, though it writes
 //! none.
 //!
-//! It is known by the arrays. What they hold is promised not to change while they are locked (GL_EXT_compiled_vertex_array), so the same
-//! elements of them, placed by the same matrix, are the same surface. Quake's engines draw each of theirs so.
+//! It is known by its vertices: the same positions in the same order, placed by the same matrix, are the same surface. Quake's engines draw each of
+//! theirs so. Positions in buffers are not looked at, and there is no such pass then.
 
 use super::super::{Layer, Primitives};
 use crate::gl::{Gl, consts as c};
 use crate::state::Touch;
 
+/// Vertices that are compared at most: more take longer than they save.
+const MOST: i32 = 1 << 14;
+
 /// The surface that was drawn last, and wholly: nothing of it was left out by the alpha test.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::layer) struct Surface {
-    /// Which lock its arrays are under.
-    lock: u64,
-    /// Mode, first vertex or type of the indices, count, and a sum of the indices.
-    elements: (u32, i64, i32, u64),
+    mode: u32,
+    count: i32,
+    /// Of the positions.
+    sum: u64,
     modelview: [f32; 16],
     depths: [f32; 2],
+    /// Which sides of it are drawn, and how.
+    sides: (bool, [i32; 2], [i32; 2]),
 }
 
 /// The draw that is planned, and the last surface.
@@ -35,25 +40,41 @@ impl Surfaces {
 }
 
 impl Layer {
-    /// The surface that is drawn next, where that is promised.
+    /// The surface that is drawn next, where that can be told.
     fn surface(&mut self, gl: &Gl) -> Option<Surface> {
-        let lock = self.state.arrays.locked()?;
-        let elements = match self.synthesis.surfaces.next? {
-            Primitives::Arrays { mode, first, count } => (mode, i64::from(first), count, 0),
-            Primitives::Elements {
-                mode,
-                count,
-                kind,
-                indices,
-            } => (mode, i64::from(kind), count, indices.sum(gl, count, kind)),
+        let next = self.synthesis.surfaces.next?;
+        let (Primitives::Arrays { mode, count, .. } | Primitives::Elements { mode, count, .. }) =
+            next;
+        let fixed = self.state.compatibility && self.state.program == 0 && self.state.pipeline == 0;
+        if !fixed || mode > c::POLYGON || !(1..=MOST).contains(&count) {
+            return None;
+        }
+        let sum = match next {
+            Primitives::Arrays { first, .. } => {
+                let first = u32::try_from(first).ok()?;
+                gl.positions_sum(first..first.checked_add(count.unsigned_abs())?)?
+            }
+            // An index that ends a primitive is that of no vertex.
+            Primitives::Elements { .. } if gl.restarts() => return None,
+            Primitives::Elements { kind, indices, .. } => {
+                let indices = gl.own_indices(count.unsigned_abs(), kind, indices)?;
+                gl.positions_sum(indices.into_iter())?
+            }
         };
         self.state.look(gl, Touch::MODELVIEW | Touch::RANGE);
         let look = &self.state.look;
+        let sides = [c::CULL_FACE_MODE, c::FRONT_FACE].map(|name| gl.get_integer(name));
         Some(Surface {
-            lock,
-            elements,
+            mode,
+            count,
+            sum,
             modelview: look.modelview,
             depths: look.depths,
+            sides: (
+                gl.is_enabled(c::CULL_FACE),
+                sides,
+                gl.get_integers(c::POLYGON_MODE),
+            ),
         })
     }
 
@@ -61,20 +82,13 @@ impl Layer {
     pub(super) fn is_over_last(&mut self, gl: &Gl) -> bool {
         let tests = [c::LEQUAL, c::EQUAL, c::GEQUAL];
         self.synthesis.surfaces.last.is_some()
-            && self.state.program == 0
-            && self.surface(gl) == self.synthesis.surfaces.last
             && tests.contains(&(gl.get_integer(c::DEPTH_FUNC) as u32))
+            && self.surface(gl) == self.synthesis.surfaces.last
     }
 
     /// A draw with depths of its own goes to the scene.
     pub(super) fn keep_surface(&mut self, gl: &Gl) {
-        let whole = self.state.program == 0
-            && self.state.compatibility
-            && self.state.arrays.locked().is_some()
-            && !gl.is_enabled(c::ALPHA_TEST);
-        self.synthesis.surfaces.last = match whole {
-            true => self.surface(gl),
-            false => None,
-        };
+        let whole = self.state.compatibility && !gl.is_enabled(c::ALPHA_TEST);
+        self.synthesis.surfaces.last = if whole { self.surface(gl) } else { None };
     }
 }

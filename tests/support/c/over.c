@@ -1,17 +1,11 @@
-/* Surfaces in two passes, the second blended with the first and without depths of its own, from arrays that are locked between the two;
- * and a weapon by the same projection in the nearest part of the depth range. With "glass" the second pass of the box is over other
- * elements of the same arrays, as many of them, which stand before it. */
+/* Surfaces in two passes, the second blended with the first and without depths of its own; and a weapon by the same projection in the nearest
+ * part of the depth range. "copied": the second pass has its vertices and elements elsewhere in memory. "glass": that of the box is over other elements of
+ * the same arrays, as many of them, which stand before it. "moved": its vertices have been moved before it. "sides": it shows the other side. */
 #include "surface.h"
 #include <string.h>
 
-typedef void (*lock_t)(GLint, GLsizei);
-typedef void (*unlock_t)(void);
-
-static lock_t lock;
-static unlock_t unlock;
-
 /* A wall; a box's front and its side; a pane before it. */
-static const float places[] = {
+static float places[] = {
     -30, -20, -20, 30, -20, -20, 30, 20, -20, -30, 20, -20,
     -2, -1, -6, 0, -1, -6, 0, 1, -6, -2, 1, -6,
     0, -1, -6, 0, -1, -9, 0, 1, -9, 0, 1, -6,
@@ -38,23 +32,38 @@ static void pass(const unsigned short *elements, int count, int second)
     glDrawElements(GL_TRIANGLES, count, GL_UNSIGNED_SHORT, elements);
 }
 
-static void surface_of(const float *vertices, int all, const unsigned short *first, const unsigned short *second, int count)
+static void surface_of(const float *vertices, const unsigned short *first, const unsigned short *second, int count)
 {
     glVertexPointer(3, GL_FLOAT, 0, vertices);
-    lock(0, all);
     pass(first, count, 0);
     pass(second, count, 1);
-    unlock();
+}
+
+static void box_of(const char *how)
+{
+    static float other[sizeof places / sizeof *places];
+    static unsigned short elements[12];
+    glVertexPointer(3, GL_FLOAT, 0, places);
+    pass(box, 12, 0);
+    memcpy(other, places, sizeof other);
+    memcpy(elements, box, sizeof elements);
+    if (!strcmp(how, "copied"))
+        glVertexPointer(3, GL_FLOAT, 0, other);
+    if (!strcmp(how, "moved"))
+        for (int i = 4; i < 12; i++)
+            places[3 * i + 2] += 2;
+    if (!strcmp(how, "sides")) {
+        glEnable(GL_CULL_FACE);
+        glCullFace(GL_BACK);
+    }
+    pass(!strcmp(how, "glass") ? pane : elements, 12, 1);
+    glDisable(GL_CULL_FACE);
+    memcpy(places, other, sizeof other);
 }
 
 int main(int argc, char **argv)
 {
-    int glass = argc > 1 && !strcmp(argv[1], "glass");
     if (!open_surface() || !new_context(EGL_NO_CONTEXT))
-        return 77;
-    lock = (lock_t)eglGetProcAddress("glLockArraysEXT");
-    unlock = (unlock_t)eglGetProcAddress("glUnlockArraysEXT");
-    if (!lock || !unlock)
         return 77;
     for (int frame = 0; frame < 4; frame++) {
         glMatrixMode(GL_PROJECTION);
@@ -66,12 +75,12 @@ int main(int argc, char **argv)
         glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
         glEnableClientState(GL_VERTEX_ARRAY);
         glColor3f(0.2f, 0.7f, 0.3f);
-        surface_of(places, 16, wall, wall, 6);
+        surface_of(places, wall, wall, 6);
         glColor3f(0.9f, 0.6f, 0.2f);
-        surface_of(places, 16, box, glass ? pane : box, 12);
+        box_of(argc > 1 ? argv[1] : "");
         glDepthRange(0, 0.3);
         glColor3f(0.3f, 0.4f, 0.9f);
-        surface_of(weapon, 4, wall, wall, 6);
+        surface_of(weapon, wall, wall, 6);
         glDepthRange(0, 1);
         printf("frame %d: error 0x%x\n", frame + 1, glGetError());
         eglSwapBuffers(display, surface);
