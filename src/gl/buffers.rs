@@ -1,9 +1,9 @@
 //! Buffer objects that pixels are read into.
 
 use super::Gl;
-use super::indices::Indices;
 use super::consts as c;
 use super::held::Held;
+use super::indices::Indices;
 use super::real::Ptr;
 
 /// A sync object of the share group in which it was made: passed when all calls before it are done.
