@@ -18,8 +18,9 @@ const NOTHING: &str = "nothing: ";
 /// A depth is that of a clear if it is no farther from it than this: one of 24 bits comes back with the error of one step.
 const STEP: f32 = 1e-7;
 
-/// What is joined may be parted by no more than this on the way to the farthest eye, pixels.
-const PARTED: f64 = 4.0;
+/// What is joined may be parted by no more than this on the way to the farthest eye, pixels. Four, which views of the bench take, put sheets between
+/// surfaces: 2 to 14 % of the voxels of its models had none of the surface near them, with one less than 1 %.
+const PARTED: f64 = 1.0;
 
 /// How to read the planes.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
