@@ -5,8 +5,8 @@ use super::layer::LayerArguments;
 use super::{Outcome, print, tell};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
-use manyview::config::{Capture, Config, OptionId, Output};
-use manyview::launch::{CaptureJob, Launch, LaunchError};
+use manyview::config::{Capture, Config, OptionId, Origin, Output, Settings};
+use manyview::launch::{CaptureJob, Captured, Launch, LaunchError};
 use std::ffi::OsString;
 use std::path::Path;
 use std::process::ExitCode;
@@ -30,7 +30,7 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "A..B", allow_hyphen_values = true)]
     frames: Option<String>,
     /// What a picture holds [default: output]
-    #[arg(long, value_name = "output|atlas|view:I|depth|reference")]
+    #[arg(long, value_name = "output|atlas|view:I|depth|reference|samples")]
     what: Option<String>,
     /// Give up after this many seconds
     #[arg(long, value_name = "S", default_value_t = 120)]
@@ -43,21 +43,12 @@ pub(crate) struct Arguments {
 }
 
 pub(crate) fn run(arguments: &Arguments) -> Outcome {
-    let scratch = tempfile::tempdir().map_err(|source| LaunchError::System {
-        doing: "making a temporary folder",
-        source,
-    })?;
-    let status = scratch.path().join("status.json");
     let mut settings = arguments.layer.settings()?;
     let given = [
         (OptionId::CaptureOut, &arguments.out),
         (OptionId::CaptureFrames, &arguments.frame),
         (OptionId::CaptureFrames, &arguments.frames),
         (OptionId::CaptureWhat, &arguments.what),
-        (
-            OptionId::Status,
-            &Some(status.to_string_lossy().into_owned()),
-        ),
     ];
     settings.give(given);
     let quilt = Config::from_settings(&settings)?.output == Output::Quilt
@@ -67,29 +58,11 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
         let value = completed.to_string_lossy().into_owned();
         settings.set(OptionId::CaptureOut, value, out.origin.clone());
     }
-    let launch = Launch::prepare(&arguments.command, &settings)?;
-    let Some(capture) = &launch.config.capture else {
-        return Err(LaunchError::NoPicture);
+    let shot = Shot {
+        command: &arguments.command,
+        timeout: arguments.timeout,
     };
-    let job = CaptureJob {
-        launch: &launch,
-        capture,
-        status: &status,
-        timeout: Duration::from_secs(arguments.timeout),
-    };
-    let bar = bar(capture.last - capture.first + 1);
-    let outcome = job.run(|pictures, seen| {
-        bar.set_position(pictures);
-        if let Some(seen) = seen {
-            bar.set_message(format!("frame {seen} of {}", capture.last));
-        }
-        bar.tick();
-    });
-    bar.finish_and_clear();
-    for note in job.notes() {
-        tell(&format_args!("note: {note}"));
-    }
-    let captured = outcome?;
+    let (capture, captured) = shoot(shot, settings)?;
     match captured.files.as_slice() {
         [file] => tell(&format_args!("wrote {}", file.display())),
         [first, .., last] => tell(&format_args!(
@@ -109,6 +82,51 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
         .iter()
         .map(|file| format!("{}\n", file.display()));
     print(&names.collect::<String>())
+}
+
+/// A program that runs until something of it is written.
+pub(super) struct Shot<'a> {
+    /// The program and its arguments.
+    pub(super) command: &'a [OsString],
+    /// Seconds that it may take.
+    pub(super) timeout: u64,
+}
+
+/// Runs it, says what the layer has noted, and answers what was asked for and what was written.
+pub(super) fn shoot(
+    shot: Shot,
+    mut settings: Settings,
+) -> Result<(Capture, Captured), LaunchError> {
+    let scratch = tempfile::tempdir().map_err(|source| LaunchError::System {
+        doing: "making a temporary folder",
+        source,
+    })?;
+    let status = scratch.path().join("status.json");
+    let written = status.to_string_lossy().into_owned();
+    settings.set(OptionId::Status, written, Origin::CommandLine);
+    let launch = Launch::prepare(shot.command, &settings)?;
+    let Some(capture) = &launch.config.capture else {
+        return Err(LaunchError::NoPicture);
+    };
+    let job = CaptureJob {
+        launch: &launch,
+        capture,
+        status: &status,
+        timeout: Duration::from_secs(shot.timeout),
+    };
+    let bar = bar(capture.last - capture.first + 1);
+    let outcome = job.run(|pictures, seen| {
+        bar.set_position(pictures);
+        if let Some(seen) = seen {
+            bar.set_message(format!("frame {seen} of {}", capture.last));
+        }
+        bar.tick();
+    });
+    bar.finish_and_clear();
+    for note in job.notes() {
+        tell(&format_args!("note: {note}"));
+    }
+    Ok((capture.clone(), outcome?))
 }
 
 /// On stderr, and silent when that is no terminal.

@@ -18,8 +18,11 @@ mod volume;
 mod weave;
 
 use clap::{Parser, Subcommand};
+use image::{ImageFormat, RgbImage};
 use manyview::launch::LaunchError;
+use manyview::simulate::SimulateError;
 use std::io::Write;
+use std::path::Path;
 use std::process::ExitCode;
 
 const EXIT_STATUS: &str = "\
@@ -95,6 +98,17 @@ pub(crate) fn main() -> ExitCode {
 fn tell(message: &dyn std::fmt::Display) {
     // A closed stderr is no reason to fail.
     let _ = writeln!(std::io::stderr(), "manyview: {message}");
+}
+
+/// Writes what an eye sees.
+fn save(seen: &RgbImage, out: &Path) -> Outcome {
+    let written = seen.save_with_format(out, ImageFormat::Png);
+    written.map_err(|error| SimulateError::Write {
+        file: out.display().to_string(),
+        reason: error.to_string(),
+    })?;
+    tell(&format_args!("wrote {}", out.display()));
+    Ok(ExitCode::SUCCESS)
 }
 
 /// The result that was asked for, on stdout.

@@ -1,7 +1,7 @@
 //! `manyview simulate`
 #![forbid(unsafe_code)]
 
-use super::{Outcome, tell};
+use super::{Outcome, save};
 use clap::Args;
 use image::{DynamicImage, ImageFormat, RgbImage};
 use indicatif::{ProgressBar, ProgressStyle};
@@ -11,7 +11,6 @@ use manyview::launch::writable;
 use manyview::simulate::{Eye, Optics, Setup, SimulateError, see, strip};
 use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
-use std::process::ExitCode;
 
 /// Pixels per inch of a panel that nobody has measured; it matters only away from the distance of design.
 const DPI: f64 = 96.0;
@@ -84,13 +83,7 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
         None => see(&panel, &optics, &setup, eye, &row_done),
     };
     bar.finish_and_clear();
-    let written = seen?.save_with_format(&arguments.out, ImageFormat::Png);
-    written.map_err(|error| SimulateError::Write {
-        file: arguments.out.display().to_string(),
-        reason: error.to_string(),
-    })?;
-    tell(&format_args!("wrote {}", arguments.out.display()));
-    Ok(ExitCode::SUCCESS)
+    save(&seen?, &arguments.out)
 }
 
 fn setup(arguments: &Arguments, facts: &Facts, pixels: u32) -> Result<Setup, SimulateError> {

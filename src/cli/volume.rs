@@ -1,14 +1,14 @@
 //! `manyview volume`
 #![forbid(unsafe_code)]
 
-use super::{Outcome, tell};
+mod slice;
+
+use super::{Outcome, save};
 use clap::{Args, Subcommand};
-use image::ImageFormat;
 use manyview::launch::writable;
 use manyview::simulate::SimulateError;
 use manyview::volume::{Sight, Slices};
 use std::path::PathBuf;
-use std::process::ExitCode;
 
 #[derive(Args)]
 pub(crate) struct Arguments {
@@ -18,6 +18,8 @@ pub(crate) struct Arguments {
 
 #[derive(Subcommand)]
 enum Action {
+    /// Run a program until a frame of it is made into slices, then end it.
+    Slice(Box<slice::Arguments>),
     /// Show what an eye sees of a stack of slices.
     Simulate(Simulate),
 }
@@ -43,6 +45,7 @@ struct Simulate {
 
 pub(crate) fn run(arguments: &Arguments) -> Outcome {
     match &arguments.action {
+        Action::Slice(slice) => slice::run(slice),
         Action::Simulate(simulate) => run_simulate(simulate),
     }
 }
@@ -58,15 +61,7 @@ fn run_simulate(arguments: &Simulate) -> Outcome {
         size: size.unwrap_or(viewer.size),
         sphere: arguments.sphere,
     };
-    let written = sight
-        .see(&slices)?
-        .save_with_format(&arguments.out, ImageFormat::Png);
-    written.map_err(|error| SimulateError::Write {
-        file: arguments.out.display().to_string(),
-        reason: error.to_string(),
-    })?;
-    tell(&format_args!("wrote {}", arguments.out.display()));
-    Ok(ExitCode::SUCCESS)
+    save(&sight.see(&slices)?, &arguments.out)
 }
 
 fn eye(text: &str) -> Result<[f64; 3], SimulateError> {

@@ -28,11 +28,13 @@ pub enum ConfigError {
     },
     /// There is no occlusion camera, or not yet.
     #[error(
-        "{field} is 'reference', the picture of an occlusion camera; give the strategy occlusion with it, and a frame from 2 on"
+        "{field} is '{value}', which needs an occlusion camera; give the strategy occlusion with it, and a frame from 2 on"
     )]
     NoReference {
         /// The option.
         field: Field,
+        /// What it is.
+        value: String,
     },
     /// Views that are drawn are counted by one strategy only.
     #[error(

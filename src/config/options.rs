@@ -181,7 +181,7 @@ pub const OPTIONS: &[OptionSpec] = &[
         "PNG to write; with several frames %d in it is the frame, else -000030 goes before the extension"),
     option!(CaptureFrames, Some("frames"), Some("capture-frames"), "MANYVIEW_CAPTURE_FRAMES", "N|A..B", No,
         "frames to write, counted from 1, both ends included; 30 unless given"),
-    option!(CaptureWhat, Some("what"), Some("capture-what"), "MANYVIEW_CAPTURE_WHAT", "output|atlas|view:I|depth", No,
+    option!(CaptureWhat, Some("what"), Some("capture-what"), "MANYVIEW_CAPTURE_WHAT", "output|atlas|view:I|depth|reference|samples", No,
         "what a picture holds; output unless given"),
     option!(Status, None, None, "MANYVIEW_STATUS", "FILE.json", File,
         "where the layer tells the launcher how many frames it has seen"),

@@ -554,10 +554,13 @@ fn capture(settings: &Settings, views: u32) -> Result<Option<Capture>, ConfigErr
         .get(OptionId::Strategy)
         .is_some_and(|s| s.value == "occlusion");
     let held = capture_what(settings, views)?;
-    if let (CaptureWhat::Reference, Some((field, _))) = (held, what)
+    if let (CaptureWhat::Reference | CaptureWhat::Samples, Some((field, value))) = (held, what)
         && (first < 2 || !bent)
     {
-        return Err(ConfigError::NoReference { field });
+        return Err(ConfigError::NoReference {
+            field,
+            value: value.to_owned(),
+        });
     }
     Ok(Some(Capture {
         out,
@@ -569,12 +572,13 @@ fn capture(settings: &Settings, views: u32) -> Result<Option<Capture>, ConfigErr
 
 /// What a picture holds.
 pub(super) fn capture_what(settings: &Settings, views: u32) -> Result<CaptureWhat, ConfigError> {
-    const CHOICES: &str = "output, atlas, view:I, depth and reference";
+    const CHOICES: &str = "output, atlas, view:I, depth, reference and samples";
     Ok(match settings.field(OptionId::CaptureWhat) {
         None | Some((_, "output")) => CaptureWhat::Output,
         Some((_, "atlas")) => CaptureWhat::Atlas,
         Some((_, "depth")) => CaptureWhat::Depth,
         Some((_, "reference")) => CaptureWhat::Reference,
+        Some((_, "samples")) => CaptureWhat::Samples,
         Some((field, value)) => CaptureWhat::View(one_view(&field, value, views, CHOICES)?),
     })
 }

@@ -27,6 +27,24 @@ impl Gl {
         out
     }
 
+    /// glReadPixels of the red channel of floats, rows bottom up; pack state as for [`Gl::read_rgb`].
+    pub fn read_red(&self, x: i32, y: i32, w: u32, h: u32) -> Vec<f32> {
+        // OpenGL ES reads four or none.
+        let (format, size) = if self.is_es() {
+            (c::RGBA, 4)
+        } else {
+            (c::RED, 1)
+        };
+        let mut out = vec![0f32; w as usize * h as usize * size];
+        let p = out.as_mut_ptr().cast();
+        // SAFETY: w·h texels of so many floats; alignment 1, no pack buffer (contract above).
+        unsafe {
+            self.real
+                .glReadPixels(x, y, w as i32, h as i32, format, c::FLOAT, p)
+        };
+        out.into_iter().step_by(size).collect()
+    }
+
     /// Whether glReadPixels reads depths; OpenGL ES has that by an extension.
     pub fn reads_depths(&self) -> bool {
         !self.is_es() || self.has_extension("GL_NV_read_depth")

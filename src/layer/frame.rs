@@ -288,6 +288,7 @@ impl Layer {
             CaptureWhat::Reference => self
                 .reference_image(gl)
                 .and_then(|i| capture::write(&i, &path)),
+            CaptureWhat::Samples => capture::write_bytes(&self.samples(), &path),
             CaptureWhat::Depth => {
                 self.atlas.resolve(gl, true, c::DEPTH_BUFFER_BIT);
                 let t = &source.tiles;

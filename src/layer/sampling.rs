@@ -202,7 +202,9 @@ impl Layer {
     pub(super) fn lacks(&mut self, what: CaptureWhat) -> bool {
         let needed = match what {
             CaptureWhat::Output => self.seen(),
-            CaptureWhat::Depth | CaptureWhat::Reference => [].into_iter().collect(),
+            CaptureWhat::Depth | CaptureWhat::Reference | CaptureWhat::Samples => {
+                [].into_iter().collect()
+            }
             CaptureWhat::View(view) => [view].into_iter().collect(),
             CaptureWhat::Atlas => Shown::ALL,
         };

@@ -5,6 +5,7 @@
 //! HUD, glass, another clear, a copy of the frame) the views are made into their tiles, depths as well, and all that follows is drawn in each of
 //! them. Where nothing else follows, the panel's picture is made straight from the own view.
 
+mod samples;
 mod surface;
 
 use super::occlusion::{Bent, REACH};
@@ -19,6 +20,7 @@ use crate::plan::{Classed, Governor, Kind, Method, Plan, Ramp, Reason, Shear};
 use crate::present::Saved;
 use crate::state::{BACK, Touch};
 use crate::synthesis::Passes;
+use crate::volume::Shown as Samples;
 use surface::Surfaces;
 
 /// Steps of the depth buffer by which views' depths lie behind what they are computed to be.
@@ -106,6 +108,8 @@ pub(super) struct Synthesis {
     pub(super) surfaces: Surfaces,
     /// While a panel's picture is made straight from the own view.
     pub(super) field: Option<(FieldTextures, Heights)>,
+    /// Of this frame's scene, where they are to be written.
+    samples: Option<Samples>,
 }
 
 /// How many views are drawn.
@@ -405,6 +409,7 @@ impl Layer {
     fn make_of(&mut self, gl: &Gl, scene: &Scene, look: &Look) {
         let heights = self.heights(scene, look);
         self.resolve_sources(gl);
+        self.take_samples(gl, scene, look);
         let (sources, own) = (self.synthesis.sources, self.atlas.tiles.own());
         match sources {
             Some(sources) => self.atlas.take_field(gl, sources.iter()),

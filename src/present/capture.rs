@@ -27,6 +27,13 @@ pub fn read_depth(
     image
 }
 
+/// What is no picture, in the same way.
+pub fn write_bytes(bytes: &[u8], path: &Path) -> Result<(), String> {
+    let partial = Capture::partial(path);
+    let written = std::fs::write(&partial, bytes).and_then(|()| std::fs::rename(&partial, path));
+    written.map_err(|e| format!("{}: {e}", path.display()))
+}
+
 /// Writes one frame beside its file and renames, so that whoever waits for the file never sees half of it.
 pub fn write<P, C>(image: &ImageBuffer<P, C>, path: &Path) -> Result<(), String>
 where

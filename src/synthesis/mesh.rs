@@ -29,6 +29,37 @@ impl From<&DepthImage> for Reference {
 }
 
 impl Reference {
+    /// Of samples by pixel, rows from the top, each where the undistorted camera projects it.
+    pub fn of(size: [u32; 2], samples: impl IntoIterator<Item = Option<Vertex>>) -> Reference {
+        let mut image = Reference::new(size);
+        let width = size[0].max(1) as usize;
+        for (at, (own, sample)) in image.samples.iter_mut().zip(samples).enumerate() {
+            let centre = [at % width, at / width].map(|i| i as f64 + 0.5);
+            *own = sample.map(|vertex| Sample {
+                inverse: vertex.inverse,
+                colour: vertex.colour,
+                moved: [0, 1].map(|i| centre[i] - vertex.at[i]),
+            });
+        }
+        image
+    }
+
+    /// Columns and rows.
+    pub fn size(&self) -> [u32; 2] {
+        self.size
+    }
+
+    /// Its samples by pixel, rows from the top: where the undistorted camera projects each, and whether it is of one surface with the next one of
+    /// its row and of its column; `threshold` is that of [`super::Edges::of`].
+    pub fn joined(&self, threshold: f64) -> impl Iterator<Item = Option<(Vertex, [bool; 2])>> {
+        let [width, height] = self.size.map(|side| side as usize);
+        let joints = Joints::of(self, threshold);
+        (0..width * height).map(move |at| {
+            let vertex = self.undistorted(at % width, at / width)?;
+            Some((vertex, [joints.across[at], joints.down[at]]))
+        })
+    }
+
     /// Colours and depths as they lie in the picture.
     pub fn depth_image(&self) -> DepthImage {
         let colours = self.all_seen().into_iter();

@@ -25,6 +25,12 @@ pub enum VolumeError {
         /// As said.
         height: u32,
     },
+    /// A program that has shown nothing that can stand in a volume.
+    #[error("the program has shown nothing to make slices of: {reason}")]
+    Shown {
+        /// With the remedy.
+        reason: String,
+    },
     /// A folder that takes no stack.
     #[error(
         "slices cannot be written to {}: {reason}; name a folder that is empty, that holds a stack, or that is not there yet", folder.display()

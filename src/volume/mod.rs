@@ -2,7 +2,7 @@
 //!
 //! Popescu et al., "3D Display Rendering Acceleration Using Occlusion Camera Reference Images", sections VI and VII. A scene comes as
 //! triangles ([`Volume::of_triangles`]) or, in a fraction of the time, as the reference image of what one viewer can see of it
-//! ([`Volume::of_reference`]). `dither` makes light of its colours, with one bit for each channel, `stack` keeps that as a folder of pictures,
+//! ([`Volume::of_reference`]); `program` makes that of what a program has shown, whose triangles nobody has. `dither` makes light of its colours, with one bit for each channel, `stack` keeps that as a folder of pictures,
 //! `eye` shows what is seen of it, and `compare` says how far two volumes are apart.
 //!
 //! Voxels. A slice stands for the sector that the screen goes through while it is shown, half a sector to either side of its plane; its pixels are
@@ -18,7 +18,10 @@ mod error;
 mod eye;
 mod fragments;
 mod patch;
+mod place;
+mod program;
 mod reference;
+mod sampled;
 mod stack;
 #[cfg(test)]
 mod tests;
@@ -29,6 +32,7 @@ pub use display::{RotatingScreen, Turn};
 pub use dither::{Lit, Slices};
 pub use error::VolumeError;
 pub use eye::Sight;
+pub use program::{Before, Head, Picture, Shown, Source};
 pub use reference::{Joined, ReferenceImage, Sample};
 pub use triangles::{Triangle, Vertex};
 

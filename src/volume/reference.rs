@@ -56,8 +56,8 @@ pub struct Sample {
 /// A single-layer picture of what a viewer can see, from whatever camera: a depth image or that of an occlusion camera.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ReferenceImage {
-    size: [u32; 2],
-    samples: Vec<Option<Sample>>,
+    pub(super) size: [u32; 2],
+    pub(super) samples: Vec<Option<Sample>>,
 }
 
 impl ReferenceImage {

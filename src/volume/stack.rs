@@ -35,6 +35,15 @@ fn display(folder: &Path) -> Result<RotatingScreen, String> {
 }
 
 impl Slices {
+    /// Whether a stack can be written there, before there is one.
+    pub fn check_folder(folder: &Path) -> Result<(), VolumeError> {
+        let checked = names(folder).map_err(|reason| VolumeError::Write {
+            folder: folder.to_owned(),
+            reason,
+        });
+        checked.map(|_| ())
+    }
+
     /// Writes a stack: into a folder that is not there, that is empty, or that holds another stack and nothing else, which is then gone.
     pub fn write(&self, folder: &Path) -> Result<(), VolumeError> {
         let no = |reason: String| VolumeError::Write {
@@ -87,10 +96,14 @@ impl Slices {
     }
 }
 
-/// A folder that is there and holds no pictures of slices.
-fn make_room(folder: &Path) -> Result<(), String> {
+/// What a stack may take the place of: the names in a folder that is there; none where there is no folder yet, but one for it.
+fn names(folder: &Path) -> Result<Option<Vec<String>>, String> {
     if !folder.exists() {
-        return fs::create_dir(folder).map_err(|error| error.to_string());
+        let parent = folder.parent().filter(|parent| *parent != Path::new(""));
+        return match parent.is_none_or(Path::is_dir) {
+            true => Ok(None),
+            false => Err("the folder that it would be in is not there".to_owned()),
+        };
     }
     let entries = fs::read_dir(folder).map_err(|error| error.to_string())?;
     let mut names = Vec::new();
@@ -107,6 +120,14 @@ fn make_room(folder: &Path) -> Result<(), String> {
     if !names.is_empty() {
         display(folder).map_err(|reason| format!("it is no stack ({reason})"))?;
     }
+    Ok(Some(names))
+}
+
+/// A folder that is there and holds no pictures of slices.
+fn make_room(folder: &Path) -> Result<(), String> {
+    let Some(names) = names(folder)? else {
+        return fs::create_dir(folder).map_err(|error| error.to_string());
+    };
     for name in names {
         fs::remove_file(folder.join(&name)).map_err(|error| format!("{name}: {error}"))?;
     }

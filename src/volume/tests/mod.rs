@@ -1,5 +1,6 @@
 //! Volumes against a voxeliser that shares nothing with them, and what is made of volumes.
 
+mod program;
 mod shown;
 mod surfaces;
 

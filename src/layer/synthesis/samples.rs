@@ -1,0 +1,80 @@
+//! `--what samples`: what slices for a volumetric display are made of (see [`crate::volume::Shown`]).
+//!
+//! They are taken where the views are made, before anything flat is drawn over them.
+
+use super::super::Layer;
+use super::super::frame::tile;
+use super::{Look, Scene};
+use crate::config::CaptureWhat;
+use crate::gl::{Gl, consts as c};
+use crate::present::capture::read_rgb;
+use crate::volume::{Before, Head, Shown};
+
+impl Layer {
+    /// Whether this frame's are to be written.
+    fn wants_samples(&self) -> bool {
+        let frame = self.report.frames() + 1;
+        self.config.capture.as_ref().is_some_and(|wanted| {
+            wanted.what == CaptureWhat::Samples && (wanted.first..=wanted.last).contains(&frame)
+        })
+    }
+
+    /// The state is as [`crate::present::Saved::take`] leaves it; changes the read framebuffer.
+    pub(super) fn take_samples(&mut self, gl: &Gl, scene: &Scene, look: &Look) {
+        self.synthesis.samples = None;
+        let bent = self.atlas.bent_framebuffer();
+        let (Some(bent), true) = (
+            bent.filter(|_| self.synthesis.bent.on),
+            self.wants_samples(),
+        ) else {
+            return;
+        };
+        let tiles = &self.atlas.tiles;
+        let [width, height] = [tiles.width, tiles.height];
+        let depths = |x: i32| -> Vec<f32> {
+            let depth = |d: &u32| (f64::from(*d) / f64::from(u32::MAX)) as f32;
+            upright(&gl.read_depth32(x, 0, width, height), width, depth)
+        };
+        let own = tile(gl, &self.atlas, tiles.own()).into_raw();
+        let (_, x) = self.atlas.readable(tiles.own());
+        let own = (own, depths(x));
+        gl.bind_framebuffer(c::READ_FRAMEBUFFER, bent);
+        let reference = (read_rgb(gl, 0, 0, width, height).into_raw(), depths(0));
+        gl.read_buffer(c::COLOR_ATTACHMENT0 + 1);
+        let moved = upright(&gl.read_red(0, 0, width, height), width, |m| *m);
+        gl.read_buffer(c::COLOR_ATTACHMENT0);
+        let before = scene.before.map(|(look, to)| Before {
+            line: look.ramp.line(),
+            to,
+        });
+        self.synthesis.samples = Some(Shown {
+            head: Head {
+                size: [width, height],
+                viewport: look.viewport,
+                line: look.ramp.line(),
+                before,
+                clear: scene.clear,
+                focal: look.shear.conv,
+            },
+            own,
+            reference,
+            moved,
+        });
+    }
+
+    /// This frame's, as they are written.
+    pub(in crate::layer) fn samples(&mut self) -> Vec<u8> {
+        match self.synthesis.samples.take() {
+            Some(samples) => samples.bytes(),
+            None => Shown::nothing(
+                "no scene of this frame was drawn in perspective, with depths and by an occlusion camera; give another frame, from 4 on, and see --report for why",
+            ),
+        }
+    }
+}
+
+/// Rows from the top, of rows from the bottom.
+fn upright<T, U>(rows: &[T], width: u32, value: impl Fn(&T) -> U) -> Vec<U> {
+    let rows = rows.rchunks_exact(width.max(1) as usize);
+    rows.flatten().map(value).collect()
+}

@@ -1,0 +1,231 @@
+//! What a program has shown, in a file between the layer and the command, and what slices are made of it.
+//!
+//! A program hands over samples with depths, not its geometry: those that its own camera sees, and those of the reference image, which reach behind.
+//! The file is a line that says what it is, a line of JSON ([`Head`]), and the planes: colours and depths of the own view, colours, depths and
+//! by how many pixels each sample is moved of the reference image. Depths and pixels are 32-bit floats with the lowest byte first; rows from the top.
+
+use super::place::Box;
+use super::{ReferenceImage, RotatingScreen, VolumeError};
+use crate::synthesis::{Reference, Vertex};
+use serde::{Deserialize, Serialize};
+
+/// The first line.
+const MAGIC: &str = "manyview samples 1";
+
+/// Before the reason why there are none.
+const NOTHING: &str = "nothing: ";
+
+/// A depth is that of a clear if it is no farther from it than this: one of 24 bits comes back with the error of one step.
+const STEP: f32 = 1e-7;
+
+/// What is joined may be parted by no more than this on the way to the farthest eye, pixels. Four, which views of the bench take, put sheets between
+/// surfaces: 2 to 14 % of the voxels of its models had none of the surface near them, with one less than 1 %.
+const PARTED: f64 = 1.0;
+
+/// How to read the planes.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Head {
+    /// Pixels.
+    pub size: [u32; 2],
+    /// Of the scene, as glViewport has it: left and lower edge, width and height.
+    pub viewport: [i32; 4],
+    /// Slope and offset of 1/w over the depth.
+    pub line: [f64; 2],
+    /// What stands before everything, such as a weapon in the hand.
+    pub before: Option<Before>,
+    /// The depth of what nothing was drawn on.
+    pub clear: f32,
+    /// Clip-space w of zero parallax.
+    pub focal: f64,
+}
+
+/// A part of the depths with distances of its own.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Before {
+    /// As in [`Head`].
+    pub line: [f64; 2],
+    /// Depths from the nearest one to this one.
+    pub to: f64,
+}
+
+/// Red, green and blue by pixel, and depths.
+pub type Picture = (Vec<u8>, Vec<f32>);
+
+/// All of it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Shown {
+    /// How to read the rest.
+    pub head: Head,
+    /// The program's own view.
+    pub own: Picture,
+    /// The reference image.
+    pub reference: Picture,
+    /// Pixels to the right by which each sample of it lies beside its place.
+    pub moved: Vec<f32>,
+}
+
+/// What slices are made of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Source {
+    /// The reference image, and what of the own view is missing there.
+    Reference,
+    /// The own view alone.
+    Own,
+}
+
+impl Shown {
+    /// As a file.
+    pub fn bytes(&self) -> Vec<u8> {
+        let head = serde_json::to_string(&self.head).unwrap_or_default();
+        let mut bytes = format!("{MAGIC}\n{head}\n").into_bytes();
+        let floats = |bytes: &mut Vec<u8>, floats: &[f32]| {
+            bytes.extend(floats.iter().flat_map(|v| v.to_le_bytes()));
+        };
+        for (colours, depths) in [&self.own, &self.reference] {
+            bytes.extend(colours);
+            floats(&mut bytes, depths);
+        }
+        floats(&mut bytes, &self.moved);
+        bytes
+    }
+
+    /// The file of a frame that has none.
+    pub fn nothing(why: &str) -> Vec<u8> {
+        format!("{MAGIC}\n{NOTHING}{why}\n").into_bytes()
+    }
+
+    /// Reads a file.
+    pub fn read(bytes: &[u8]) -> Result<Shown, VolumeError> {
+        let no = |reason: &str| VolumeError::Shown {
+            reason: reason.to_owned(),
+        };
+        let mut parts = bytes.splitn(3, |&byte| byte == b'\n');
+        let mut line = || parts.next().and_then(|line| std::str::from_utf8(line).ok());
+        let other = "the layer's library wrote another kind of file; build it and the command with `make build`";
+        if line() != Some(MAGIC) {
+            return Err(no(other));
+        }
+        let head = line().unwrap_or_default();
+        if let Some(why) = head.strip_prefix(NOTHING) {
+            return Err(no(why));
+        }
+        let head: Head = serde_json::from_str(head).map_err(|_| no(other))?;
+        let planes = parts.next().unwrap_or_default();
+        let pixels = head.size.map(u64::from).iter().product::<u64>();
+        if pixels.checked_mul(18) != Some(planes.len() as u64) || pixels == 0 {
+            return Err(no(
+                "the file has not as many samples as it says; run it again",
+            ));
+        }
+        let pixels = pixels as usize;
+        let mut rest = planes;
+        let mut take = |count: usize| {
+            let (plane, after) = rest.split_at_checked(count).unwrap_or_default();
+            rest = after;
+            plane
+        };
+        let mut picture = || (take(3 * pixels).to_vec(), floats(take(4 * pixels)));
+        let (own, reference) = (picture(), picture());
+        let moved = floats(take(4 * pixels));
+        Ok(Shown {
+            head,
+            own,
+            reference,
+            moved,
+        })
+    }
+
+    /// 1/w at a depth; none where nothing was drawn.
+    fn inverse(&self, depth: f32) -> Option<f64> {
+        let Head { clear, before, .. } = self.head;
+        if (depth - clear).abs() < STEP {
+            return None;
+        }
+        let depth = f64::from(depth);
+        let before = before.filter(|before| match before.line[0] > 0.0 {
+            true => depth >= before.to,
+            false => depth <= before.to,
+        });
+        let [slope, offset] = before.map_or(self.head.line, |before| before.line);
+        Some((slope * depth + offset).max(0.0))
+    }
+
+    /// Samples by pixel, where the undistorted camera projects them.
+    fn samples<'a>(
+        &'a self,
+        (colours, depths): &'a Picture,
+        moved: &'a [f32],
+    ) -> impl Iterator<Item = Option<Vertex>> + 'a {
+        let width = self.head.size[0].max(1) as usize;
+        let pixels = colours.chunks_exact(3).zip(depths).enumerate();
+        pixels.map(move |(at, (colour, &depth))| {
+            let moved = moved.get(at).copied().map_or(0.0, f64::from);
+            let [x, y] = [at % width, at / width].map(|i| i as f64 + 0.5);
+            Some(Vertex {
+                at: [x - moved, y],
+                inverse: self.inverse(depth)?,
+                colour: [0, 1, 2].map(|i| f64::from(colour[i])),
+            })
+        })
+    }
+
+    /// The samples in display space, in a box in the middle of the display. `focal`: what has zero parallax is
+    /// in the plane of the display's axis; else that is wherever the scene fills the box best.
+    pub fn image(
+        &self,
+        screen: &RotatingScreen,
+        source: Source,
+        focal: bool,
+    ) -> Result<ReferenceImage, VolumeError> {
+        screen.check()?;
+        let mut depths: Vec<f64> = self
+            .samples(&self.own, &[])
+            .flatten()
+            .map(|v| v.inverse)
+            .collect();
+        depths.sort_by(f64::total_cmp);
+        let middle = focal.then(|| 1.0 / self.head.focal);
+        let place = Box::of(
+            screen,
+            self.head.size[1],
+            self.head.viewport,
+            &depths,
+            middle,
+        );
+        let place = place.ok_or_else(|| VolumeError::Shown {
+            reason: "nothing in its picture has a depth; give another frame".to_owned(),
+        })?;
+        let put = |picture, moved| -> Vec<Option<Vertex>> {
+            let samples = self.samples(picture, moved).map(|sample| {
+                let vertex: Vertex = sample?;
+                let inverse = place.inverse(vertex.inverse);
+                (inverse > 0.0).then_some(Vertex { inverse, ..vertex })
+            });
+            samples.collect()
+        };
+        let threshold = PARTED / place.parallax(screen);
+        let size = self.head.size;
+        let of = |image: &Reference| ReferenceImage::of(image, &place.camera, threshold);
+        let mut own = put(&self.own, &[]);
+        if source == Source::Own {
+            return Ok(of(&Reference::of(size, own)));
+        }
+        let reference = Reference::of(size, put(&self.reference, &self.moved));
+        let motion = place.camera.to(&place.camera);
+        let seen = reference.seen(size, &motion, threshold).inverses();
+        for (own, seen) in own.iter_mut().zip(seen.into_iter().map(f64::from)) {
+            let has = |own: &Vertex| seen > 0.0 && (own.inverse - seen).abs() <= threshold;
+            *own = own.filter(|own| !has(own));
+        }
+        Ok(of(&reference).over(of(&Reference::of(size, own))))
+    }
+}
+
+fn floats(bytes: &[u8]) -> Vec<f32> {
+    let four = bytes
+        .chunks_exact(4)
+        .filter_map(|four| four.try_into().ok());
+    four.map(f32::from_le_bytes).collect()
+}

@@ -1,0 +1,39 @@
+//! Reference images of cameras that are known, as slices are made of them.
+
+use super::{Joined, ReferenceImage, Sample};
+use crate::synthesis::{Pinhole, Reference};
+
+impl ReferenceImage {
+    /// What a camera in display space has seen, with straight rays or bent ones; `threshold` is the step in 1/w from which surfaces are not joined
+    /// (see [`crate::synthesis::Edges::of`]). What is infinitely far is left out.
+    pub fn of(image: &Reference, camera: &Pinhole, threshold: f64) -> ReferenceImage {
+        let sample = |(vertex, [right, below]): (crate::synthesis::Vertex, [bool; 2])| {
+            let place = camera.unproject(vertex.at, vertex.inverse);
+            (vertex.inverse > 0.0).then(|| Sample {
+                at: place.map(|part| part as f32),
+                colour: vertex.colour.map(|v| v.round().clamp(0.0, 255.0) as u8),
+                joined: Joined::of(right, below),
+            })
+        };
+        let samples = image.joined(threshold).map(|joined| sample(joined?));
+        ReferenceImage {
+            size: image.size(),
+            samples: samples.collect(),
+        }
+    }
+
+    /// With another one of the same width below it, to which nothing of this one is joined.
+    pub fn over(mut self, other: ReferenceImage) -> ReferenceImage {
+        let width = self.size[0] as usize;
+        let last = self.samples.len().saturating_sub(width);
+        for sample in self.samples.iter_mut().skip(last).flatten() {
+            sample.joined = match sample.joined {
+                Joined::Right | Joined::Both => Joined::Right,
+                Joined::Neither | Joined::Below => Joined::Neither,
+            };
+        }
+        self.samples.extend(other.samples);
+        self.size[1] += other.size[1];
+        self
+    }
+}
