@@ -45,22 +45,39 @@ fn step_bits(block: i32, row: i32) -> vec2<u32> {
     return select(vec2<u32>(bits), vec2<u32>(0u, 0u), block < 0 || block > last);
 }
 
+// All bits of a block.
+const ALL = 0xFFFFu;
+
+// The highest of them that is set.
+fn highest(bits: u32) -> i32 {
+    let of_16 = select(0u, 8u, bits > 0xFFu);
+    let of_8 = of_16 + select(0u, 4u, (bits >> of_16) > 0xFu);
+    let of_4 = of_8 + select(0u, 2u, (bits >> of_8) > 3u);
+    return i32(of_4 + select(0u, 1u, (bits >> of_4) > 1u));
+}
+
 // The first sample with a step of a kind on its left side, from a sample on in a direction, before an end; the end where there is none.
 fn first_step(start: i32, end: i32, along: i32, down: bool, up: bool, row: i32) -> i32 {
-    var x = start;
-    var found = false;
-    while !found && (end - x) * along > 0 {
-        let both = step_bits(x >> 4u, row);
-        let bits = select(0u, both.x, down) | select(0u, both.y, up);
-        if bits == 0u {
-            // To the next block.
-            x = select((x >> 4u) * BLOCK + BLOCK, (x >> 4u) * BLOCK - 1, along < 0);
-        } else {
-            found = ((bits >> u32(x & (BLOCK - 1))) & 1u) != 0u;
-            x = select(x + along, x, found);
+    var block = start >> 4u;
+    let within = u32(start & (BLOCK - 1));
+    // From the first block what lies before the start is left out.
+    var kept = select(ALL << within, (2u << within) - 1u, along < 0);
+    var at = end;
+    loop {
+        let both = step_bits(block, row);
+        let bits = kept & (select(0u, both.x, down) | select(0u, both.y, up));
+        kept = ALL;
+        if bits != 0u {
+            at = block * BLOCK + highest(select(bits & (~bits + 1u), bits, along < 0));
+        }
+        block += along;
+        // The nearest sample of the next block.
+        let begin = block * BLOCK + select(0, BLOCK - 1, along < 0);
+        if bits != 0u || (end - begin) * along <= 0 {
+            break;
         }
     }
-    return select(end, x, found);
+    return select(end, at, (end - at) * along > 0);
 }
 
 // Of a block: whether there are steps as near as splats reach.

@@ -55,30 +55,34 @@ fn look_behind(seen: Seen, x: f32, row: i32, t: f32) -> Seen {
     var known = false;
     var before = vec3<f32>(0.0, 0.0, 0.0);
     var slope = 0.0;
-    while open {
-        let at = clamp(k, 0, width - 1);
-        let depth = bent_depth(at, row);
-        let moved = textureLoad(moved_texture, vec2<i32>(at, row), 0, 0).r;
-        let there = f32(at) + 0.5 - moved;
-        let height = height_of(depth);
-        let above = (there - x) / t + u.field.z - height;
-        let drawn = !is_clear(depth);
-        // Samples lie closer to each other than the places they are of.
-        let step = height - before.y;
-        let apart = edge * max(abs(there - before.x), 1.0);
-        let joined = drawn && known && min(abs(step), abs(step - slope)) <= apart;
-        if joined && above > 0.0 && before.z <= 0.0 {
-            best = Seen(at, at + along, above / (above - before.z), false, true, -1);
-        } else if !best.behind && drawn && moved != 0.0 && above > 0.0 && height < low {
-            // As far as is known; the rest lies deeper.
-            best = Seen(at, at, 0.0, true, true, -1);
+    if open {
+        loop {
+            let at = clamp(k, 0, width - 1);
+            let depth = bent_depth(at, row);
+            let moved = textureLoad(moved_texture, vec2<i32>(at, row), 0, 0).r;
+            let there = f32(at) + 0.5 - moved;
+            let height = height_of(depth);
+            let above = (there - x) / t + u.field.z - height;
+            let drawn = !is_clear(depth);
+            // Samples lie closer to each other than the places they are of.
+            let step = height - before.y;
+            let apart = edge * max(abs(there - before.x), 1.0);
+            let joined = drawn && known && min(abs(step), abs(step - slope)) <= apart;
+            if joined && above > 0.0 && before.z <= 0.0 {
+                best = Seen(at, at + along, above / (above - before.z), false, true, -1);
+            } else if !best.behind && drawn && moved != 0.0 && above > 0.0 && height < low {
+                // As far as is known; the rest lies deeper.
+                best = Seen(at, at, 0.0, true, true, -1);
+            }
+            slope = select(0.0, step, known);
+            before = vec3<f32>(there, height, above);
+            known = drawn;
+            left -= 1;
+            if left <= 0 || at != k {
+                break;
+            }
+            k -= along;
         }
-        slope = select(0.0, step, known);
-        before = vec3<f32>(there, height, above);
-        known = drawn;
-        left -= 1;
-        open = left > 0 && at == k;
-        k -= along;
     }
     return best;
 }

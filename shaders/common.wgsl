@@ -55,10 +55,11 @@ struct Uniforms {
     field: vec4<f32>,
     // Levers: of view 0, from view to view; the height of what nothing was drawn on; by how much depths are moved away.
     lever: vec4<f32>,
-    // Of one view: which it is, the left edge of its tile; 1: holes are marked; the longest lever of any view.
+    // Of one view: which it is, the left edge of its tile; 1: holes are marked; the longest lever of any view that the picture is
+    // looked at for.
     aim: vec4<f32>,
-    // Of an occlusion camera: how far it reaches behind at most (see bends.wgsl). Where the picture lies that is measured, as `Place` has it; or 1: views that are
-    // drawn are looked at in copies.
+    // Of an occlusion camera: how far it reaches behind at most (see bends.wgsl). The rest, while a picture is measured: where it lies, as
+    // `Place` has it; while views are made of several: 1 where these are looked at in copies, one to a layer.
     bend: vec4<f32>,
     // The views that are drawn, from left to right, 8 at most, beyond all views where there are no more (see between.wgsl).
     sources_low: vec4<f32>,

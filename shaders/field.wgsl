@@ -80,7 +80,8 @@ fn range_of(x: u32, row: i32) -> vec2<f32> {
 }
 
 // What a camera with a lever sees at x, in pixels from the left of its picture, in a row of the textures. There is one way out, and little
-// that is fetched in branches: llvmpipe takes all of them.
+// that is fetched in branches: llvmpipe takes all of them. Loops are left at their ends: it goes through one once more to see at its
+// beginning that it is over.
 fn seek(x: f32, row: i32, t: f32, range: vec2<f32>) -> Seen {
     let width = i32(u.tile.x);
     let own = clamp(i32(floor(x)), 0, width - 1);
@@ -106,58 +107,70 @@ fn seek(x: f32, row: i32, t: f32, range: vec2<f32>) -> Seen {
     var slope = 0.0;
     var found = false;
     var fresh = true;
-    while !found && (last - k) * along >= 0 {
-        // Over what lies below the ray, block by block.
-        let start = k;
-        var skips = true;
-        while skips {
-            let peak = textureLoad(peaks_texture, vec2<i32>(k / BLOCK, row), picture.field, 0).r;
-            let in_block = k & (BLOCK - 1);
-            let next = select(k - in_block + BLOCK, k - in_block - 1, along < 0);
-            let low = first_beyond(x + t * (peak + edge - far), along);
-            let to = select(min(low, next), max(low, next), along < 0);
-            let further = (to - k) * along > 0;
-            k = select(k, to, further);
-            skips = further && to == next && (last - k) * along >= 0;
-        }
-        let one = height(clamp(k - along, 0, width - 1), row);
-        let two = height(clamp(k - 2 * along, 0, width - 1), row);
-        if fresh || k != start {
-            before = select(one, OUTSIDE, k == first);
-            slope = select(one - two, 0.0, k == first);
-        }
-        fresh = false;
-        // From sample to sample, to the end of a block.
-        var walks = (last - k) * along >= 0;
-        while walks {
-            let here = height(k, row);
-            let ray = (f32(k) + 0.5 - x) / t + far;
-            let above = ray + 2.0 * edge - before;
-            let below = ray - here;
-            // Of one surface: the step is small in the view, or no other than the one before it.
-            let step = here - before;
-            let begins = before == OUTSIDE;
-            let joined = !begins && min(here, before) >= 0.0 && min(abs(step), abs(step - slope)) <= edge;
-            let between = joined && above > 0.0 && below <= 0.0;
-            // Else each surface ends half a pixel beyond its last sample.
-            let ends = !joined && before >= 0.0 && above >= 0.0 && above <= edge;
-            let starts = !joined && here >= 0.0 && below <= 0.0 && below >= -edge;
-            found = between || ends || starts;
-            if found {
-                let at = select(k, k - along, between || ends);
-                seen = Seen(at, select(at, k, between), select(0.0, above / (above - below), between), false, false, -1);
+    var open = (last - k) * along >= 0;
+    if open {
+        loop {
+            // Over what lies below the ray, block by block.
+            let start = k;
+            loop {
+                let peak = textureLoad(peaks_texture, vec2<i32>(k / BLOCK, row), picture.field, 0).r;
+                let in_block = k & (BLOCK - 1);
+                let next = select(k - in_block + BLOCK, k - in_block - 1, along < 0);
+                let low = first_beyond(x + t * (peak + edge - far), along);
+                let to = select(min(low, next), max(low, next), along < 0);
+                let further = (to - k) * along > 0;
+                k = select(k, to, further);
+                if !further || to != next || (last - k) * along < 0 {
+                    break;
+                }
             }
-            // Nothing is where it is, everything else where the view has it.
-            let away = select(above, abs(f32(k - along) + 0.5 - x) / abs(t), before < 0.0);
-            if !begins && above > 0.0 && below < 0.0 && away < behind_away {
-                behind = k - along;
-                behind_away = away;
+            let one = height(clamp(k - along, 0, width - 1), row);
+            let two = height(clamp(k - 2 * along, 0, width - 1), row);
+            if fresh || k != start {
+                before = select(one, OUTSIDE, k == first);
+                slope = select(one - two, 0.0, k == first);
             }
-            slope = select(step, 0.0, begins);
-            before = here;
-            k += along;
-            let in_block = k & (BLOCK - 1);
-            walks = !found && (last - k) * along >= 0 && in_block != select(0, BLOCK - 1, along < 0);
+            fresh = false;
+            // From sample to sample, to the end of a block.
+            open = (last - k) * along >= 0;
+            if open {
+                loop {
+                    let here = height(k, row);
+                    let ray = (f32(k) + 0.5 - x) / t + far;
+                    let above = ray + 2.0 * edge - before;
+                    let below = ray - here;
+                    // Of one surface: the step is small in the view, or no other than the one before it.
+                    let step = here - before;
+                    let begins = before == OUTSIDE;
+                    let joined = !begins && min(here, before) >= 0.0 && min(abs(step), abs(step - slope)) <= edge;
+                    let between = joined && above > 0.0 && below <= 0.0;
+                    // Else each surface ends half a pixel beyond its last sample.
+                    let ends = !joined && before >= 0.0 && above >= 0.0 && above <= edge;
+                    let starts = !joined && here >= 0.0 && below <= 0.0 && below >= -edge;
+                    found = between || ends || starts;
+                    if found {
+                        let at = select(k, k - along, between || ends);
+                        seen = Seen(at, select(at, k, between), select(0.0, above / (above - below), between), false, false, -1);
+                    }
+                    // Nothing is where it is, everything else where the view has it.
+                    let away = select(above, abs(f32(k - along) + 0.5 - x) / abs(t), before < 0.0);
+                    if !begins && above > 0.0 && below < 0.0 && away < behind_away {
+                        behind = k - along;
+                        behind_away = away;
+                    }
+                    slope = select(step, 0.0, begins);
+                    before = here;
+                    k += along;
+                    let in_block = k & (BLOCK - 1);
+                    open = !found && (last - k) * along >= 0;
+                    if !open || in_block == select(0, BLOCK - 1, along < 0) {
+                        break;
+                    }
+                }
+            }
+            if !open {
+                break;
+            }
         }
     }
     // Half a pixel of the last one, at the end of the picture.

@@ -250,6 +250,18 @@ fn what_cannot_be_measured_is_one_line() {
             "--chart is 'frames.svg'; --preset popescu-table1 draws pictures",
         ),
         (
+            &["--fps", "30", "--frames", "1..9", "--", "glxgears"],
+            "--frames is '1..9'; a walk of --fps takes the last frame or both ends",
+        ),
+        (
+            &["--fps", "30", "--frames", "some", "--", "glxgears"],
+            "--frames is 'some'; a walk of --fps takes",
+        ),
+        (
+            &["--chart", "chart.svg", "--", "glxgears"],
+            "--chart is drawn of scenes and of walks; leave it out, or give --fps",
+        ),
+        (
             &["--json", "/no/folder/b.json"],
             "the JSON cannot be written",
         ),

@@ -173,6 +173,7 @@ fn a_panel_s_picture_is_that_of_its_views() {
     let [two, three, six] = ["2", "3", "6"].map(|count| [&hybrid[..], &[count]].concat());
     for (display, count, way) in [
         ("slanted8", "8", WAYS[0]),
+        ("slanted8", "8", WAYS[1]),
         ("lenticular-5", "5", WAYS[0]),
         ("slanted8", "8", &two),
         ("slanted8", "8", &six),
@@ -448,4 +449,64 @@ fn another_pass_over_a_surface_has_its_depths() {
             }
         }
     }
+}
+
+/// The other strategies know nothing of what the own view hides; of three true views, two see it from the other side.
+#[test]
+fn what_one_true_view_hides_another_shows() {
+    let cameras = ["--separation", "0.04", "--convergence", "8"];
+    let holes = |way: &[&str]| {
+        let options = [&cameras[..], &["--holes", "mark"], way].concat();
+        let (views, _) = views(&["gears"], &options);
+        let marked = |view: &RgbImage| view.pixels().filter(|p| p.0 == [255, 0, 255]).count();
+        views.iter().map(marked).max().unwrap_or(0)
+    };
+    let (one, three) = (holes(WAYS[0]), holes(WAYS[3]));
+    println!("{one} and {three} of {} pixels", 300 * 220);
+    assert!(one >= 600 && three * 10 <= one, "{one} and {three} holes");
+}
+
+/// What is shown of `over` through a panel of five views, and what is reported.
+fn over(strategy: &[(&str, &str)], arguments: [&str; 2]) -> (RgbImage, Value) {
+    let program = support::compiled("over", support::Compiled::Program, &["-lEGL", "-lGL"]);
+    let folder = tempfile::tempdir().expect("a folder");
+    let [out, report] = ["last.png", "report.json"].map(|name| folder.path().join(name));
+    let common = [
+        ("DISPLAY", "lenticular-5"),
+        ("EYE_SPACING", "0.1"),
+        ("FOCAL_DEPTH", "5"),
+        ("REPORT", report.to_str().expect("UTF-8")),
+        ("CAPTURE_OUT", out.to_str().expect("UTF-8")),
+        ("CAPTURE_FRAMES", arguments[1]),
+    ];
+    let mut bare = support::bare(&program);
+    let expected = support::lines(bare.args(arguments));
+    let mut command = support::layered(&program, &[&common[..], strategy].concat());
+    assert_eq!(support::lines(command.args(arguments)), expected);
+    let told = std::fs::read_to_string(&report).expect("a report");
+    (rgb(&out), serde_json::from_str(&told).expect("JSON"))
+}
+
+/// Colours and depths are cleared one after the other, while the last picture was shown straight from what is drawn.
+#[test]
+fn clears_of_their_own_begin_a_scene() {
+    let frames = ["clears", "6"];
+    for strategy in ["depth-image", "occlusion", "hybrid"] {
+        let (_, report) = over(&[("STRATEGY", strategy)], frames);
+        assert_eq!(made(&report), [6, 0], "{strategy}: {report}");
+    }
+}
+
+/// Frames that take no time to speak of, at a rate of one a second: views are added, one after the other, until all are drawn.
+#[test]
+fn all_views_are_drawn_where_there_is_time() {
+    let frames = ["", "200"];
+    let (exact, _) = over(&[("STRATEGY", "replay")], frames);
+    let (last, report) = over(&[("STRATEGY", "hybrid"), ("FPS", "1")], frames);
+    let drawn = report["true_views"].as_array().expect("all frames");
+    let drawn: Vec<_> = drawn.iter().filter_map(|frame| frame[1].as_u64()).collect();
+    let mut steps = drawn.clone();
+    steps.dedup();
+    assert_eq!(steps, [2, 3, 4, 5], "{drawn:?}");
+    assert_eq!(pixels_over(&exact, &last, 0), 0);
 }

@@ -2,7 +2,7 @@
 #![forbid(unsafe_code)]
 
 use super::layer::LayerArguments;
-use super::{Outcome, print, tell};
+use super::{Outcome, print, scratch, tell};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
 use manyview::config::{Capture, Config, OptionId, Origin, Output, Settings};
@@ -97,10 +97,7 @@ pub(super) fn shoot(
     shot: Shot,
     mut settings: Settings,
 ) -> Result<(Capture, Captured), LaunchError> {
-    let scratch = tempfile::tempdir().map_err(|source| LaunchError::System {
-        doing: "making a temporary folder",
-        source,
-    })?;
+    let scratch = scratch()?;
     let status = scratch.path().join("status.json");
     let written = status.to_string_lossy().into_owned();
     settings.set(OptionId::Status, written, Origin::CommandLine);

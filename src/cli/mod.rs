@@ -123,13 +123,26 @@ fn print(text: &str) -> Outcome {
     }
 }
 
-/// A result as pretty JSON on stdout.
-fn print_json(value: &impl serde::Serialize) -> Outcome {
+/// Pretty JSON, with its last line's end.
+fn json(value: &impl serde::Serialize) -> Result<String, LaunchError> {
     let text = serde_json::to_string_pretty(value).map_err(|error| LaunchError::System {
         doing: "writing JSON",
         source: error.into(),
     })?;
-    print(&format!("{text}\n"))
+    Ok(text + "\n")
+}
+
+/// A result as JSON on stdout.
+fn print_json(value: &impl serde::Serialize) -> Outcome {
+    print(&json(value)?)
+}
+
+/// A folder for what nobody keeps.
+fn scratch() -> Result<tempfile::TempDir, LaunchError> {
+    tempfile::tempdir().map_err(|source| LaunchError::System {
+        doing: "making a temporary folder",
+        source,
+    })
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 #![forbid(unsafe_code)]
 
 use super::layer::LayerArguments;
-use super::{Outcome, tell};
+use super::{Outcome, scratch, tell};
 use clap::Args;
 use manyview::bench::proof;
 use manyview::config::{OptionId, Origin, Settings, Status};
@@ -72,10 +72,7 @@ pub(super) struct Told {
 impl Told {
     /// Has it written to a folder of its own.
     pub(super) fn new(settings: &mut Settings) -> Result<Self, LaunchError> {
-        let folder = tempfile::tempdir().map_err(|source| LaunchError::System {
-            doing: "making a temporary folder",
-            source,
-        })?;
+        let folder = scratch()?;
         let file = folder.path().join("status.json");
         settings.set(OptionId::Status, file.to_string_lossy(), Origin::Default);
         Ok(Self {

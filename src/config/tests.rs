@@ -120,6 +120,23 @@ fn every_message_is_one_clear_sentence() {
             ("MANYVIEW_CAPTURE_OUT", "a.png"),
             ("MANYVIEW_CAPTURE_WHAT", "view:9"),
         ],
+        &[("MANYVIEW_TRUE_VIEWS", "3")],
+        &[("MANYVIEW_FPS", "30"), ("MANYVIEW_STRATEGY", "replay")],
+        &[
+            ("MANYVIEW_STRATEGY", "hybrid"),
+            ("MANYVIEW_FPS", "30"),
+            ("MANYVIEW_TRUE_VIEWS", "3"),
+        ],
+        &[
+            ("MANYVIEW_STRATEGY", "hybrid"),
+            ("MANYVIEW_TRUE_VIEWS", "9"),
+        ],
+        &[
+            ("MANYVIEW_STRATEGY", "hybrid"),
+            ("MANYVIEW_TRUE_VIEWS", "two"),
+        ],
+        &[("MANYVIEW_STRATEGY", "hybrid"), ("MANYVIEW_FPS", "0.5")],
+        &[("MANYVIEW_STRATEGY", "hybrid"), ("MANYVIEW_FPS", "fast")],
         &[("MANYVIEW_CONFIG", "no-such-file.toml")],
     ];
     let mut all = String::new();

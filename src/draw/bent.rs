@@ -101,6 +101,29 @@ impl Bound {
     }
 }
 
+/// One draw with the program that is in use.
+fn into_bent(
+    gl: &Gl,
+    atlas: &mut Atlas,
+    state: &State,
+    rig: &Rig,
+    shear: Option<Shear>,
+    again: Again,
+    call: &mut dyn FnMut(),
+) {
+    let mut surface = BentSurface(atlas);
+    replay(
+        gl,
+        &mut surface,
+        state,
+        rig,
+        shear,
+        again,
+        false,
+        &mut |_| call(),
+    );
+}
+
 /// Draws by a twin of the program's own shaders, which is in use, into the reference image; `units` are those that it samples. All state is as
 /// before, but for the program in use. What has no shift by the projection matrix of fixed function has that of the twin.
 #[allow(
@@ -124,17 +147,7 @@ pub fn draw_bent(
     let sparse = !few(vertices, atlas);
     twin.bend(gl, unit, rays.uniforms(state, atlas, sparse));
     let map = Bound::enter(gl, unit, rays.map);
-    let mut surface = BentSurface(atlas);
-    replay(
-        gl,
-        &mut surface,
-        state,
-        rig,
-        shear,
-        again,
-        false,
-        &mut |_| call(),
-    );
+    into_bent(gl, atlas, state, rig, shear, again, call);
     atlas.bind_row(gl, 0);
     map.leave(gl);
 }
@@ -198,17 +211,7 @@ impl Programs {
             was
         });
         let mode = cut.map_or(mode, |_| c::PATCHES);
-        let mut surface = BentSurface(atlas);
-        replay(
-            gl,
-            &mut surface,
-            state,
-            rig,
-            shear,
-            again,
-            false,
-            &mut |_| call(mode),
-        );
+        into_bent(gl, atlas, state, rig, shear, again, &mut || call(mode));
         if let Some(was) = cut {
             gl.patch_parameteri(c::PATCH_VERTICES, was);
         }

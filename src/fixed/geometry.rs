@@ -12,7 +12,7 @@ use super::key::{Amplifier, Diagonal, FixedKey, Primitive, Provoking};
 use super::limits::Limits;
 use super::reason::Unsupported;
 use super::text::Text;
-use super::{UNIFORM_CLIP, UNIFORM_FIRST, UNIFORM_VIEWS, vertex, view};
+use super::{UNIFORM_CLIP, UNIFORM_FIRST, UNIFORM_VIEWS, vertex};
 use crate::config::Clip;
 
 /// Vertices in the order of emission, with their index in the input, by primitive.
@@ -91,12 +91,7 @@ pub(super) fn write(key: &FixedKey, limits: &Limits) -> Result<String, Unsupport
         output_layout(primitive),
         key.target.emitted() * loops
     ));
-    vertex::write_block(&mut text, key, "in", "mv_in[]");
-    view::write_uniforms(&mut text, key);
-    view::write_outputs(&mut text, key);
-    text.line("");
-    view::write_place(&mut text, key);
-    text.line("");
+    vertex::write_last(&mut text, key);
     if key.target.cuts() {
         write_emit_between(&mut text, key);
         text.line("");

@@ -8,7 +8,7 @@ use super::bent::UNIFORM_WINDOW;
 use super::components::varyings;
 use super::key::{FixedKey, Primitive, Provoking};
 use super::text::Text;
-use super::{vertex, view};
+use super::vertex;
 
 /// Edges in pixels.
 const LONGEST: u32 = 4;
@@ -95,12 +95,7 @@ pub(super) fn write_evaluation(key: &FixedKey) -> String {
     text.line(format!("#version {VERSION} compatibility"));
     let domain = if corners == 4 { "quads" } else { "triangles" };
     text.line(format!("layout({domain}, equal_spacing, ccw) in;"));
-    vertex::write_block(&mut text, key, "in", "mv_in[]");
-    view::write_uniforms(&mut text, key);
-    view::write_outputs(&mut text, key);
-    text.line("");
-    view::write_place(&mut text, key);
-    text.line("");
+    vertex::write_last(&mut text, key);
     text.open("void main() {");
     text.line(match corners {
         4 => "vec4 at = vec4((1.0 - gl_TessCoord.x) * (1.0 - gl_TessCoord.y), gl_TessCoord.x * (1.0 - gl_TessCoord.y), gl_TessCoord.x * gl_TessCoord.y, (1.0 - gl_TessCoord.x) * gl_TessCoord.y);",

@@ -50,6 +50,16 @@ pub(super) fn write_block(text: &mut Text, key: &FixedKey, direction: &str, inst
     text.close(format!("}} {instance};"));
 }
 
+/// What a later stage has that is the last one: its inputs, and the view.
+pub(super) fn write_last(text: &mut Text, key: &FixedKey) {
+    write_block(text, key, "in", "mv_in[]");
+    view::write_uniforms(text, key);
+    view::write_outputs(text, key);
+    text.line("");
+    view::write_place(text, key);
+    text.line("");
+}
+
 /// A sum over a primitive's corners, of what a number of a corner names.
 type Between<'a> = dyn Fn(&dyn Fn(u8) -> String) -> String + 'a;
 

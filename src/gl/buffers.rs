@@ -71,11 +71,17 @@ impl Gl {
     }
 
     /// The indices, where they do: what is in a buffer has to be waited for.
-    pub fn own_indices(&self, count: u32, kind: u32, indices: Indices) -> Option<Vec<u32>> {
-        if !self.has_own_indices(indices) {
+    pub fn own_indices(
+        &self,
+        count: u32,
+        kind: u32,
+        indices: Indices,
+    ) -> Option<impl Iterator<Item = u32>> {
+        let known = [c::UNSIGNED_BYTE, c::UNSIGNED_SHORT, c::UNSIGNED_INT].contains(&kind);
+        if !known || !self.has_own_indices(indices) {
             return None;
         }
-        let at = |i: u32| {
+        let at = move |i: u32| {
             let i = i as usize;
             // SAFETY: no element buffer is bound, so this is an address.
             // SAFETY: the program passed it for this count and type to its own draw (contract of `Indices::new`).
@@ -88,14 +94,7 @@ impl Gl {
                 }
             }
         };
-        let known = [c::UNSIGNED_BYTE, c::UNSIGNED_SHORT, c::UNSIGNED_INT].contains(&kind);
-        known.then(|| (0..count).map(at).collect())
-    }
-
-    /// Whether an index may end a primitive.
-    pub fn restarts(&self) -> bool {
-        let on = |since, name| self.since(since, None) && self.is_enabled(name);
-        on((3, 1), c::PRIMITIVE_RESTART) || on((4, 3), c::PRIMITIVE_RESTART_FIXED_INDEX)
+        Some((0..count).map(at))
     }
 
     /// glBufferData without contents, for pixels to be read into.

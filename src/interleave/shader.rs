@@ -31,6 +31,7 @@ const BETWEEN: &str = include_str!("../../shaders/between.wgsl");
 const BENT: &str = include_str!("../../shaders/bent.wgsl");
 const BENDS: &str = include_str!("../../shaders/bends.wgsl");
 const THROUGH: &str = include_str!("../../shaders/through.wgsl");
+const THROUGH_BENT: &str = include_str!("../../shaders/through_bent.wgsl");
 const COPY: &str = include_str!("../../shaders/copy.wgsl");
 const ACCUMULATE: &str = include_str!("../../shaders/accumulate.wgsl");
 
@@ -522,6 +523,7 @@ fn entry(pass: Pass) -> &'static str {
         Pass::Synthesis(Synthesis::Splats) => "splats",
         Pass::Synthesis(Synthesis::Bends) => "bends",
         Pass::Synthesis(Synthesis::View(_)) => "view",
+        Pass::Synthesis(BENT_PANEL) => "panel_subpixels_bent",
         Pass::Synthesis(Synthesis::Panel { whole: false, .. }) => "panel_subpixels",
         Pass::Synthesis(Synthesis::Panel { whole: true, .. }) => "panel_pixels",
     }
@@ -541,6 +543,9 @@ fn source(pass: Pass) -> String {
         Pass::Synthesis(Synthesis::Steps | Synthesis::Splats | Synthesis::Bends) => {
             [COVER, COMMON, ATLAS, FIELD, PLAIN, BENDS].join("\n")
         }
+        Pass::Synthesis(BENT_PANEL) => {
+            [COVER, COMMON, ATLAS, MASK, FIELD, BENT, THROUGH_BENT].join("\n")
+        }
         Pass::Synthesis(Synthesis::Panel { behind, .. }) => {
             [COVER, COMMON, ATLAS, MASK, FIELD, hidden(behind), THROUGH].join("\n")
         }
@@ -552,6 +557,9 @@ fn source(pass: Pass) -> String {
         }
     }
 }
+
+/// A panel's picture whose subpixels ask the reference image one after another.
+const BENT_PANEL: Synthesis = Synthesis::panel(false, Behind::Reference);
 
 /// What is known of what is hidden.
 fn hidden(behind: Behind) -> &'static str {

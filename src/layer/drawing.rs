@@ -2,8 +2,8 @@
 
 mod corners;
 
-use super::Layer;
 use super::programs::{Entered, With};
+use super::{Layer, Support};
 use crate::atlas::Surface;
 use crate::config::{Class, Output, Projection, Strategy, Word};
 use crate::draw::{Again, Amplified, Drawing, FixedState, Programs, replay};
@@ -39,8 +39,8 @@ pub enum Primitives {
     },
 }
 
-/// Some draw, of which nothing is known.
-pub(super) const SURFACES: Drawing = Drawing {
+/// A draw of which nothing is known.
+pub(super) const UNKNOWN: Drawing = Drawing {
     mode: None,
     vertices: 0,
     cuts: false,
@@ -79,7 +79,7 @@ impl Primitives {
     }
 
     /// What it is made of.
-    fn drawing(&self, gl: &Gl) -> Drawing {
+    fn drawing(&self, gl: &Gl, support: &Support) -> Drawing {
         let (Primitives::Arrays { count, .. } | Primitives::Elements { count, .. }) = *self;
         let (mode, count) = (self.mode(), count.max(0).unsigned_abs());
         let lists = || match *self {
@@ -89,7 +89,7 @@ impl Primitives {
         Drawing {
             mode: Some(mode),
             vertices: u64::from(count),
-            cuts: [c::TRIANGLES, c::QUADS].contains(&mode) || !gl.restarts() && lists(),
+            cuts: [c::TRIANGLES, c::QUADS].contains(&mode) || !support.restarts(gl) && lists(),
             material: false,
         }
     }
@@ -121,6 +121,7 @@ impl Primitives {
             ) => gl.draw_elements(mode, count, kind, indices),
             (Primitives::Elements { kind, indices, .. }, Some(mut list)) => {
                 if let Some(own) = gl.own_indices(count_up, kind, indices) {
+                    let own: Vec<u32> = own.collect();
                     list.iter_mut()
                         .for_each(|at| *at = own.get(*at as usize).copied().unwrap_or(0));
                     gl.draw_listed(mode, &list);
@@ -151,7 +152,7 @@ impl Layer {
             Kind::Pixels => Again::Raster(plan.shear.take()),
             _ => Again::Same,
         };
-        self.draw_bent(gl, &plan, again, SURFACES, &mut |_| call());
+        self.draw_bent(gl, &plan, again, UNKNOWN, &mut |_| call());
         self.replay(gl, &plan, again, &mut |_| call());
     }
 
@@ -171,7 +172,7 @@ impl Layer {
             Method::Once => self.once(gl, call),
             Method::Replay => {
                 if self.synthesis.bent.next.is_some() {
-                    let drawing = primitives.drawing(gl);
+                    let drawing = primitives.drawing(gl, &self.support);
                     self.draw_bent(gl, &plan, Again::Same, drawing, &mut |mode| {
                         primitives.send(gl, mode);
                     });

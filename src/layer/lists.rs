@@ -1,7 +1,7 @@
 //! Display lists: compiled in runs, executed run by run.
 
 use super::Layer;
-use super::drawing::SURFACES;
+use super::drawing::UNKNOWN;
 use crate::draw::{Again, Drawing};
 use crate::gl::{Gl, consts as c, slot};
 use crate::plan::{Kind, Method};
@@ -451,7 +451,7 @@ impl Layer {
                 if let (_, true, false, material) = drawing {
                     let bent = Drawing {
                         material,
-                        ..SURFACES
+                        ..UNKNOWN
                     };
                     self.draw_bent(gl, &plan, again, bent, &mut |_| call());
                 }

@@ -82,6 +82,13 @@ impl Support {
         })
     }
 
+    /// Whether an index may end a primitive.
+    #[must_use]
+    pub fn restarts(&self, gl: &Gl) -> bool {
+        let on = |since, name| !self.es && self.version >= since && gl.is_enabled(name);
+        on((3, 1), c::PRIMITIVE_RESTART) || on((4, 3), c::PRIMITIVE_RESTART_FIXED_INDEX)
+    }
+
     /// Whether generated vertex shaders can place views: compatibility shaders (GLSL 1.50) with two clip distances.
     #[must_use]
     pub fn instanced(&self) -> bool {

@@ -3,13 +3,13 @@
 //!
 //! From a clear of the depths on, what is drawn in perspective, opaque, by one projection, is in these views only. Before anything else (the
 //! HUD, glass, another clear, a copy of the frame) the views are made into their tiles, depths as well, and all that follows is drawn in each of
-//! them. Where nothing else follows, the panel's picture is made straight from the own view.
+//! them. Where nothing else follows, the panel's picture is made straight from the views that are drawn.
 
 mod samples;
 mod surface;
 
 use super::occlusion::{Bent, REACH};
-use super::{Layer, as_they_are, keep_bindings};
+use super::{Layer, keep_bindings};
 use crate::atlas::{FieldTextures, Shown};
 use crate::config::{
     Behind, CaptureWhat, Class, Config, DepthState, Filter, Output, TrueViews, Viewport,
@@ -20,7 +20,7 @@ use crate::plan::{Classed, Governor, Kind, Method, Plan, Ramp, Reason, Shear};
 use crate::present::Saved;
 use crate::state::{BACK, Touch};
 use crate::synthesis::Passes;
-use crate::volume::Shown as Samples;
+use crate::volume::Samples;
 use surface::Surfaces;
 
 /// Steps of the depth buffer by which views' depths lie behind what they are computed to be.
@@ -106,7 +106,7 @@ pub(super) struct Synthesis {
     done: bool,
     pub(super) bent: Bent,
     pub(super) surfaces: Surfaces,
-    /// While a panel's picture is made straight from the own view.
+    /// While a panel's picture is made straight from the views that are drawn.
     pub(super) field: Option<(FieldTextures, Heights)>,
     /// Of this frame's scene, where they are to be written.
     samples: Option<Samples>,
@@ -277,12 +277,7 @@ impl Layer {
             .flat_map(Sources::iter)
             .any(|view| view != own && !before.has(view));
         if new && !colours {
-            self.queries.pause(gl);
-            as_they_are(gl, || {
-                self.reading(gl, BACK, |layer| layer.atlas.share_own(gl));
-            });
-            self.rebind(gl);
-            self.queries.resume(gl);
+            self.share_own(gl);
         }
         self.begin_bent(gl);
     }
@@ -524,7 +519,7 @@ impl Layer {
         }
     }
 
-    /// At the end of a frame: what is not made yet is made, or is not needed: the panel's picture is that of the own view. The
+    /// At the end of a frame: what is not made yet is made, or is not needed: the panel's picture comes straight from what is drawn. The
     /// state is as [`Saved::take`] leaves it; changes the framebuffers that are bound.
     pub(super) fn end_scene(&mut self, gl: &Gl) {
         let Some(scene) = self.synthesis.scene else {

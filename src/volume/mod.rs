@@ -32,7 +32,7 @@ pub use display::{RotatingScreen, Turn};
 pub use dither::{Lit, Slices};
 pub use error::VolumeError;
 pub use eye::Sight;
-pub use program::{Before, Head, Picture, Shown, Source};
+pub use program::{Before, Head, Picture, Samples, Source};
 pub use reference::{Joined, ReferenceImage, Sample};
 pub use triangles::{Triangle, Vertex};
 

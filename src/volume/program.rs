@@ -55,7 +55,7 @@ pub type Picture = (Vec<u8>, Vec<f32>);
 
 /// All of it.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Shown {
+pub struct Samples {
     /// How to read the rest.
     pub head: Head,
     /// The program's own view.
@@ -75,7 +75,7 @@ pub enum Source {
     Own,
 }
 
-impl Shown {
+impl Samples {
     /// As a file.
     pub fn bytes(&self) -> Vec<u8> {
         let head = serde_json::to_string(&self.head).unwrap_or_default();
@@ -97,7 +97,7 @@ impl Shown {
     }
 
     /// Reads a file.
-    pub fn read(bytes: &[u8]) -> Result<Shown, VolumeError> {
+    pub fn read(bytes: &[u8]) -> Result<Samples, VolumeError> {
         let no = |reason: &str| VolumeError::Shown {
             reason: reason.to_owned(),
         };
@@ -129,7 +129,7 @@ impl Shown {
         let mut picture = || (take(3 * pixels).to_vec(), floats(take(4 * pixels)));
         let (own, reference) = (picture(), picture());
         let moved = floats(take(4 * pixels));
-        Ok(Shown {
+        Ok(Samples {
             head,
             own,
             reference,

@@ -1,7 +1,7 @@
 //! `manyview bench --preset popescu-table1`: no program is started; models are drawn by the CPU reference.
 #![forbid(unsafe_code)]
 
-use super::{Arguments, measure, unwritten};
+use super::{Arguments, measure, unwritten, write_json};
 use crate::cli::{Outcome as Ended, print, tell};
 use image::{RgbImage, imageops};
 use manyview::bench::disocclusion::{
@@ -125,10 +125,7 @@ fn views(
 fn write(arguments: &Arguments, outcome: &Outcome, sheets: &[RgbImage]) -> Result<(), LaunchError> {
     let wrote = |file: &Path| tell(&format_args!("wrote {}", file.display()));
     if let Some(file) = &arguments.json {
-        let text =
-            serde_json::to_string_pretty(outcome).map_err(|error| unwritten(file, &error))?;
-        std::fs::write(file, text + "\n").map_err(|error| unwritten(file, &error))?;
-        wrote(file);
+        write_json(outcome, file)?;
     }
     if let Some(file) = &arguments.csv {
         write_csv(&outcome.views, file)?;

@@ -1,8 +1,8 @@
 //! `manyview bench --hard`: draws the hard cases under every strategy and says which bounds hold.
 #![forbid(unsafe_code)]
 
-use super::{Arguments, unwritten};
-use crate::cli::{Outcome as Ended, print, tell};
+use super::{Arguments, write_json};
+use crate::cli::{Outcome as Ended, print, scratch, tell};
 use image::{RgbImage, imageops};
 use indicatif::{ProgressBar, ProgressStyle};
 use manyview::atlas::{Grid, Limits, Tiles};
@@ -59,10 +59,7 @@ pub(super) fn run(arguments: &Arguments) -> Ended {
     let outcomes = measured(&cases, &configurations, arguments.api())?;
     print(&hard::text(&outcomes))?;
     if let Some(file) = &arguments.json {
-        let text =
-            serde_json::to_string_pretty(&outcomes).map_err(|error| unwritten(file, &error))?;
-        std::fs::write(file, text + "\n").map_err(|error| unwritten(file, &error))?;
-        tell(&format_args!("wrote {}", file.display()));
+        write_json(&outcomes, file)?;
     }
     if let Some(file) = &arguments.csv {
         hard::write_csv(&outcomes, file)?;
@@ -116,10 +113,7 @@ fn measured(
                 cameras,
                 options,
             } => {
-                let folder = tempfile::tempdir().map_err(|source| LaunchError::System {
-                    doing: "making a temporary folder",
-                    source,
-                })?;
+                let folder = scratch()?;
                 let mut runner = Runner {
                     case,
                     scene,

@@ -1,6 +1,7 @@
 //! Scenes in turns: the bare program, then each configuration, round after round.
 #![forbid(unsafe_code)]
 
+use crate::cli::scratch;
 use image::RgbImage;
 use indicatif::{ProgressBar, ProgressStyle};
 use manyview::bench::protocol::{Hello, Times};
@@ -188,10 +189,7 @@ impl Runner<'_> {
         stop: &mut Stop,
         bar: &ProgressBar,
     ) -> Result<(Hello, Vec<Row>), LaunchError> {
-        let folder = tempfile::tempdir().map_err(|source| LaunchError::System {
-            doing: "making a temporary folder",
-            source,
-        })?;
+        let folder = scratch()?;
         let exact = Variant {
             configuration: &EXACT,
             view_scale: "1".to_owned(),
@@ -311,10 +309,7 @@ impl Runner<'_> {
         if variant.configuration.name != AUTO {
             return Ok(None);
         }
-        let cache = tempfile::tempdir().map_err(|source| LaunchError::System {
-            doing: "making a temporary folder",
-            source,
-        })?;
+        let cache = scratch()?;
         let settings = variant.settings(&self.group.views.to_string());
         let launch = Launch::prepare(&self.command(), &settings)?;
         let what = self.what(variant);

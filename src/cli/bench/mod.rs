@@ -8,7 +8,7 @@ mod prove;
 mod walk;
 
 use super::mask::size;
-use super::{Outcome, print, tell};
+use super::{Outcome, json, print, tell};
 use clap::Args;
 use manyview::bench::hard::CASES;
 use manyview::bench::{
@@ -163,9 +163,7 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
     }
     print(&table::text(&bench))?;
     if let Some(file) = &arguments.json {
-        let text = serde_json::to_string_pretty(&bench).map_err(|error| unwritten(file, &error))?;
-        std::fs::write(file, text + "\n").map_err(|error| unwritten(file, &error))?;
-        tell(&format_args!("wrote {}", file.display()));
+        write_json(&bench, file)?;
     }
     if let Some(file) = &arguments.csv {
         bench.write_csv(file)?;
@@ -192,6 +190,13 @@ fn check_files(arguments: &Arguments) -> Result<(), LaunchError> {
     if let Some(file) = &arguments.chart {
         chart::Format::of(file)?;
     }
+    Ok(())
+}
+
+/// What is measured, as JSON, and says so.
+fn write_json(measured: &impl serde::Serialize, file: &Path) -> Result<(), LaunchError> {
+    std::fs::write(file, json(measured)?).map_err(|error| unwritten(file, &error))?;
+    tell(&format_args!("wrote {}", file.display()));
     Ok(())
 }
 

@@ -4,7 +4,7 @@
 use super::super::layer::variable;
 use super::super::run::Told;
 use super::super::{Outcome, print, tell};
-use super::{Arguments, measure, unwritten};
+use super::{Arguments, measure, write_json};
 use manyview::bench::{
     BenchError, CONFIGURATIONS, DEFAULT_CONFIGURATIONS, ProofRow, Proofs, Variant, find,
 };
@@ -67,10 +67,7 @@ pub(super) fn run(arguments: &Arguments, frames: u32) -> Outcome {
     };
     print(&proofs.text())?;
     if let Some(file) = &arguments.json {
-        let text =
-            serde_json::to_string_pretty(&proofs).map_err(|error| unwritten(file, &error))?;
-        std::fs::write(file, text + "\n").map_err(|error| unwritten(file, &error))?;
-        tell(&format_args!("wrote {}", file.display()));
+        write_json(&proofs, file)?;
     }
     if let Some(file) = &arguments.csv {
         proofs.write_csv(file)?;

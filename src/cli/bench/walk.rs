@@ -3,8 +3,8 @@
 
 use super::super::layer::variable;
 use super::super::run::Told;
-use super::super::{Outcome, print, tell};
-use super::{Arguments, measure, unwritten};
+use super::super::{Outcome, print, scratch, tell};
+use super::{Arguments, measure, unwritten, write_json};
 use image::RgbImage;
 use manyview::bench::BenchError;
 use manyview::bench::walk::{Frame, Walk, told, write};
@@ -16,7 +16,6 @@ use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::{Duration, SystemTime};
-use tempfile::TempDir;
 
 /// Unless others are given.
 const FRAMES: &str = "2..200";
@@ -123,10 +122,7 @@ fn frames(text: &str) -> Result<RangeInclusive<u64>, BenchError> {
 
 pub(super) fn run(arguments: &Arguments, rate: &str) -> Outcome {
     let frames = frames(arguments.frames.as_deref().unwrap_or(FRAMES))?;
-    let scratch = TempDir::new().map_err(|source| LaunchError::System {
-        doing: "making a temporary folder",
-        source,
-    })?;
+    let scratch = scratch()?;
     let hybrid = (OptionId::Strategy, "hybrid");
     let walk = Run {
         arguments,
@@ -214,9 +210,7 @@ pub(super) fn run(arguments: &Arguments, rate: &str) -> Outcome {
 
 fn save(arguments: &Arguments, walk: &Walk) -> Result<(), LaunchError> {
     if let Some(file) = &arguments.json {
-        let text = serde_json::to_string_pretty(walk).map_err(|error| unwritten(file, &error))?;
-        std::fs::write(file, text + "\n").map_err(|error| unwritten(file, &error))?;
-        tell(&format_args!("wrote {}", file.display()));
+        write_json(walk, file)?;
     }
     if let Some(file) = &arguments.csv {
         walk.write_csv(file)?;

@@ -3,12 +3,12 @@
 
 use super::super::capture::{Shot, shoot};
 use super::super::layer::LayerArguments;
-use super::super::{Outcome, tell};
+use super::super::{Outcome, scratch, tell};
 use clap::{Args, ValueEnum};
 use manyview::config::{OptionId, Origin, Settings};
 use manyview::launch::LaunchError;
 use manyview::simulate::SimulateError;
-use manyview::volume::{RotatingScreen, Shown, Slices, Source, Volume, VolumeError};
+use manyview::volume::{RotatingScreen, Samples, Slices, Source, Volume, VolumeError};
 use std::ffi::OsString;
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -83,7 +83,7 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
         Of::Reference => Source::Reference,
         Of::Own => Source::Own,
     };
-    let image = Shown::read(&bytes)?.image(&screen, source, focal)?;
+    let image = Samples::read(&bytes)?.image(&screen, source, focal)?;
     let volume = Volume::of_reference(&screen, &image)?;
     if volume.is_empty() {
         return Err(VolumeError::Shown {
@@ -134,11 +134,4 @@ fn refused(flag: &'static str, found: &str, expected: &'static str) -> LaunchErr
         expected,
     }
     .into()
-}
-
-fn scratch() -> Result<tempfile::TempDir, LaunchError> {
-    tempfile::tempdir().map_err(|source| LaunchError::System {
-        doing: "making a temporary folder",
-        source,
-    })
 }

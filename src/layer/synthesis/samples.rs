@@ -1,4 +1,4 @@
-//! `--what samples`: what slices for a volumetric display are made of (see [`crate::volume::Shown`]).
+//! `--what samples`: what slices for a volumetric display are made of (see [`crate::volume::Samples`]).
 //!
 //! They are taken where the views are made, before anything flat is drawn over them.
 
@@ -8,7 +8,7 @@ use super::{Look, Scene};
 use crate::config::CaptureWhat;
 use crate::gl::{Gl, consts as c};
 use crate::present::capture::read_rgb;
-use crate::volume::{Before, Head, Shown};
+use crate::volume::{Before, Head, Samples};
 
 impl Layer {
     /// Whether this frame's are to be written.
@@ -47,7 +47,7 @@ impl Layer {
             line: look.ramp.line(),
             to,
         });
-        self.synthesis.samples = Some(Shown {
+        self.synthesis.samples = Some(Samples {
             head: Head {
                 size: [width, height],
                 viewport: look.viewport,
@@ -66,7 +66,7 @@ impl Layer {
     pub(in crate::layer) fn samples(&mut self) -> Vec<u8> {
         match self.synthesis.samples.take() {
             Some(samples) => samples.bytes(),
-            None => Shown::nothing(
+            None => Samples::nothing(
                 "no scene of this frame was drawn in perspective, with depths and by an occlusion camera; give another frame, from 4 on, and see --report for why",
             ),
         }

@@ -1,11 +1,11 @@
 //! What a program has shown, by samples whose places are known.
 
-use super::super::{Before, Head, Shown, Source};
+use super::super::{Before, Head, Samples, Source};
 use super::*;
 
 /// 4x3 pixels, 1/w = depth. A wall at 1/4, before which two pixels of the second row are at 1/2. The reference image has the wall behind
 /// the left one of them, moved by a pixel to the left, and lacks the pixel in the upper left corner.
-fn shown() -> Shown {
+fn shown() -> Samples {
     let wall = vec![0.25_f32; 12];
     let mut own = wall.clone();
     (own[5], own[6]) = (0.5, 0.5);
@@ -15,7 +15,7 @@ fn shown() -> Shown {
     let mut moved = vec![0.0; 12];
     moved[4] = -1.0;
     let colours = |depths: &[f32]| depths.iter().flat_map(|d| [(d * 200.0) as u8; 3]).collect();
-    Shown {
+    Samples {
         head: Head {
             size: [4, 3],
             viewport: [0, 0, 4, 3],
@@ -31,7 +31,7 @@ fn shown() -> Shown {
 }
 
 /// Samples that are there, z in hundredths of an inch.
-fn samples(shown: &Shown, source: Source, focal: bool) -> Vec<[i32; 3]> {
+fn samples(shown: &Samples, source: Source, focal: bool) -> Vec<[i32; 3]> {
     let image = shown.image(&SMALL, source, focal).unwrap();
     let samples = image.samples().iter().flatten();
     let place = |sample: &Sample| sample.at.map(|v| (v * 100.0).round() as i32);
@@ -42,12 +42,12 @@ fn samples(shown: &Shown, source: Source, focal: bool) -> Vec<[i32; 3]> {
 fn a_file_comes_back_as_it_was() {
     let shown = shown();
     let bytes = shown.bytes();
-    assert_eq!(Shown::read(&bytes).unwrap(), shown);
+    assert_eq!(Samples::read(&bytes).unwrap(), shown);
     for wrong in [&bytes[..bytes.len() - 1], &bytes[..20], &bytes[1..], b""] {
-        let message = Shown::read(wrong).unwrap_err().to_string();
+        let message = Samples::read(wrong).unwrap_err().to_string();
         assert!(message.contains("nothing to make slices of"), "{message}");
     }
-    let message = Shown::read(&Shown::nothing("it rains; wait")).unwrap_err();
+    let message = Samples::read(&Samples::nothing("it rains; wait")).unwrap_err();
     assert!(message.to_string().ends_with("it rains; wait"), "{message}");
 }
 

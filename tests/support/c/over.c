@@ -1,7 +1,9 @@
 /* Surfaces in two passes, the second blended with the first and without depths of its own; and a weapon by the same projection in the nearest
  * part of the depth range. "copied": the second pass has its vertices and elements elsewhere in memory. "glass": that of the box is over other elements of
- * the same arrays, as many of them, which stand before it. "moved": its vertices have been moved before it. "sides": it shows the other side. */
+ * the same arrays, as many of them, which stand before it. "moved": its vertices have been moved before it. "sides": it shows the other side.
+ * "clears": colours and depths are cleared by calls of their own. A second argument is the number of frames. */
 #include "surface.h"
+#include <stdlib.h>
 #include <string.h>
 
 /* A wall; a box's front and its side; a pane before it. */
@@ -65,14 +67,20 @@ int main(int argc, char **argv)
 {
     if (!open_surface() || !new_context(EGL_NO_CONTEXT))
         return 77;
-    for (int frame = 0; frame < 4; frame++) {
+    int frames = argc > 2 ? atoi(argv[2]) : 4;
+    for (int frame = 0; frame < frames; frame++) {
         glMatrixMode(GL_PROJECTION);
         glLoadIdentity();
         glFrustum(-0.8, 0.8, -0.6, 0.6, 1, 50);
         glEnable(GL_DEPTH_TEST);
         glDepthFunc(GL_LEQUAL);
         glDepthMask(GL_TRUE);
-        glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+        if (argc > 1 && !strcmp(argv[1], "clears")) {
+            glClear(GL_COLOR_BUFFER_BIT);
+            glClear(GL_DEPTH_BUFFER_BIT);
+        } else {
+            glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+        }
         glEnableClientState(GL_VERTEX_ARRAY);
         glColor3f(0.2f, 0.7f, 0.3f);
         surface_of(places, wall, wall, 6);

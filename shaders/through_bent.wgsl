@@ -1,0 +1,38 @@
+// As through.wgsl, where the reference image of an occlusion camera is there: it is asked by one subpixel after another, most of which have no
+// need of it. On a CPU it would be asked for all three colours of each pixel otherwise.
+
+@fragment
+fn panel_subpixels_bent(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
+    let at = top_down(position);
+    let row = i32(texel_row(u.tile.y - 1u - at.y, u.tile.y));
+    let x = f32(at.x) + 0.5;
+    let views = mask(at);
+    let range = range_of(at.x, row);
+    let levers = u.lever.x + vec3<f32>(views) * u.lever.y;
+    let red = seek(x, row, levers.r, range);
+    let green = seek(x, row, levers.g, range);
+    let blue = seek(x, row, levers.b, range);
+    var colour = vec3<f32>(colour_of(red, row).r, colour_of(green, row).g, colour_of(blue, row).b);
+    var holes = vec3<bool>(red.hole, green.hole, blue.hole);
+    loop {
+        var seen = blue;
+        var lever = levers.b;
+        var asks = vec3<bool>(false, false, holes.b);
+        if holes.g {
+            seen = green;
+            lever = levers.g;
+            asks = vec3<bool>(false, true, false);
+        }
+        if holes.r {
+            seen = red;
+            lever = levers.r;
+            asks = vec3<bool>(true, false, false);
+        }
+        colour = select(colour, colour_of(look_behind(seen, x, row, lever), row), asks);
+        holes = holes & !asks;
+        if !any(holes) {
+            break;
+        }
+    }
+    return vec4<f32>(select(colour, vec3<f32>(0.0), views >= vec3<u32>(u.views)), 1.0);
+}
