@@ -4,7 +4,7 @@
 
 mod support;
 
-use image::{GenericImageView, RgbImage};
+use image::{GenericImageView, Rgb, RgbImage};
 use manyview::synthesis::{Bend, Bending};
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
@@ -227,6 +227,21 @@ fn strips_and_fans_are_cut_and_lists_are_drawn() {
     }
 }
 
+/// A program that writes no red (for coloured glasses, say) has samples moved all the same.
+#[test]
+fn colours_that_are_not_written_have_depths() {
+    let wrong = |way: &str| {
+        let picture = |strategy| bars_shown(way, "atlas", strategy).0;
+        let (exact, all) = (picture("replay"), picture("occlusion"));
+        let pairs = exact.pixels().zip(all.pixels());
+        let differs = |a: &Rgb<u8>, b: &Rgb<u8>| (1..3).any(|i| a[i].abs_diff(b[i]) > 8);
+        pairs.filter(|(a, b)| differs(a, b)).count()
+    };
+    let (all, cyan) = (wrong("strips"), wrong("cyan"));
+    println!("{all} and {cyan} pixels");
+    assert!(all > 500 && cyan <= all, "{all} and {cyan} pixels");
+}
+
 #[test]
 fn programs_with_other_stages_and_outputs_are_left_out() {
     for (way, why) in UNBENT {
@@ -241,7 +256,7 @@ fn programs_with_other_stages_and_outputs_are_left_out() {
 
 #[test]
 fn programs_know_nothing_of_it() {
-    for way in SHADED.into_iter().chain(FIXED) {
+    for way in SHADED.into_iter().chain(FIXED).chain(["cyan"]) {
         let expected = lines(bare(bars()).arg(way));
         assert_eq!(expected.matches("error 0x0").count(), 4, "{expected}");
         for atlas in ["side-by-side", "layers"] {

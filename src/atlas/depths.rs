@@ -59,7 +59,7 @@ impl Atlas {
         if full || !gl.reads_depths() {
             return false;
         }
-        self.resolve(gl, true, c::DEPTH_BUFFER_BIT);
+        self.resolve(gl, &self.tiles.own_alone(), c::DEPTH_BUFFER_BIT);
         let (from, x) = self.readable(self.tiles.own());
         let window = [self.tiles.width, self.tiles.height].map(|n| n as i32);
         let Some(depths) = &mut self.depths else {

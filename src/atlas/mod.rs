@@ -492,23 +492,26 @@ impl Atlas {
         }
     }
 
-    /// Resolves samples: all tiles, or only the own one. Changes the framebuffer bindings; the scissor test must be off.
-    pub fn resolve(&self, gl: &Gl, only_own: bool, mask: u32) {
+    /// Resolves the samples of some views. Changes the framebuffer bindings; the scissor test must be off.
+    pub fn resolve(&self, gl: &Gl, views: &Shown, mask: u32) {
         let Some(resolve) = &self.resolve else { return };
         let t = &self.tiles;
-        let (w, h) = (
-            if only_own { t.width } else { t.texture_width() } as i32,
-            t.height as i32,
-        );
-        for (&from, &to) in
-            self.rows
-                .iter()
-                .zip(resolve)
-                .take(if only_own { 1 } else { usize::MAX })
-        {
+        let blit = |row: usize, left: u32, width: u32| {
+            let (Some(&from), Some(&to)) = (self.rows.get(row), resolve.get(row)) else {
+                return;
+            };
             gl.bind_framebuffer(c::READ_FRAMEBUFFER, from);
             gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, to);
-            gl.blit_framebuffer(0, 0, w, h, 0, 0, w, h, mask, c::NEAREST);
+            let [x0, x1, h] = [left, left + width, t.height].map(|n| n as i32);
+            gl.blit_framebuffer(x0, 0, x1, h, x0, 0, x1, h, mask, c::NEAREST);
+        };
+        if (0..t.views).all(|view| views.has(view)) {
+            (0..self.rows.len()).for_each(|row| blit(row, 0, t.texture_width()));
+            return;
+        }
+        for view in (0..t.views).filter(|&view| views.has(view)) {
+            let (row, left) = t.place(view);
+            blit(row as usize, left, t.width);
         }
     }
 }

@@ -126,6 +126,11 @@ impl Tiles {
         (slot / self.columns, slot % self.columns * self.stride)
     }
 
+    /// The program's own view alone.
+    pub fn own_alone(&self) -> Shown {
+        [self.own()].into_iter().collect()
+    }
+
     /// Width of a layer in pixels: the last tile is not padded.
     pub fn texture_width(&self) -> u32 {
         (self.columns - 1) * self.stride + self.width

@@ -2,6 +2,7 @@
 
 use super::Layer;
 use crate::accumulation::{Accumulation, Operation, Region};
+use crate::atlas::Shown;
 use crate::gl::{Gl, consts as c};
 use crate::plan::Kind;
 use crate::present::Saved;
@@ -94,7 +95,7 @@ impl Layer {
         self.queries.lift_condition(gl);
         let saved = Saved::take(gl, self.state.compatibility);
         if let Operation::Load(_) | Operation::Accumulate(_) = operation {
-            self.atlas.resolve(gl, false, c::COLOR_BUFFER_BIT);
+            self.atlas.resolve(gl, &Shown::ALL, c::COLOR_BUFFER_BIT);
         }
         let regions = self.regions();
         if self.accumulated.buffer.is_none() && !self.accumulated.failed {

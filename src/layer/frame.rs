@@ -1,6 +1,7 @@
 //! The end of a frame: interleave, capture, report.
 
 use super::{Layer, OnScreen};
+use crate::atlas::Shown;
 use crate::config::{Capture, CaptureWhat, Output};
 use crate::display::{Placement, QuiltName};
 use crate::gl::{Gl, consts as c};
@@ -68,8 +69,13 @@ impl Layer {
     /// Draws the picture into the true framebuffer 0 and captures what is wanted.
     fn present(&mut self, gl: &Gl, image: u32) {
         self.end_scene(gl);
-        let own = self.rests() || self.synthesis.field.is_some();
-        self.atlas.resolve(gl, own, c::COLOR_BUFFER_BIT);
+        if self.synthesis.field.is_none() {
+            let views = match self.rests() {
+                true => self.atlas.tiles.own_alone(),
+                false => Shown::ALL,
+            };
+            self.atlas.resolve(gl, &views, c::COLOR_BUFFER_BIT);
+        }
         let output = self.output();
         let depth = (output == Output::Rgbd).then(|| self.own_depth(gl));
         gl.bind_framebuffer(c::FRAMEBUFFER, 0);
@@ -136,7 +142,8 @@ impl Layer {
         let reversed = self.frame.nearer_is_larger.unwrap_or(false);
         let mut values = Vec::with_capacity(width as usize * height as usize);
         if self.atlas.depth != 0 {
-            self.atlas.resolve(gl, true, c::DEPTH_BUFFER_BIT);
+            self.atlas
+                .resolve(gl, &self.atlas.tiles.own_alone(), c::DEPTH_BUFFER_BIT);
             let (from, x) = self.atlas.readable(tiles.own());
             gl.bind_framebuffer(c::READ_FRAMEBUFFER, from);
             let read = gl.read_depth32(x, 0, width, height);
@@ -164,7 +171,9 @@ impl Layer {
         self.queries.lift_condition(gl);
         let saved = Saved::take(gl, self.state.compatibility);
         let picture = self.reading(gl, BACK, |layer| {
-            layer.atlas.resolve(gl, true, c::COLOR_BUFFER_BIT);
+            layer
+                .atlas
+                .resolve(gl, &layer.atlas.tiles.own_alone(), c::COLOR_BUFFER_BIT);
             tile(gl, &layer.atlas, layer.atlas.tiles.own())
         });
         saved.restore(gl);
@@ -290,7 +299,8 @@ impl Layer {
                 .and_then(|i| capture::write(&i, &path)),
             CaptureWhat::Samples => capture::write_bytes(&self.samples(), &path),
             CaptureWhat::Depth => {
-                self.atlas.resolve(gl, true, c::DEPTH_BUFFER_BIT);
+                let own = self.atlas.tiles.own_alone();
+                self.atlas.resolve(gl, &own, c::DEPTH_BUFFER_BIT);
                 let t = &source.tiles;
                 let (from, x) = self.atlas.readable(t.own());
                 gl.bind_framebuffer(c::READ_FRAMEBUFFER, from);

@@ -182,15 +182,23 @@ impl Layer {
         self.twins = twins;
     }
 
-    /// By how much samples are moved is not blended.
+    /// By how much samples are moved is not blended, and written whatever colours the program leaves out.
     fn unblended<R>(&mut self, gl: &Gl, draw: impl FnOnce(&mut Self) -> R) -> R {
         let blends = self.state.look.blends;
         if blends {
             gl.disablei(c::BLEND, 1);
         }
+        let mask: [i32; 4] = gl.get_integers_indexed(c::COLOR_WRITEMASK, 1);
+        if mask[0] == 0 {
+            gl.color_maski(1, 1, 1, 1, 1);
+        }
         let done = draw(self);
         if blends {
             gl.enablei(c::BLEND, 1);
+        }
+        if mask[0] == 0 {
+            let [r, g, b, a] = mask.map(|on| u8::from(on != 0));
+            gl.color_maski(1, r, g, b, a);
         }
         done
     }

@@ -6,7 +6,7 @@
 //! them: the same number by the strategy that was chosen and by nothing but replay, in turns.
 
 use super::{Layer, explain, frame::tile, keep_bindings, make_atlas};
-use crate::atlas::{Atlas, Grid};
+use crate::atlas::{Atlas, Grid, Shown};
 use crate::config::{Output, Strategy, Word};
 use crate::draw::{Again, replay};
 use crate::gl::{Gl, consts as c};
@@ -258,7 +258,7 @@ impl Layer {
             return None;
         }
         self.change_places();
-        self.atlas.resolve(gl, false, c::COLOR_BUFFER_BIT);
+        self.atlas.resolve(gl, &Shown::ALL, c::COLOR_BUFFER_BIT);
         gl.bind_framebuffer(c::FRAMEBUFFER, 0);
         self.draw_picture(gl, image, None);
         self.change_places();
@@ -357,9 +357,9 @@ impl Layer {
     }
 
     fn resolve_both(&self, gl: &Gl) {
-        self.atlas.resolve(gl, false, c::COLOR_BUFFER_BIT);
+        self.atlas.resolve(gl, &Shown::ALL, c::COLOR_BUFFER_BIT);
         if let Some(other) = &self.proving.atlas {
-            other.resolve(gl, false, c::COLOR_BUFFER_BIT);
+            other.resolve(gl, &Shown::ALL, c::COLOR_BUFFER_BIT);
         }
     }
 

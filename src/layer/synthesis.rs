@@ -459,9 +459,13 @@ impl Layer {
 
     /// Only with what views are made of, colours and depths.
     fn resolve_sources(&mut self, gl: &Gl) {
-        let only_own = self.synthesis.sources.is_none();
+        let sources = self.synthesis.sources;
+        let views = match sources {
+            Some(sources) => sources.iter().collect(),
+            None => self.atlas.tiles.own_alone(),
+        };
         let both = c::COLOR_BUFFER_BIT | c::DEPTH_BUFFER_BIT;
-        self.atlas.resolve(gl, only_own, both);
+        self.atlas.resolve(gl, &views, both);
     }
 
     /// Learns of the views that are drawn, or of their copies, what others need of them; and the map for the next frame.

@@ -8,6 +8,7 @@
  *   instanced  the same, by glDrawArraysInstanced
  *   strips     fixed function, a strip for each column of the wall, as large as its squares; fans, polygons, quads: likewise
  *   indexed    the same, by indices of the program's own
+ *   cyan       the same as strips, without writing red
  *   list       fixed function, in a display list
  *   several    GLSL 1.20, two colours are written
  *   geometry   GLSL 1.50, with a geometry shader */
@@ -76,7 +77,7 @@ static void draw_squares(GLsizei number)
     }
 }
 
-static int in_squares(void) { return is("strips") || is("fans") || is("polygons") || is("quads") || is("indexed"); }
+static int in_squares(void) { return is("strips") || is("cyan") || is("fans") || is("polygons") || is("quads") || is("indexed"); }
 
 static void box(double left, double right, double low, double high, double z, unsigned light, unsigned dark)
 {
@@ -179,7 +180,9 @@ static void tell(int frame, GLuint program, const GLuint *unit)
     glGetIntegerv(GL_SAMPLER_BINDING, &value[1]);
     glActiveTexture(GL_TEXTURE0);
     int same = (GLuint)value[0] == unit[0] && (GLuint)value[1] == unit[1];
-    printf(", unit %d: %s, blend %d", UNIT, same ? "its" : "another's", glIsEnabledi(GL_BLEND, 1));
+    GLboolean written[4];
+    glGetBooleani_v(GL_COLOR_WRITEMASK, 1, written);
+    printf(", unit %d: %s, blend %d, red %d", UNIT, same ? "its" : "another's", glIsEnabledi(GL_BLEND, 1), written[0]);
     glReadPixels(0, 0, WIDTH, HEIGHT, GL_RGBA, GL_UNSIGNED_BYTE, pixels);
     unsigned sum = 0;
     for (size_t i = 0; i < sizeof pixels; i++)
@@ -252,6 +255,7 @@ int main(int argc, char **argv)
         listed = 1;
     }
     glEnable(GL_DEPTH_TEST);
+    glColorMask(!is("cyan"), GL_TRUE, GL_TRUE, GL_TRUE);
     for (int frame = 1; frame <= 4; frame++) {
         glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
         draw(0, wall_count);
