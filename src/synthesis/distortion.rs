@@ -1,35 +1,60 @@
 //! The distortion map of the depth-discontinuity occlusion camera: how rays are bent at each pixel.
 //!
-//! Popescu et al., section IV.C: steps 3 to 5 and asymmetrical splats (Equation 1); the magnitude over depth is a part of Equation 2. What
-//! differs from the paper, because splats of scenes with edges everywhere take each other's place:
+//! Popescu et al., section IV.C: steps 3 to 5 and asymmetrical splats (Equation 1). What differs from the paper, because splats of scenes with
+//! edges everywhere take each other's place:
 //!
+//! - Equation 2 moves what lies halfway in depth by half of what it moves the background by, which leaves it behind the edge from a place on that
+//!   viewpoints do see: of r/2 only r/3 comes out, with α = 4 only r/6. Here Equation 1 holds for each depth, with as much of r as viewpoints part that
+//!   depth from the edge. Rays are then parallel to those of the farthest viewpoint as long as they have the room, and close up only beyond.
+//! - How far away an edge is is measured from each place, not from the middle of its pixel, so that samples keep their order within a splat.
 //! - D is the most. A splat reaches as far as the viewpoints that matter can part what makes the edge. That matters where small steps count as
 //!   edges, and little where only large ones do (docs/measured.md).
 //! - Of two splats, the one that reaches farther has some more of the places between them.
-//! - A conflict counts where the splat's own samples go, in front of the edge, not somewhere in its disc.
-//! - α is the most, too: a splat has room before the background up to a conflict, and only where that is less than its radius is it asymmetrical.
+//! - A conflict counts where the splat's own samples go, in front of the edge, not somewhere in its disc; and from 60° on.
+//! - α is the most, too: a splat has room before the background up to a conflict, and only where that is less than it reaches is it asymmetrical.
 //! - What a reduced splat gives up is taken by the next one that reaches there.
 
 use super::{Edge, Edges};
 
-/// How the rays near a depth discontinuity are bent: the five-tuple of the paper, depths as 1/w.
+/// Pixels from the middle of the last pixel in front to where it ends.
+const END: f64 = 0.25;
+/// Of the room before the background a splat takes so much.
+const TAKEN: f64 = 0.8;
+/// Directions conflict if the cosine between them is less: 60° and more.
+const ALIKE: f64 = 0.5;
+
+/// How the rays near a depth discontinuity are bent. Depths are 1/w.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Distortion {
     /// (d_u, d_v), of length 1, away from what is in front.
     pub direction: [f64; 2],
+    /// Where what is in front ends, in pixels.
+    pub edge: [f64; 2],
     /// 1/z_n: up to there nothing moves.
     pub near: f64,
-    /// 1/z_f: from there on everything moves by the whole.
+    /// 1/z_f.
     pub far: f64,
-    /// d_f, in pixels.
-    pub magnitude: f64,
+    /// Pixels behind what is in front that viewpoints see of what is as far away as z_f.
+    pub seen: f64,
+    /// r: the most that is reached, at any depth.
+    pub radius: f64,
+    /// Pixels before the background; where that is less than what is reached, α is their ratio.
+    pub room: f64,
 }
 
 impl Distortion {
-    /// Pixels by which something at 1/w moves: d(z) of Equation 2.
-    pub fn at(&self, inverse: f64) -> f64 {
-        let depth = (self.near - inverse) / (self.near - self.far);
-        depth.clamp(0.0, 1.0) * self.magnitude
+    /// Pixels by which something at a place and 1/w moves.
+    pub fn at(&self, place: [f64; 2], inverse: f64) -> f64 {
+        let to = [0, 1].map(|i| place[i] - self.edge[i]);
+        let x = to[0].hypot(to[1]).copysign(dot(to, self.direction));
+        let depth = ((self.near - inverse) / (self.near - self.far)).clamp(0.0, 1.0);
+        let reach = (depth * self.seen).min(self.radius);
+        match x {
+            // No viewpoint sees this: it stays behind what is in front, and what is seen does not tear from it.
+            _ if x < -self.radius => 0.0,
+            _ if x < -reach => (2.0 * reach + x).max(0.0),
+            _ => magnitude(x, reach, (reach / self.room).max(1.0)),
+        }
     }
 }
 
@@ -59,7 +84,7 @@ impl Distortions {
         let most = |edge: &Edge| (splats.parallax * (edge.near - edge.far)).min(splats.radius);
         let most: Vec<f64> = edges.iter().map(most).collect();
         let first = owners(size, edges, &most);
-        let room = |(edge, &most)| first.room(edges, edge, most);
+        let room = |(edge, &most)| TAKEN * first.room(edges, edge, most);
         let room: Vec<f64> = edges.iter().zip(&most).map(room).collect();
         let radius = |(room, most): (&f64, &f64)| (room * splats.asymmetry).min(*most);
         let radii: Vec<f64> = room.iter().zip(&most).map(radius).collect();
@@ -72,12 +97,14 @@ impl Distortions {
             if x.abs() > r || r <= 0.0 {
                 return None;
             }
-            let magnitude = magnitude(x, r, (r / room.get(number)?).max(1.0));
-            (magnitude > 0.0).then_some(Distortion {
+            Some(Distortion {
                 direction: edge.normal,
+                edge: [0, 1].map(|i| edge.at[i] as f64 + 0.5 + END * edge.normal[i]),
                 near: edge.near,
                 far: edge.far,
-                magnitude,
+                seen: *most.get(number)?,
+                radius: r,
+                room: *room.get(number)?,
             })
         };
         Distortions {
@@ -156,13 +183,13 @@ impl Owners {
             .flatten()?
     }
 
-    /// Step 4: pixels before the background up to where a splat has the place that bends the other way, by more than 90°.
+    /// Step 4: pixels before the background up to where a splat has the place that bends another way.
     fn room(&self, edges: &[Edge], edge: &Edge, most: f64) -> f64 {
         let place =
             |t: f64| [0, 1].map(|i| (edge.at[i] as f64 + t * edge.normal[i]).round() as i64);
         let conflict = |t: &f64| {
             let other = self.at(place(*t)).and_then(|owner| edges.get(owner.number));
-            other.is_some_and(|other| dot(edge.normal, other.normal) < 0.0)
+            other.is_some_and(|other| dot(edge.normal, other.normal) < ALIKE)
         };
         let steps = (1..).map(f64::from).take_while(|t| *t < most);
         steps.into_iter().find(conflict).unwrap_or(most)

@@ -8,7 +8,7 @@ use super::warp::{View, excess, finish};
 use super::{DepthImage, Distortions, Motion, Reference, Shift, Triangle, Vertex};
 
 /// Pixels that one of the reference image may cover to either side, as far as half of the way to the next one.
-const WIDEST: f64 = 2.5;
+const WIDEST: f64 = 4.0;
 
 impl From<&DepthImage> for Reference {
     fn from(image: &DepthImage) -> Reference {
@@ -221,17 +221,22 @@ impl Joints {
             across: vec![false; w * h],
             down: vec![false; w * h],
         };
+        // Where the undistorted camera has two in another order, something else lies between them.
+        let order = |first: usize, next: usize, side: usize| {
+            let moved = |at: usize| image.samples[at].map_or(0.0, |s| s.moved[side]);
+            drawn(first) && drawn(next) && moved(next) - moved(first) < 1.0
+        };
         for (y, row) in inverses.chunks(w.max(1)).enumerate() {
             for x in 1..w {
                 let at = y * w + x - 1;
-                joints.across[at] = drawn(at) && drawn(at + 1) && excess(row, x - 1) <= threshold;
+                joints.across[at] = order(at, at + 1, 0) && excess(row, x - 1) <= threshold;
             }
         }
         for x in 0..w {
             let column: Vec<f32> = (0..h).map(|y| inverses[y * w + x]).collect();
             for y in 1..h {
                 let at = (y - 1) * w + x;
-                joints.down[at] = drawn(at) && drawn(at + w) && excess(&column, y - 1) <= threshold;
+                joints.down[at] = order(at, at + w, 1) && excess(&column, y - 1) <= threshold;
             }
         }
         joints

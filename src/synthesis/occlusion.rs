@@ -110,11 +110,11 @@ impl Reference {
     }
 }
 
-/// Equation 2.
+/// Equation 2, but for d(z): see [`super::Distortion::at`].
 fn project(vertex: &Vertex, distortions: &Distortions) -> Projected {
     let [u, v] = vertex.at;
     let moved = distortions.at(u, v).map_or([0.0; 2], |distortion| {
-        let by = distortion.at(vertex.inverse);
+        let by = distortion.at(vertex.at, vertex.inverse);
         distortion.direction.map(|part| part * by)
     });
     Projected {

@@ -41,6 +41,8 @@ const ASYMMETRY: f64 = 4.0;
 const MORE: f64 = 1.1;
 /// A step in depth is one that opens a hole wider than this at the farthest viewpoint, pixels. Less is joined.
 const STEP: f64 = 4.0;
+/// Rays are bent where one of this opens.
+const EDGE: f64 = 3.5;
 /// A sample is another one if it parts from it by more than this on the way to the farthest viewpoint, pixels.
 const TOLERANCE: f64 = 1.0;
 
@@ -104,7 +106,7 @@ impl Experiment {
     /// The rays of the occlusion camera, of what the reference viewpoint sees.
     #[must_use]
     pub fn distortions(&self, depth_image: &Reference) -> Distortions {
-        let edges = Edges::of(&depth_image.depth_image(), self.step());
+        let edges = Edges::of(&depth_image.depth_image(), EDGE / self.parallax());
         let splats = Splats {
             radius: RADIUS * self.scale() / SCALE,
             parallax: self.parallax() * MORE,
