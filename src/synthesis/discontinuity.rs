@@ -30,6 +30,10 @@ pub struct Edge {
 pub struct Edges {
     /// Rows from the top, from left to right.
     pub all: Vec<Edge>,
+    /// 1/w by pixel of what they were found in.
+    pub(super) depths: Vec<f32>,
+    /// 1/w of a step.
+    pub(super) threshold: f64,
 }
 
 impl Edges {
@@ -82,6 +86,10 @@ impl Edges {
         };
         Edges {
             all: (0..w * h).filter_map(edge).collect(),
+            depths: (0..h)
+                .flat_map(|y| image.inverses(y as u32).to_vec())
+                .collect(),
+            threshold,
         }
     }
 }

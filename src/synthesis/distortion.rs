@@ -13,6 +13,8 @@
 //! - A conflict counts where the splat's own samples go, in front of the edge, not somewhere in its disc; and from 60° on.
 //! - α is the most, too: a splat has room before the background up to a conflict, and only where that is less than it reaches is it asymmetrical.
 //! - What a reduced splat gives up is taken by the next one that reaches there.
+//! - A place keeps the closest splat that bends another way, too. What the closest one leaves behind something, and this one brings out, it bends.
+//!   Samples keep their vectors, so it need not be known later which one it was.
 
 use super::{Edge, Edges};
 
@@ -22,6 +24,8 @@ const END: f64 = 0.25;
 const TAKEN: f64 = 0.8;
 /// Directions conflict if the cosine between them is less: 60° and more.
 const ALIKE: f64 = 0.5;
+/// Parts of a step by which something may lie behind the drawn surface and still be of it.
+const SAME: f64 = 0.5;
 
 /// How the rays near a depth discontinuity are bent. Depths are 1/w.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -75,21 +79,32 @@ pub struct Splats {
 pub struct Distortions {
     size: [u32; 2],
     map: Vec<Option<Distortion>>,
+    /// Of splats that bend another way than those of `map`.
+    others: Vec<Option<Distortion>>,
+    /// 1/w by pixel of what straight rays see.
+    depths: Vec<f32>,
+    /// 1/w by which something may lie behind that and still be of it.
+    same: f64,
 }
 
 impl Distortions {
     /// Of the discontinuities of a picture of this size.
     pub fn of(size: [u32; 2], edges: &Edges, splats: &Splats) -> Distortions {
+        let (depths, same) = (edges.depths.clone(), edges.threshold * SAME);
         let edges = &edges.all;
         let most = |edge: &Edge| (splats.parallax * (edge.near - edge.far)).min(splats.radius);
         let most: Vec<f64> = edges.iter().map(most).collect();
-        let first = owners(size, edges, &most);
+        let first = owners(size, edges, &most, |_, _| true);
         let room = |(edge, &most)| TAKEN * first.room(edges, edge, most);
         let room: Vec<f64> = edges.iter().zip(&most).map(room).collect();
         let radius = |(room, most): (&f64, &f64)| (room * splats.asymmetry).min(*most);
         let radii: Vec<f64> = room.iter().zip(&most).map(radius).collect();
-        let owners = owners(size, edges, &radii);
-        let reaches = owners.reaches(edges, &radii);
+        let closest = owners(size, edges, &radii, |_, _| true);
+        let others = owners(size, edges, &radii, |at, edge| {
+            let own = closest.all[at].and_then(|owner| edges.get(owner.number));
+            own.is_some_and(|own| dot(own.normal, edge.normal) < ALIKE)
+        });
+        let reaches = closest.reaches(edges, &radii);
         // Step 5.
         let sample = |owner: &Option<Owner>| {
             let Owner { number, x } = (*owner)?;
@@ -109,22 +124,47 @@ impl Distortions {
         };
         Distortions {
             size,
-            map: owners.all.iter().map(sample).collect(),
+            map: closest.all.iter().map(sample).collect(),
+            others: others.all.iter().map(sample).collect(),
+            depths,
+            same,
         }
     }
 
     /// None: straight rays.
     pub fn none(size: [u32; 2]) -> Distortions {
-        let map = Vec::new();
-        Distortions { size, map }
+        Distortions {
+            size,
+            map: Vec::new(),
+            others: Vec::new(),
+            depths: Vec::new(),
+            same: 0.0,
+        }
     }
 
-    /// At a place in the picture.
-    pub fn at(&self, u: f64, v: f64) -> Option<&Distortion> {
+    /// Of something at a place in the picture and 1/w.
+    pub fn at(&self, place: [f64; 2], inverse: f64) -> Option<&Distortion> {
+        let index = self.index(place)?;
+        let closest = self.map.get(index)?.as_ref()?;
+        let Some(other) = self.others.get(index).and_then(Option::as_ref) else {
+            return Some(closest);
+        };
+        let out = |place| {
+            let drawn = self.index(place).and_then(|index| self.depths.get(index));
+            drawn.is_some_and(|drawn| f64::from(*drawn) <= inverse + self.same)
+        };
+        let moved = |distortion: &Distortion| {
+            let by = distortion.at(place, inverse);
+            [0, 1].map(|i| place[i] + distortion.direction[i] * by)
+        };
+        let stays = out(place) || out(moved(closest)) || !out(moved(other));
+        Some(if stays { closest } else { other })
+    }
+
+    fn index(&self, [u, v]: [f64; 2]) -> Option<usize> {
         let [w, h] = self.size.map(f64::from);
         let inside = (0.0..w).contains(&u) && (0.0..h).contains(&v);
-        let index = || v as usize * self.size[0] as usize + u as usize;
-        inside.then(|| self.map.get(index())?.as_ref()).flatten()
+        inside.then(|| v as usize * self.size[0] as usize + u as usize)
     }
 }
 
@@ -135,8 +175,14 @@ struct Owner {
     x: f64,
 }
 
-/// Step 3: the splat whose centre is closest has the place, where one that reaches four times as far may be twice as far away.
-fn owners(size: [u32; 2], edges: &[Edge], radii: &[f64]) -> Owners {
+/// Step 3: the splat whose centre is closest has the place, where one that reaches four times as far may be twice as far away; `may`: of those of
+/// edges that may have the place of this index.
+fn owners(
+    size: [u32; 2],
+    edges: &[Edge],
+    radii: &[f64],
+    may: impl Fn(usize, &Edge) -> bool,
+) -> Owners {
     let [w, h] = size.map(i64::from);
     let mut all: Vec<Option<Owner>> = vec![None; (w * h) as usize];
     let relative = |owner: Owner| {
@@ -157,8 +203,10 @@ fn owners(size: [u32; 2], edges: &[Edge], radii: &[f64]) -> Owners {
                 }
                 let x_e = distance.copysign(dot(to, edge.normal));
                 let own = Owner { number, x: x_e };
-                if let Some(owner) = all.get_mut((y * w + x) as usize)
+                let at = (y * w + x) as usize;
+                if let Some(owner) = all.get_mut(at)
                     && owner.is_none_or(|other| relative(own) < relative(other))
+                    && may(at, edge)
                 {
                     *owner = Some(own);
                 }

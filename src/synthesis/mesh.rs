@@ -8,7 +8,7 @@ use super::warp::{View, excess, finish};
 use super::{DepthImage, Distortions, Motion, Reference, Shift, Triangle, Vertex};
 
 /// Pixels that one of the reference image may cover to either side, as far as half of the way to the next one.
-const WIDEST: f64 = 4.0;
+const WIDEST: f64 = 6.0;
 
 impl From<&DepthImage> for Reference {
     fn from(image: &DepthImage) -> Reference {
@@ -19,6 +19,7 @@ impl From<&DepthImage> for Reference {
                 inverse: f64::from(*inverse),
                 colour: colour.map(f64::from),
                 moved: [0.0; 2],
+                slopes: None,
             })
         };
         Reference {
@@ -39,6 +40,7 @@ impl Reference {
                 inverse: vertex.inverse,
                 colour: vertex.colour,
                 moved: [0, 1].map(|i| centre[i] - vertex.at[i]),
+                slopes: None,
             });
         }
         image
@@ -148,7 +150,7 @@ impl Reference {
     }
 
     /// How far what a sample is of reaches to one side, a step to a neighbouring pixel: half of the way to that, or, along the surface as its
-    /// neighbour on the other side has it, half of the way beyond. What is behind the next pixel's surface does not end between them, so it
+    /// neighbour on the other side has it or else its own triangle, half of the way beyond. What is behind the next pixel's surface does not end between them, so it
     /// reaches all of the way.
     fn margin(&self, own: &Vertex, at: [usize; 2], side: [isize; 2], joined: &[bool]) -> Margin {
         let neighbour = |sign: isize| {
@@ -174,10 +176,22 @@ impl Reference {
             .map(|(before, _)| towards(&before, -share));
         // Neighbours whose rays go entirely elsewhere say nothing.
         let near = |margin: &Margin| margin.at[0].hypot(margin.at[1]) <= 2.0 * share * WIDEST;
-        margin.filter(near).unwrap_or(Margin {
+        let margin = margin.filter(near);
+        let own = || self.slope(at, side, share).filter(near);
+        margin.or_else(own).unwrap_or(Margin {
             at: side.map(|step| step as f64 * share),
             inverse: 0.0,
         })
+    }
+
+    /// A share of the way to the next pixel on a side, on the triangle that a sample is of.
+    fn slope(&self, at: [usize; 2], side: [isize; 2], share: f64) -> Option<Margin> {
+        let index = at[1] * self.size[0] as usize + at[0];
+        let slopes = self.samples.get(index).copied().flatten()?.slopes?;
+        let [x, y] = side.map(|step| step as f64 * share);
+        let [inverse, u, v] = [0, 1, 2].map(|i| x * slopes[0][i] + y * slopes[1][i]);
+        let at = [x - u, y - v];
+        Some(Margin { at, inverse })
     }
 
     /// A sample where the undistorted camera projects it: (u_d − δ_u, v_d − δ_v).
@@ -226,17 +240,28 @@ impl Joints {
             let moved = |at: usize| image.samples[at].map_or(0.0, |s| s.moved[side]);
             drawn(first) && drawn(next) && moved(next) - moved(first) < 1.0
         };
+        // Both triangles go on to the other's sample, also where the step from one to the other changes.
+        let parted = |first: usize, next: usize, side: usize| {
+            let [a, b] = [image.samples[first]?, image.samples[next]?];
+            let off = |slopes: [[f64; 3]; 2]| (b.inverse - a.inverse - slopes[side][0]).abs();
+            Some(off(a.slopes?).max(off(b.slopes?)))
+        };
+        let alike = |first: usize, next: usize, side: usize, excess: f64| {
+            excess <= threshold || parted(first, next, side).is_some_and(|by| by <= threshold)
+        };
         for (y, row) in inverses.chunks(w.max(1)).enumerate() {
             for x in 1..w {
                 let at = y * w + x - 1;
-                joints.across[at] = order(at, at + 1, 0) && excess(row, x - 1) <= threshold;
+                joints.across[at] =
+                    order(at, at + 1, 0) && alike(at, at + 1, 0, excess(row, x - 1));
             }
         }
         for x in 0..w {
             let column: Vec<f32> = (0..h).map(|y| inverses[y * w + x]).collect();
             for y in 1..h {
                 let at = (y - 1) * w + x;
-                joints.down[at] = order(at, at + w, 1) && excess(&column, y - 1) <= threshold;
+                joints.down[at] =
+                    order(at, at + w, 1) && alike(at, at + w, 1, excess(&column, y - 1));
             }
         }
         joints

@@ -6,6 +6,7 @@
 use super::Distortions;
 use super::raster::raster;
 use super::warp::{Seen, View, finish};
+use std::cell::LazyCell;
 
 /// A vertex as the undistorted camera projects it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -30,6 +31,8 @@ pub(super) struct Sample {
     pub(super) colour: [f64; 3],
     /// The distortion vector, in pixels.
     pub(super) moved: [f64; 2],
+    /// Where it was drawn, of what: changes of 1/w and of the two parts of the vector over the triangle, to the next column and to the next row.
+    pub(super) slopes: Option<[[f64; 3]; 2]>,
 }
 
 /// A projected vertex.
@@ -76,6 +79,7 @@ impl Reference {
 
     fn rasterise(&mut self, triangle: [Projected; 3]) {
         let size = self.size;
+        let slopes = LazyCell::new(|| slopes(&triangle));
         raster(size, triangle.map(|v| v.at), |index, weights| {
             let mix = |f: &dyn Fn(&Sample) -> f64| {
                 let parts = triangle.iter().zip(weights);
@@ -89,6 +93,7 @@ impl Reference {
                     inverse,
                     colour: [0, 1, 2].map(|i| mix(&|s| s.colour[i])),
                     moved: [0, 1].map(|i| mix(&|s| s.moved[i])),
+                    slopes: *slopes,
                 });
             }
         });
@@ -110,10 +115,26 @@ impl Reference {
     }
 }
 
+/// Of 1/w and the distortion vector over a triangle, as [`Sample::slopes`] has them; None if it has no area.
+fn slopes([a, b, c]: &[Projected; 3]) -> Option<[[f64; 3]; 2]> {
+    let values = |v: &Projected| [v.sample.inverse, v.sample.moved[0], v.sample.moved[1]];
+    let side = |v: &Projected| [0, 1].map(|i| v.at[i] - a.at[i]);
+    let rise = |v: &Projected| [0, 1, 2].map(|i| values(v)[i] - values(a)[i]);
+    let ([p, q], [f, g]) = ([side(b), side(c)], [rise(b), rise(c)]);
+    let area = p[0] * q[1] - p[1] * q[0];
+    area.is_normal().then(|| {
+        [
+            [0, 1, 2].map(|i| (f[i] * q[1] - g[i] * p[1]) / area),
+            [0, 1, 2].map(|i| (g[i] * p[0] - f[i] * q[0]) / area),
+        ]
+    })
+}
+
 /// Equation 2, but for d(z): see [`super::Distortion::at`].
 fn project(vertex: &Vertex, distortions: &Distortions) -> Projected {
     let [u, v] = vertex.at;
-    let moved = distortions.at(u, v).map_or([0.0; 2], |distortion| {
+    let distortion = distortions.at(vertex.at, vertex.inverse);
+    let moved = distortion.map_or([0.0; 2], |distortion| {
         let by = distortion.at(vertex.at, vertex.inverse);
         distortion.direction.map(|part| part * by)
     });
@@ -123,6 +144,7 @@ fn project(vertex: &Vertex, distortions: &Distortions) -> Projected {
             inverse: vertex.inverse,
             colour: vertex.colour,
             moved,
+            slopes: None,
         },
     }
 }
