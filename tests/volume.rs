@@ -4,10 +4,13 @@
 mod support;
 
 use image::RgbImage;
-use manyview::volume::{Difference, RotatingScreen, Slices, Triangle, Vertex, Volume};
+use manyview::bench::disocclusion::Experiment;
+use manyview::model::{MODELS, triangles};
+use manyview::volume::{
+    Difference, ReferenceImage, RotatingScreen, Slices, Triangle, Vertex, Volume,
+};
 use std::ffi::OsString;
 use std::fs;
-use support::surfaces::{depth_image, statues};
 use support::{demo, manyview, refused, rgb, run, succeed};
 use tempfile::tempdir;
 
@@ -96,16 +99,24 @@ fn what_cannot_be_simulated_is_one_line_and_status_2() {
 #[test]
 fn a_reference_image_has_what_its_viewer_sees() {
     let screen = RotatingScreen::POPESCU;
-    let triangles = statues(200_000);
-    let image = depth_image(&screen, &triangles, [720, 480], 0.3);
+    let experiment = Experiment { size: [720, 480] };
+    let scene = (MODELS[0].surfaces)();
+    let camera = experiment.camera([0.0; 3]);
+    let drawn = experiment.draw(&camera, &scene);
+    let image = ReferenceImage::of(&drawn, &camera, experiment.step());
+    let vertex = |corner: manyview::model::Corner| Vertex {
+        at: corner.at,
+        colour: corner.colour,
+    };
+    let triangles: Vec<Triangle> = triangles(&scene).map(|solid| solid.map(vertex)).collect();
     let whole = Volume::of_triangles(&screen, &triangles).expect("a display");
     let seen = Volume::of_reference(&screen, &image).expect("a display");
     assert!(seen.len() * 2 < whole.len(), "much is hidden");
     let at = |eye| Difference::between(&whole, &seen, &[eye]).expect("an eye outside");
     let front = at([0.0, 0.0, screen.viewer]);
-    assert!(front.lost * 33 < front.seen, "{front:?}");
+    assert!(front.lost * 50 < front.seen, "{front:?}");
     assert!(
-        front.wrong * 50 < front.drawn && front.colour < 3.0,
+        front.wrong * 50 < front.drawn && front.colour < 5.0,
         "{front:?}"
     );
     let side = at([screen.viewer, 0.0, 0.0]);

@@ -45,7 +45,9 @@ impl Volume {
                 let light = &light;
                 move |half_plane: u32| {
                     let voxels = self.half_planes.get(half_plane as usize);
-                    let mut lit = Vec::with_capacity(voxels.map_or(0, Vec::len));
+                    let none = Lit { at: 0, channels: 0 };
+                    let mut lit = vec![none; voxels.map_or(0, Vec::len)];
+                    let mut count = 0;
                     for voxel in voxels.into_iter().flatten() {
                         let place = [half_plane, voxel.at / columns, voxel.at % columns];
                         let mut channels = 0;
@@ -53,11 +55,14 @@ impl Volume {
                             let light = light.get(usize::from(stored)).copied().unwrap_or(0.0);
                             channels |= u8::from(light > threshold(place, channel)) << channel;
                         }
-                        if channels != 0 {
+                        // Whether one shines is anything but predictable: no branch.
+                        if let Some(next) = lit.get_mut(count) {
                             let at = voxel.at;
-                            lit.push(Lit { at, channels });
+                            *next = Lit { at, channels };
                         }
+                        count += usize::from(channels != 0);
                     }
+                    lit.truncate(count);
                     lit
                 }
             }),

@@ -1,19 +1,22 @@
 //! Pieces of surfaces on their way into voxels.
 //!
 //! Each thread collects its pieces by half plane, and then each half plane is put together by one thread: no locks, and the voxels that
-//! are worked on fit into a cache. The result does not depend on the number of threads.
+//! are worked on fit into a cache. The result does not depend on the number of threads, nor on what they have done first.
 
 use super::display::{Cells, Place};
 use super::{RotatingScreen, Volume, Voxel};
 use std::num::NonZero;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Bits of a channel's sum, and pieces that fit; further ones are left out.
+/// Bits of a channel's sum, and pieces that fit.
 const SUM: u32 = 18;
 const MOST: u64 = (1 << (64 - 3 * SUM)) - 1;
 
-/// Room for pieces of a half plane, to begin with.
-const FIRST: usize = 256;
+/// Pieces of a half plane that are kept in one place.
+const CHUNK: usize = 1024;
+
+/// Parts that the work is cut into for each thread: one that is done with its own takes another's.
+const PARTS: usize = 16;
 
 /// Red, green and blue in the low three bytes.
 pub(super) fn packed([r, g, b]: [u8; 3]) -> u32 {
@@ -25,6 +28,8 @@ pub(super) struct Fragments {
     pub(super) cells: Cells,
     /// By half plane: the voxel in the high half, the colour in the low one.
     pieces: Vec<Vec<u64>>,
+    /// Where those were full, by half plane: pieces are not moved when there are more.
+    full: Vec<Vec<Vec<u64>>>,
 }
 
 impl Fragments {
@@ -32,8 +37,9 @@ impl Fragments {
         Fragments {
             cells,
             pieces: (0..cells.half_planes)
-                .map(|_| Vec::with_capacity(FIRST))
+                .map(|_| Vec::with_capacity(CHUNK))
                 .collect(),
+            full: vec![Vec::new(); cells.half_planes as usize],
         }
     }
 
@@ -41,11 +47,53 @@ impl Fragments {
     #[inline(always)]
     pub(super) fn put(&mut self, place: Place, colour: u32) {
         if self.cells.inside(place) {
-            let (half_plane, at) = self.cells.voxel(place);
-            if let Some(pieces) = self.pieces.get_mut(half_plane as usize) {
-                pieces.push(u64::from(at) << 32 | u64::from(colour));
-            }
+            self.push(self.cells.voxel(place), colour);
         }
+    }
+
+    /// The first pieces of some.
+    #[inline(always)]
+    pub(super) fn put_all<const N: usize>(
+        &mut self,
+        places: &[Place; N],
+        colours: &[u32; N],
+        count: usize,
+    ) {
+        let cells = self.cells;
+        let mut voxels = [(0, 0); N];
+        let mut inside = [false; N];
+        for ((voxel, inside), &place) in voxels.iter_mut().zip(&mut inside).zip(places) {
+            (*voxel, *inside) = (cells.voxel(place), cells.inside(place));
+        }
+        let pieces = voxels.iter().zip(&inside).zip(colours).take(count);
+        for ((&voxel, _), &colour) in pieces.filter(|((_, inside), _)| **inside) {
+            self.push(voxel, colour);
+        }
+    }
+
+    #[inline(always)]
+    fn push(&mut self, (half_plane, at): (u32, u32), colour: u32) {
+        if let Some(pieces) = self.pieces.get_mut(half_plane as usize) {
+            if pieces.len() == pieces.capacity() {
+                renew(pieces, self.full.get_mut(half_plane as usize));
+            }
+            pieces.push(u64::from(at) << 32 | u64::from(colour));
+        }
+    }
+
+    /// The pieces of a half plane.
+    fn of(&self, half_plane: u32) -> impl Iterator<Item = &[u64]> {
+        let full = self.full.get(half_plane as usize).into_iter().flatten();
+        full.chain(self.pieces.get(half_plane as usize))
+            .map(Vec::as_slice)
+    }
+}
+
+/// Puts pieces to those that are full.
+#[cold]
+fn renew(pieces: &mut Vec<u64>, full: Option<&mut Vec<Vec<u64>>>) {
+    if let Some(full) = full {
+        full.push(std::mem::replace(pieces, Vec::with_capacity(CHUNK)));
     }
 }
 
@@ -54,26 +102,28 @@ pub(super) fn threads() -> usize {
     std::thread::available_parallelism().map_or(1, NonZero::get)
 }
 
-/// Runs a function on consecutive parts of `items`, one for each thread, and puts what they have made into voxels.
+/// Runs a function on consecutive parts of `items`, and puts what it has made into voxels.
 pub(super) fn collect<T: Sync>(
     screen: &RotatingScreen,
     items: &[T],
     part: impl Fn(&[T], &mut Fragments) + Sync,
 ) -> Volume {
     let cells = Cells::of(screen);
-    let each = items.len().div_ceil(threads()).max(1);
+    let each = items.len().div_ceil(PARTS * threads()).max(1);
+    let next = AtomicUsize::new(0);
+    let work = || {
+        let mut fragments = Fragments::new(cells);
+        loop {
+            let first = next.fetch_add(each, Ordering::Relaxed);
+            let rest = items.get(first..).unwrap_or_default();
+            if rest.is_empty() {
+                return fragments;
+            }
+            part(rest.get(..each).unwrap_or(rest), &mut fragments);
+        }
+    };
     let parts: Vec<Fragments> = std::thread::scope(|scope| {
-        let started: Vec<_> = items
-            .chunks(each)
-            .map(|items| {
-                let part = &part;
-                scope.spawn(move || {
-                    let mut fragments = Fragments::new(cells);
-                    part(items, &mut fragments);
-                    fragments
-                })
-            })
-            .collect();
+        let started: Vec<_> = (0..threads()).map(|_| scope.spawn(work)).collect();
         let done = started.into_iter().map(|thread| thread.join());
         done.map(|part| part.unwrap_or_else(|panic| std::panic::resume_unwind(panic)))
             .collect()
@@ -85,8 +135,10 @@ pub(super) fn collect<T: Sync>(
             let parts = &parts;
             move |half_plane: u32| {
                 for part in parts {
-                    for &piece in part.pieces.get(half_plane as usize).into_iter().flatten() {
-                        sums.add((piece >> 32) as u32, piece as u32);
+                    for pieces in part.of(half_plane) {
+                        for &piece in pieces {
+                            sums.add((piece >> 32) as u32, piece as u32);
+                        }
                     }
                 }
                 sums.taken()
@@ -134,6 +186,8 @@ struct Sums {
     /// A bit for each element of `set` that is not 0.
     some: Vec<u64>,
     count: usize,
+    /// Sums that were full, and their voxels.
+    full: Vec<(usize, u64)>,
 }
 
 impl Sums {
@@ -144,6 +198,7 @@ impl Sums {
             set: vec![0; words],
             some: vec![0; words.div_ceil(64)],
             count: 0,
+            full: Vec::new(),
         }
     }
 
@@ -156,15 +211,18 @@ impl Sums {
         else {
             return;
         };
-        if *set & bit == 0 {
-            *set |= bit;
+        // Whether a piece is the first one of its voxel is anything but predictable: no branch.
+        let had = u64::from(*set & bit != 0);
+        let before = *sum & had.wrapping_neg();
+        *sum = before + piece;
+        *set |= bit;
+        self.count += 1 - had as usize;
+        if let Some(some) = self.some.get_mut(word / 64) {
+            *some |= 1 << (word % 64);
+        }
+        if before >> (3 * SUM) == MOST {
+            self.full.push((at as usize, before));
             *sum = piece;
-            self.count += 1;
-            if let Some(some) = self.some.get_mut(word / 64) {
-                *some |= 1 << (word % 64);
-            }
-        } else if *sum >> (3 * SUM) < MOST {
-            *sum += piece;
         }
     }
 
@@ -183,23 +241,68 @@ impl Sums {
                     let Some(&sum) = self.sums.get(at) else {
                         continue;
                     };
-                    let count = (sum >> (3 * SUM)) as u32;
-                    let mean = |index: u32| {
-                        let sum = (sum >> (SUM * index)) as u32 & ((1 << SUM) - 1);
-                        match count {
-                            1 => sum as u8,
-                            _ => ((sum + count / 2) / count) as u8,
-                        }
+                    let colour = match self.full.is_empty() {
+                        true => mean(parts(sum)),
+                        false => mean(whole(&self.full, at, sum)),
                     };
-                    voxels.push(Voxel {
-                        at: at as u32,
-                        colour: [mean(0), mean(1), mean(2)],
-                    });
+                    let at = at as u32;
+                    voxels.push(Voxel { at, colour });
                 }
             }
         }
+        self.full.clear();
         voxels
     }
+}
+
+/// The parts of a voxel's sum, with those that were full.
+#[cold]
+fn whole(full: &[(usize, u64)], at: usize, sum: u64) -> [u32; 4] {
+    let mut whole = parts(sum);
+    for &(_, full) in full.iter().filter(|full| full.0 == at) {
+        for (whole, part) in whole.iter_mut().zip(parts(full)) {
+            *whole += part;
+        }
+    }
+    whole
+}
+
+/// A sum divided by a count is a product with this, shifted by 36 bits.
+const fn part_of_one(count: u32) -> u64 {
+    (1 << 36) / count as u64 + 1
+}
+
+/// Those of all counts that fit into a sum. There are as many divisions as voxels.
+static PARTS_OF_ONE: [u64; MOST as usize + 1] = {
+    let mut parts = [0; MOST as usize + 1];
+    let mut count = 1;
+    while count < parts.len() {
+        parts[count] = part_of_one(count as u32);
+        count += 1;
+    }
+    parts
+};
+
+/// The sums of red, green and blue, and the number of pieces.
+#[inline(always)]
+fn parts(sum: u64) -> [u32; 4] {
+    let channel = |index: u32| (sum >> (SUM * index)) as u32 & ((1 << SUM) - 1);
+    [
+        channel(0),
+        channel(1),
+        channel(2),
+        (sum >> (3 * SUM)) as u32,
+    ]
+}
+
+#[inline(always)]
+fn mean([red, green, blue, count]: [u32; 4]) -> [u8; 3] {
+    // Exact while the sum times the count is below 2^36: for 16,000 pieces.
+    let part = match PARTS_OF_ONE.get(count as usize) {
+        Some(&part) => part,
+        None => part_of_one(count),
+    };
+    [red, green, blue].map(|sum| ((u64::from(sum + count / 2) * part) >> 36) as u8)
 }
 
 /// The places of the bits that are set, from the lowest.
@@ -224,10 +327,14 @@ mod tests {
         for _ in 0..5000 {
             sums.add(64, packed([255, 255, 254]));
         }
+        for piece in 0..5000 {
+            sums.add(65, packed([if piece < 2500 { 10 } else { 20 }, 0, 254]));
+        }
         let voxel = |at, colour| Voxel { at, colour };
         let wanted = [
             voxel(3, [1, 2, 3]),
             voxel(64, [255, 255, 254]),
+            voxel(65, [15, 0, 254]),
             voxel(999, [15, 20, 128]),
         ];
         assert_eq!(sums.taken(), wanted);

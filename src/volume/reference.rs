@@ -5,9 +5,11 @@
 
 use super::display::{Cells, Place};
 use super::fragments::{Fragments, collect, packed};
-use super::patch::{Shape, corner, fill, steps, steps_in_space};
-use super::triangles::draw_in_space;
+use super::patch::{
+    Shape, corner, fill_anywhere, fill_in_space, fill_straight, fill_triangle, folded,
+};
 use super::{RotatingScreen, Vertex, Volume, VolumeError};
+use std::ops::Range;
 
 /// With which of its neighbours a sample is of one surface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -140,7 +142,7 @@ impl Volume {
             lower.place(&cells, row(first));
             if first > 0 {
                 upper.place(&cells, row(first - 1));
-                mark(row(first - 1), row(first), &mut upper, &mut lower);
+                mark(row(first - 1), row(first), &upper, &mut lower);
             }
             for &y in rows {
                 std::mem::swap(&mut upper, &mut lower);
@@ -159,6 +161,8 @@ struct Row {
     places: Vec<Place>,
     /// Samples that belong to a surface.
     used: Vec<bool>,
+    /// From the first sample that there is to the last one.
+    filled: Range<usize>,
 }
 
 impl Row {
@@ -169,28 +173,37 @@ impl Row {
             z: vec![0.0; width],
             places: vec![Place::default(); width],
             used: vec![false; width],
+            filled: 0..0,
         }
     }
 
     fn place(&mut self, cells: &Cells, samples: &[Option<Sample>]) {
         self.used.fill(false);
-        let points = self.x.iter_mut().zip(&mut self.y).zip(&mut self.z);
-        for (sample, ((x, y), z)) in samples.iter().zip(points) {
+        let first = samples.iter().position(Option::is_some).unwrap_or(0);
+        let end = samples.iter().rposition(Option::is_some);
+        self.filled = first..end.map_or(first, |last| last + 1);
+        let range = || self.filled.clone();
+        let (x, y, z) = (
+            &mut self.x[range()],
+            &mut self.y[range()],
+            &mut self.z[range()],
+        );
+        let points = x.iter_mut().zip(y.iter_mut()).zip(z.iter_mut());
+        for (sample, ((x, y), z)) in samples[range()].iter().zip(points) {
             let at = sample.map_or([0.0; 3], |sample| sample.at);
             [*x, *y, *z] = at.map(|part| part * cells.pixels_per_inch);
         }
-        let points = self.x.iter().zip(&self.y).zip(&self.z);
-        for (place, ((&x, &y), &z)) in self.places.iter_mut().zip(points) {
+        let points = x.iter().zip(y.iter()).zip(z.iter());
+        for (place, ((&x, &y), &z)) in self.places[range()].iter_mut().zip(points) {
             *place = cells.place([x, y, z]);
         }
     }
 }
 
 /// Which samples of two rows the surfaces between them have.
-fn mark(above: &[Option<Sample>], below: &[Option<Sample>], upper: &mut Row, lower: &mut Row) {
-    for x in 0..above.len().saturating_sub(1) {
+fn mark(above: &[Option<Sample>], below: &[Option<Sample>], upper: &Row, lower: &mut Row) {
+    for x in upper.filled.clone() {
         if quad(above, below, x).is_some() {
-            upper.used[x..x + 2].fill(true);
             lower.used[x..x + 2].fill(true);
         }
     }
@@ -204,9 +217,10 @@ fn draw_row(
     lower: &mut Row,
     fragments: &mut Fragments,
 ) {
-    mark(above, below, upper, lower);
-    for x in 0..above.len() {
+    for x in upper.filled.clone() {
         if let Some(samples) = quad(above, below, x) {
+            upper.used[x..x + 2].fill(true);
+            lower.used[x..x + 2].fill(true);
             let places = [
                 upper.places[x],
                 upper.places[x + 1],
@@ -221,45 +235,28 @@ fn draw_row(
 }
 
 #[inline(always)]
-fn draw_quad(samples: &[Sample; 4], places: [Place; 4], fragments: &mut Fragments) {
+fn draw_quad([a, b, c, d]: &[Sample; 4], places: [Place; 4], fragments: &mut Fragments) {
     let cells = fragments.cells;
-    match Shape::of(&cells, places) {
-        Shape::Straight(places, _) => {
-            let corners = [0, 1, 2, 3].map(|i| {
-                let Place { turn, out, down } = places[i];
-                corner([turn, out, down], samples[i].colour)
-            });
-            let edges = edges(&places, steps);
-            fill(&corners, edges, fragments, |_, [turn, out, down]| Place {
-                turn,
-                out,
-                down,
-            });
-        }
-        Shape::Bent => draw_bent(samples, &places, fragments),
+    let shape = Shape::of(&cells, places);
+    let place = |sample: &Sample| {
+        let at = sample.at.map(|part| part * cells.pixels_per_inch);
+        corner(at, sample.colour)
+    };
+    let corners = [place(a), place(b), place(c), place(d)];
+    match shape {
+        Shape::Straight(places, _) => fill_straight(&corners, &places, fragments),
+        Shape::Bent => fill_in_space(&corners, &places, fragments),
         Shape::Cut => {
-            let [a, b, c, d] = samples.map(|sample| Vertex {
-                at: sample.at,
-                colour: sample.colour,
-            });
-            draw_in_space(&[a, b, d], fragments);
-            draw_in_space(&[a, d, c], fragments);
+            if corners.iter().flatten().any(|v| !v.is_finite()) {
+                return;
+            }
+            if folded(&cells, &corners) {
+                let [a, b, c, d] = corners;
+                fill_triangle(&[a, b, d], fragments);
+                fill_triangle(&[a, d, c], fragments);
+            } else {
+                fill_anywhere(&corners, fragments);
+            }
         }
     }
-}
-
-#[inline(never)]
-fn draw_bent(samples: &[Sample; 4], places: &[Place; 4], fragments: &mut Fragments) {
-    let cells = fragments.cells;
-    let corners = samples.map(|s| corner(s.at.map(|part| part * cells.pixels_per_inch), s.colour));
-    let edges = edges(places, |a, b| steps_in_space(&cells, a, b));
-    fill(&corners, edges, fragments, Cells::place);
-}
-
-/// The steps along the upper edge, the lower one, and the longer of the others.
-#[inline(always)]
-fn edges([a, b, c, d]: &[Place; 4], steps: impl Fn(Place, Place) -> f32) -> [f32; 3] {
-    let sides = (steps(*a, *c), steps(*b, *d));
-    let longer = if sides.0 > sides.1 { sides.0 } else { sides.1 };
-    [steps(*a, *b), steps(*c, *d), longer]
 }

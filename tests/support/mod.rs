@@ -3,7 +3,6 @@
 #![allow(dead_code, reason = "each test file uses its part")]
 
 pub(crate) mod near;
-pub(crate) mod surfaces;
 pub(crate) mod views;
 
 use image::{ImageBuffer, RgbImage, Rgba};

@@ -70,6 +70,24 @@ fn hidden_samples_are_in_the_reference_image_where_they_would_be_seen() {
 }
 
 #[test]
+fn an_image_over_another_one_is_not_joined_to_it() {
+    let square = |z: f32| {
+        let corner = |x: f32, y: f32| Sample {
+            at: [x, y, z],
+            colour: GREY,
+            joined: Joined::Both,
+        };
+        let samples = [[0.0, 1.0], [1.0, 1.0], [0.0, 0.0], [1.0, 0.0]];
+        let samples = samples.map(|[x, y]| Some(corner(x, y)));
+        ReferenceImage::new([2, 2], samples.to_vec()).unwrap()
+    };
+    let both = square(1.0).over(square(-1.0));
+    assert_eq!(both.size(), [2, 4]);
+    let wanted = [square(1.0).triangles(), square(-1.0).triangles()].concat();
+    assert_eq!(both.triangles(), wanted);
+}
+
+#[test]
 fn zero_parallax_stands_in_the_plane_of_the_axis() {
     let all = samples(&shown(), Source::Own, true);
     let depths: Vec<i32> = all.iter().map(|at| at[2]).collect();
