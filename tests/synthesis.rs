@@ -500,13 +500,25 @@ fn clears_of_their_own_begin_a_scene() {
 /// Frames that take no time to speak of, at a rate of one a second: views are added, one after the other, until all are drawn.
 #[test]
 fn all_views_are_drawn_where_there_is_time() {
+    let governed = [("STRATEGY", "hybrid"), ("FPS", "1")];
     let frames = ["", "200"];
     let (exact, _) = over(&[("STRATEGY", "replay")], frames);
-    let (last, report) = over(&[("STRATEGY", "hybrid"), ("FPS", "1")], frames);
+    let (last, report) = over(&governed, frames);
     let drawn = report["true_views"].as_array().expect("all frames");
     let drawn: Vec<_> = drawn.iter().filter_map(|frame| frame[1].as_u64()).collect();
     let mut steps = drawn.clone();
     steps.dedup();
     assert_eq!(steps, [2, 3, 4, 5], "{drawn:?}");
     assert_eq!(pixels_over(&exact, &last, 0), 0);
+
+    // What is cleared once only is there in views that join as well.
+    let frames = ["once", "60"];
+    let (exact, _) = over(&[("STRATEGY", "replay")], frames);
+    let (joined, report) = over(&governed, frames);
+    let drawn = report["true_views"].as_array().expect("all frames");
+    let drawn: Vec<_> = drawn.iter().filter_map(|frame| frame[1].as_u64()).collect();
+    assert!(matches!(drawn.last(), Some(3 | 4)), "{drawn:?}");
+    let wrong = pixels_over(&exact, &joined, 8);
+    println!("{wrong} pixels");
+    assert!(wrong <= 3, "{wrong} of 3072 pixels");
 }

@@ -107,11 +107,6 @@ impl Layer {
             return;
         }
         self.atlas.tiles.shown = self.shown();
-        self.share_own(gl);
-    }
-
-    /// The views that are drawn get what the program's own one has.
-    pub(super) fn share_own(&mut self, gl: &Gl) {
         self.queries.pause(gl);
         self.queries.lift_condition(gl);
         as_they_are(gl, || {

@@ -258,27 +258,25 @@ impl Layer {
             // The other views have nothing of what was shown last.
             return self.make_views(gl);
         }
+        let (own, views) = (self.atlas.tiles.own(), self.config.views);
+        let count = self.synthesis.number();
+        let sources = count.map(|count| Sources::spread(own, views, count));
+        let before = self.atlas.tiles.shown;
+        let mut drawn = sources.iter().flat_map(Sources::iter);
+        if !colours && drawn.any(|view| view != own && !before.has(view)) {
+            // A view that joins them has nothing to be drawn on, unless it is made first.
+            return self.make_views(gl);
+        }
         // What was shown last is no more.
         self.synthesis.scene = None;
         self.part(gl);
         self.synthesis.surfaces.forget();
-        let (own, views) = (self.atlas.tiles.own(), self.config.views);
-        let count = self.synthesis.number();
-        let before = self.atlas.tiles.shown;
-        self.synthesis.sources = count.map(|count| Sources::spread(own, views, count));
+        self.synthesis.sources = sources;
         self.synthesis.scene = Some(Scene {
             clear: gl.get_floats::<1>(c::DEPTH_CLEAR_VALUE)[0],
             ..Scene::default()
         });
         self.atlas.tiles.shown = self.shown();
-        // Views that were not drawn in the last frame have nothing to draw on.
-        let sources = self.synthesis.sources.iter();
-        let new = sources
-            .flat_map(Sources::iter)
-            .any(|view| view != own && !before.has(view));
-        if new && !colours {
-            self.share_own(gl);
-        }
         self.begin_bent(gl);
     }
 

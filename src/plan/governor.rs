@@ -186,6 +186,29 @@ mod tests {
     }
 
     #[test]
+    fn it_knows_what_a_view_takes_from_the_first_one_more() {
+        // A frame of two views may be twice that of one, for all that is known: a third is tried in time.
+        let mut governor = Governor::new(30.0, 8, 8);
+        let levels = walk(&mut governor, 0..450, |level, _, noise| {
+            noise * (20.0 + 2.0 * level as f32)
+        });
+        assert!(levels[200] == 2 && levels[449] >= 5, "{levels:?}");
+    }
+
+    #[test]
+    fn one_slow_moment_changes_nothing() {
+        let mut governor = Governor::new(25.0, 8, 8);
+        let levels = walk(&mut governor, 0..3000, |level, frame, noise| {
+            // Six frames never fill most of two windows.
+            let slow = if frame % 32 < 6 { 1.12 } else { 1.0 };
+            noise.sqrt() * slow * (20.0 + 3.0 * level as f32)
+        });
+        let late = &levels[1000..];
+        let stays = late.iter().filter(|&&level| level == 6).count();
+        assert!(stays * 20 >= late.len() * 19, "{late:?}");
+    }
+
+    #[test]
     fn it_follows_the_scene() {
         let mut governor = Governor::new(52.0, 8, 8);
         let ms = |level: u32, frame: u32, noise: f32| {

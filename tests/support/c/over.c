@@ -1,7 +1,8 @@
 /* Surfaces in two passes, the second blended with the first and without depths of its own; and a weapon by the same projection in the nearest
  * part of the depth range. "copied": the second pass has its vertices and elements elsewhere in memory. "glass": that of the box is over other elements of
  * the same arrays, as many of them, which stand before it. "moved": its vertices have been moved before it. "sides": it shows the other side.
- * "clears": colours and depths are cleared by calls of their own. A second argument is the number of frames. */
+ * "clears": colours and depths are cleared by calls of their own. "once": colours are cleared in the first
+ * frame and, to others, in the tenth, and there is no wall. A second argument is the number of frames. */
 #include "surface.h"
 #include <stdlib.h>
 #include <string.h>
@@ -75,7 +76,11 @@ int main(int argc, char **argv)
         glEnable(GL_DEPTH_TEST);
         glDepthFunc(GL_LEQUAL);
         glDepthMask(GL_TRUE);
-        if (argc > 1 && !strcmp(argv[1], "clears")) {
+        int once = argc > 1 && !strcmp(argv[1], "once");
+        glClearColor(frame < 9 ? 0.3f : 0.6f, 0.5f, 0.7f, 1);
+        if (once && frame != 0 && frame != 9) {
+            glClear(GL_DEPTH_BUFFER_BIT);
+        } else if (argc > 1 && !strcmp(argv[1], "clears")) {
             glClear(GL_COLOR_BUFFER_BIT);
             glClear(GL_DEPTH_BUFFER_BIT);
         } else {
@@ -83,7 +88,8 @@ int main(int argc, char **argv)
         }
         glEnableClientState(GL_VERTEX_ARRAY);
         glColor3f(0.2f, 0.7f, 0.3f);
-        surface_of(places, wall, wall, 6);
+        if (!once)
+            surface_of(places, wall, wall, 6);
         glColor3f(0.9f, 0.6f, 0.2f);
         box_of(argc > 1 ? argv[1] : "");
         glDepthRange(0, 0.3);
