@@ -128,6 +128,6 @@ pub enum CaptureWhat {
     Depth,
     /// What an occlusion camera sees: the reference image that hidden samples are taken from.
     Reference,
-    /// No picture: the samples of the own view and of the reference image, see [`crate::volume::Shown`].
+    /// No picture: the samples of the own view and of the reference image, see [`crate::volume::Samples`].
     Samples,
 }
