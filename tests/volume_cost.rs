@@ -109,7 +109,7 @@ fn cost_of_slices() {
         let triangles = geometry(&scene);
         drop(scene);
         let camera = EXPERIMENT.camera([0.0; 3]);
-        let built = [images.single, images.single + images.construction];
+        let built = [images.single, images.single + images.construction[0]];
         let kinds = ["depth", "reference"].iter().zip(&images.all).zip(built);
         for ((kind, image), built) in kinds {
             let image = ReferenceImage::of(image, &camera, EXPERIMENT.tolerance());

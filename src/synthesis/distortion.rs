@@ -142,7 +142,17 @@ impl Distortions {
         }
     }
 
-    /// Of something at a place in the picture and 1/w.
+    /// The distortion vector of something at a place and 1/w in a picture of this size, in its pixels: Figure 15 has the same rays with more samples.
+    pub fn vector(&self, size: [u32; 2], place: [f64; 2], inverse: f64) -> [f64; 2] {
+        let scale = [0, 1].map(|i| f64::from(size[i]) / f64::from(self.size[i]));
+        let own = [0, 1].map(|i| place[i] / scale[i]);
+        self.at(own, inverse).map_or([0.0; 2], |distortion| {
+            let by = distortion.at(own, inverse);
+            [0, 1].map(|i| scale[i] * (distortion.direction[i] * by))
+        })
+    }
+
+    /// Of something at a place in the map's own picture and 1/w.
     pub fn at(&self, place: [f64; 2], inverse: f64) -> Option<&Distortion> {
         let index = self.index(place)?;
         let closest = self.map.get(index)?.as_ref()?;

@@ -58,7 +58,8 @@ impl Reference {
         }
     }
 
-    /// Draws triangles through the bent rays. They are cut until no edge is longer than `longest` pixels, which has to be above 0.
+    /// Draws triangles through the bent rays, whose map may be of a picture of another size. They are cut until no edge is longer than `longest`
+    /// pixels, which has to be above 0.
     pub fn draw(
         &mut self,
         triangles: impl IntoIterator<Item = Triangle>,
@@ -71,7 +72,7 @@ impl Reference {
             while let Some(part) = parts.pop() {
                 match halves(&part, longest) {
                     Some(halves) => parts.extend(halves),
-                    None => self.rasterise(part.map(|v| project(&v, distortions))),
+                    None => self.rasterise(part.map(|v| project(self.size, &v, distortions))),
                 }
             }
         }
@@ -131,13 +132,9 @@ fn slopes([a, b, c]: &[Projected; 3]) -> Option<[[f64; 3]; 2]> {
 }
 
 /// Equation 2, but for d(z): see [`super::Distortion::at`].
-fn project(vertex: &Vertex, distortions: &Distortions) -> Projected {
+fn project(size: [u32; 2], vertex: &Vertex, distortions: &Distortions) -> Projected {
     let [u, v] = vertex.at;
-    let distortion = distortions.at(vertex.at, vertex.inverse);
-    let moved = distortion.map_or([0.0; 2], |distortion| {
-        let by = distortion.at(vertex.at, vertex.inverse);
-        distortion.direction.map(|part| part * by)
-    });
+    let moved = distortions.vector(size, vertex.at, vertex.inverse);
     Projected {
         at: [u + moved[0], v + moved[1]],
         sample: Sample {

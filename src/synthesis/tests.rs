@@ -332,6 +332,22 @@ fn an_occlusion_camera_has_what_is_about_to_be_seen() {
 }
 
 #[test]
+fn a_finer_picture_has_the_same_rays() {
+    let splats = Splats {
+        radius: 14.0,
+        parallax: f64::INFINITY,
+        asymmetry: 1.0,
+    };
+    let edges = Edges::of(&depth_image(&columns(&[[32.0, 64.0]])), THRESHOLD);
+    let distortions = Distortions::of(SIZE, &edges, &splats);
+    let place = [30.5, 32.25];
+    let own = distortions.vector(SIZE, place, FAR);
+    let finer = distortions.vector([2 * SIZE[0], 3 * SIZE[1]], [61.0, 96.75], FAR);
+    assert!(own[0] < -1.0, "{own:?}");
+    assert_eq!(finer, [2.0 * own[0], 3.0 * own[1]]);
+}
+
+#[test]
 fn a_thin_gap_loses_nothing_that_was_seen() {
     let splats = Splats {
         radius: 16.0,

@@ -20,8 +20,10 @@ use std::time::{Duration, Instant};
 
 /// What the paper says is left of a depth image's missing samples, on average of its scenes, %.
 pub const PAPER: f64 = 4.5;
-/// What the frames are made of.
-pub const IMAGES: [&str; 2] = ["depth image", "occlusion camera"];
+/// What the frames are made of. The last is the occlusion camera's reference image in [`FINER`] times as many columns and rows.
+pub const IMAGES: [&str; 3] = ["depth image", "occlusion camera", "twice as fine"];
+/// "The decrease in resolution can be alleviated by increasing the resolution of the reference image" (section IV.C, Figure 15).
+const FINER: u32 = 2;
 
 /// Inches from the viewer to the middle of the display.
 const DISTANCE: f64 = 50.0;
@@ -56,12 +58,12 @@ pub struct Experiment {
 /// What frames are made of.
 #[derive(Clone, Debug)]
 pub struct Images {
-    /// As [`IMAGES`] has them, both as large as the picture.
-    pub all: [Reference; 2],
+    /// As [`IMAGES`] has them.
+    pub all: [Reference; 3],
     /// To draw one view of the geometry.
     pub single: Duration,
-    /// To find the edges, make the map and draw the reference image. The depths of the single view are there already.
-    pub construction: Duration,
+    /// To find the edges, make the map and draw the reference image, for each of those. The depths of the single view are there already.
+    pub construction: [Duration; 2],
 }
 
 impl Experiment {
@@ -115,29 +117,37 @@ impl Experiment {
         Distortions::of(self.size, &edges, &splats)
     }
 
-    /// Makes both images.
+    /// Makes all images.
     #[must_use]
     pub fn images(&self, scene: &[Surface]) -> Images {
-        let camera = self.camera([0.0; 3]);
         let start = Instant::now();
-        let depth_image = self.draw(&camera, scene);
+        let depth_image = self.draw(&self.camera([0.0; 3]), scene);
         let single = start.elapsed();
         let start = Instant::now();
         let distortions = self.distortions(&depth_image);
-        let mut reference = Reference::new(self.size);
-        let all = triangles(scene).filter_map(|solid| project(&camera, &solid));
-        reference.draw(all, &distortions, 1.0);
+        let map = start.elapsed();
+        let made = |times: u32| {
+            let start = Instant::now();
+            let size = self.size.map(|side| times * side);
+            let camera = Experiment { size }.camera([0.0; 3]);
+            let mut reference = Reference::new(size);
+            let all = triangles(scene).filter_map(|solid| project(&camera, &solid));
+            reference.draw(all, &distortions, 1.0);
+            (reference, map + start.elapsed())
+        };
+        let ((reference, construction), (finer, finer_construction)) = (made(1), made(FINER));
         Images {
-            all: [depth_image, reference],
+            all: [depth_image, reference, finer],
             single,
-            construction: start.elapsed(),
+            construction: [construction, finer_construction],
         }
     }
 
     /// What is seen of an image from so many inches beside the reference viewpoint.
     #[must_use]
     pub fn seen(&self, image: &Reference, offset: [f64; 3]) -> Reference {
-        let motion = self.camera([0.0; 3]).to(&self.camera(offset));
+        let own = Experiment { size: image.size() };
+        let motion = own.camera([0.0; 3]).to(&self.camera(offset));
         image.seen(self.size, &motion, self.step())
     }
 }

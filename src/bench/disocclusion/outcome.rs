@@ -6,6 +6,7 @@ use crate::bench::table::columns;
 use crate::metric::Comparison;
 use serde::Serialize;
 use std::path::Path;
+use std::time::Duration;
 
 /// All of a run.
 #[derive(Debug, Serialize)]
@@ -35,12 +36,21 @@ pub struct Scene {
     pub height: u32,
     /// One view of the geometry, ms.
     pub single_ms: f64,
-    /// The reference image, without the depths that it begins with, ms.
-    pub construction_ms: f64,
-    /// The occlusion camera's missing samples over the depth image's, of all viewpoints together, %. None where nothing is missing.
-    pub left_percent: Option<f64>,
-    /// The same in the paper, on average of its scenes.
+    /// Of the reference images.
+    pub references: Vec<Made>,
+    /// What is left in the paper, on average of its scenes, %.
     pub paper_left_percent: f64,
+}
+
+/// A reference image of a scene.
+#[derive(Clone, Debug, Serialize)]
+pub struct Made {
+    /// Of [`IMAGES`].
+    pub image: &'static str,
+    /// To make it, without the depths that it begins with, ms.
+    pub construction_ms: f64,
+    /// Its missing samples over the depth image's, of all viewpoints together, %. None where nothing is missing.
+    pub left_percent: Option<f64>,
 }
 
 /// A frame of one image.
@@ -119,18 +129,28 @@ impl Scene {
         images: &Images,
         views: &[View],
     ) -> Scene {
-        let [depth, occlusion] = IMAGES.map(|image| {
+        let missing = |image: &str| {
             let of = views.iter().filter(|view| view.image == image);
             of.map(|view| view.missing).sum::<usize>()
-        });
+        };
+        let [straight, bent @ ..] = IMAGES;
+        let depth = missing(straight);
+        let made = |(image, time): (&'static str, &Duration)| Made {
+            image,
+            construction_ms: 1e3 * time.as_secs_f64(),
+            left_percent: (depth > 0).then(|| 100.0 * missing(image) as f64 / depth as f64),
+        };
         Scene {
             scene,
             triangles,
             width: experiment.size[0],
             height: experiment.size[1],
             single_ms: 1e3 * images.single.as_secs_f64(),
-            construction_ms: 1e3 * images.construction.as_secs_f64(),
-            left_percent: (depth > 0).then(|| 100.0 * occlusion as f64 / depth as f64),
+            references: bent
+                .into_iter()
+                .zip(&images.construction)
+                .map(made)
+                .collect(),
             paper_left_percent: PAPER,
         }
     }
@@ -145,7 +165,7 @@ pub(super) fn worst<'a>(views: &'a [View], scene: &str, image: &str) -> Option<&
     own.max_by_key(|view| view.missing)
 }
 
-/// The table: two lines for each scene, means of the viewpoints.
+/// The table: a line for each image of a scene, means of the viewpoints.
 #[must_use]
 pub fn text(outcome: &Outcome) -> String {
     let head = [
@@ -201,10 +221,8 @@ fn cells(scene: &Scene, image: &str, views: &[View]) -> Vec<String> {
         let at = format!("({}, {}, {})", view.right, view.up, view.farther);
         (view.missing.to_string(), at)
     });
-    let of_occlusion = |cell: String| match image == IMAGES[1] {
-        true => cell,
-        false => String::new(),
-    };
+    let reference = scene.references.iter().find(|made| made.image == image);
+    let of_reference = |cell: &dyn Fn(&Made) -> String| reference.map_or_else(String::new, cell);
     vec![
         scene.scene.to_owned(),
         format!("{}x{}", scene.width, scene.height),
@@ -212,12 +230,11 @@ fn cells(scene: &Scene, image: &str, views: &[View]) -> Vec<String> {
         image.to_owned(),
         format!("{:.0}", mean(&|view| view.samples as f64)),
         format!("{:.0}", mean(&|view| view.missing as f64)),
-        of_occlusion(
-            scene
-                .left_percent
-                .map_or("-".to_owned(), |left| format!("{left:.1}")),
-        ),
-        of_occlusion(format!("{:.1}", scene.paper_left_percent)),
+        of_reference(&|made| {
+            let left = made.left_percent;
+            left.map_or("-".to_owned(), |left| format!("{left:.1}"))
+        }),
+        of_reference(&|_| format!("{:.1}", scene.paper_left_percent)),
         worst,
         at,
         format!("{:.2}", mean(&|view| view.holes_percent)),
@@ -229,7 +246,7 @@ fn cells(scene: &Scene, image: &str, views: &[View]) -> Vec<String> {
         format!("{:.2}", mean(&|view| view.disparity_95)),
         format!("{:.1}", most(&|view| view.disparity_max)),
         format!("{:.2}", mean(&|view| view.disparity_over_half_percent)),
-        of_occlusion(format!("{:.2}", scene.construction_ms / scene.single_ms)),
+        of_reference(&|made| format!("{:.2}", made.construction_ms / scene.single_ms)),
     ]
 }
 

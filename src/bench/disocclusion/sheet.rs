@@ -5,8 +5,8 @@ use super::{Experiment, Frame, IMAGES, Images, View};
 use crate::model::Surface;
 use image::{RgbImage, imageops};
 
-/// Of one scene, from left to right: depth image, reference image, the frame of each at the viewpoint where most is missing of the latter, what
-/// is missing in white, and the truth there.
+/// Of one scene, from left to right: [`IMAGES`] in the size of the picture, the frame of each at the viewpoint where most is missing of the
+/// occlusion camera, what is missing in white, and the truth there.
 #[must_use]
 pub fn sheet(
     experiment: &Experiment,
@@ -30,7 +30,8 @@ pub fn sheet(
     let [w, h] = experiment.size;
     let mut sheet = RgbImage::new(w * pictures.len() as u32, h);
     for (number, picture) in (0..).zip(&pictures) {
-        imageops::replace(&mut sheet, picture, number * i64::from(w), 0);
+        let picture = imageops::thumbnail(picture, w, h);
+        imageops::replace(&mut sheet, &picture, number * i64::from(w), 0);
     }
     Some(sheet)
 }
