@@ -20,7 +20,7 @@ use std::time::{Duration, Instant};
 
 /// What the paper says is left of a depth image's missing samples, on average of its scenes, %.
 pub const PAPER: f64 = 4.5;
-/// What the frames are made of. The last is the occlusion camera's reference image in [`FINER`] times as many columns and rows.
+/// What the frames are made of. The last is the occlusion camera's reference image in twice as many columns and rows.
 pub const IMAGES: [&str; 3] = ["depth image", "occlusion camera", "twice as fine"];
 /// "The decrease in resolution can be alleviated by increasing the resolution of the reference image" (section IV.C, Figure 15).
 const FINER: u32 = 2;
