@@ -269,6 +269,26 @@ fn contexts_that_come_and_go_leave_nothing() {
     }
 }
 
+/// Pages that the system gives a program which frees 32 MiB and gets them again.
+fn pages(mut program: Command) -> u64 {
+    let output = succeed(program.env_remove("DISPLAY"));
+    let text = String::from_utf8(output.stdout).expect("a number");
+    text.trim().parse().expect("pages")
+}
+
+#[test]
+fn what_a_frame_frees_stays_for_the_next_one() {
+    let program = compiled("heap", Compiled::Program, &["-lEGL", "-lGL"]);
+    let small = ("MALLOC_TRIM_THRESHOLD_", "131072");
+    let layer = |views| layered(&program, &[("VIEWS", views)]);
+    let mut told = layer("2");
+    told.env(small.0, small.1);
+    let all = [bare(&program), layer("1"), layer("2"), told].map(pages);
+    // What the user has set stays, and where the layer does nothing nothing changes.
+    assert!(all[0] > 4000 && all[1] > 4000 && all[3] > 4000, "{all:?}");
+    assert!(all[2] < 400, "{all:?}");
+}
+
 #[test]
 fn what_the_driver_does_without_us_is_not_ours() {
     let error = |kind: &str, objects: &[&str]| {
