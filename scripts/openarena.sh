@@ -10,8 +10,9 @@
 # size of the window by the engine's number. The home folder of the engine is in WORK; the user's own is not touched.
 set -eu
 
-bin=$1
-work=$2
+bin=$(cd "$1" && pwd)
+mkdir -p "$2"
+work=$(cd "$2" && pwd)
 what=${3:-table}
 rounds=${ROUNDS:-2} kib=${KIB:-140} mode=${MODE:-3}
 pak=/usr/share/games/openarena/baseoa/pak6-patch088.pk3
@@ -69,11 +70,13 @@ sheet() {
 }
 
 if [ "$what" = walk ]; then
-    cut_to 48
+    cut_to 96
     say "recording"
     play apitrace trace -a gl -o "$work/walk.trace" >"$work/recording.log" 2>&1 || { say "it failed, see $work/recording.log"; exit 1; }
-    "$bin/manyview" bench --fps "${FPS:-7}" --frames 60..240 --views 8 --display slanted8 --csv "$work/walk.csv" --json "$work/walk.json" \
-        --chart "$work/walk.png" -- glretrace -b "$work/walk.trace" | tee "$work/walk.txt"
+    # The chart tells the command, which is not to tell where WORK is.
+    (cd "$work" && "$bin/manyview" bench --fps "${FPS:-7}" --frames 60..240 --views 8 --display slanted8 --csv walk.csv --json walk.json \
+        --chart walk.png -- glretrace -b walk.trace >walk.txt) || { say "no walk"; exit 1; }
+    cat "$work/walk.txt"
     rows=
     for strategy in replay instanced geometry depth-image occlusion hybrid; do
         true_views=$([ $strategy = hybrid ] && echo "--true-views 3" || true)

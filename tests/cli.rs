@@ -291,6 +291,26 @@ fn capture_ends_the_program_when_the_picture_is_there() {
 }
 
 #[test]
+fn capture_says_how_many_frames_a_program_has_shown() {
+    support::library();
+    let folder = tempdir().expect("a folder");
+    let script = format!(
+        "exec {} --api osmesa --frames 9",
+        support::demo("gears").display()
+    );
+    for views in ["1", "3"] {
+        let options = ["--out", "a.png", "--frame", "30", "--views", views];
+        let (code, _, stderr) = run(capture(folder.path(), &options, &script));
+        assert_eq!(code, 4, "{stderr}");
+        assert!(
+            stderr
+                .contains("ended with status 0 after at least 9 frames; frame 30 was never shown"),
+            "{views}: {stderr}"
+        );
+    }
+}
+
+#[test]
 fn capture_says_how_far_a_program_got() {
     support::library();
     let folder = tempdir().expect("a folder");
@@ -298,7 +318,7 @@ fn capture_says_how_far_a_program_got() {
     let (code, _, stderr) = run(capture(folder.path(), &["--out", "a.png"], script));
     assert_eq!(code, 4, "{stderr}");
     assert!(
-        stderr.contains("ended with status 0 after 12 frames; frame 30 was never shown"),
+        stderr.contains("ended with status 0 after at least 12 frames; frame 30 was never shown"),
         "{stderr}"
     );
     assert!(stderr.contains("note: no depth"), "{stderr}");

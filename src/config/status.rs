@@ -4,7 +4,7 @@
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 
-/// Written at each captured or proved frame and when the layer turns itself off.
+/// Written at the first frames, then ten times a second, and at each captured or proved frame.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Status {

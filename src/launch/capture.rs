@@ -126,12 +126,12 @@ impl CaptureJob<'_> {
         })
     }
 
-    /// How many frames the program got, in words.
+    /// How many frames the program got, in words: the layer tells ten times a second.
     fn seen(&self, next: u64) -> String {
         let pictures = next - self.capture.first;
         match Status::read(self.status) {
-            Some(Status { frames: 1, .. }) => "1 frame".to_owned(),
-            Some(status) => format!("{} frames", status.frames),
+            Some(Status { frames: 1, .. }) => "at least 1 frame".to_owned(),
+            Some(status) => format!("at least {} frames", status.frames),
             None if pictures > 0 => format!("frame {}", next - 1),
             None => "an unknown number of frames".to_owned(),
         }

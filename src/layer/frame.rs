@@ -215,9 +215,7 @@ impl Layer {
             self.report.fallbacks(&reason, count);
         }
         self.count_names();
-        if let Some(path) = &self.config.report {
-            self.report.write(path);
-        }
+        self.report.write_if_due(self.config);
     }
 
     /// Whether a flush shows what was drawn: it went to the front buffer, or there is no other, and somebody can see it.
@@ -237,7 +235,7 @@ impl Layer {
         if let Some(wanted) = &self.config.capture
             && (wanted.first..=wanted.last).contains(&frame)
         {
-            self.report.write_status(self.config, frame);
+            self.report.write(self.config, frame);
             if let Err(e) = self.write(gl, source, wanted, frame) {
                 self.report.note(format!("capture of frame {frame}: {e}"));
             }

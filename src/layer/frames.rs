@@ -41,7 +41,7 @@ impl Frames {
         else {
             return;
         };
-        self.report.write_status(self.config, frame);
+        self.report.write(self.config, frame);
         let saved = Saved::take(gl, false);
         let framebuffers = gl.version() >= (3, 0);
         let read = if framebuffers {
@@ -74,8 +74,6 @@ impl Frames {
     /// Counts the frame and writes the report where one is asked for.
     pub fn count_frame(&mut self) {
         self.report.frame();
-        if let Some(path) = &self.config.report {
-            self.report.write(path);
-        }
+        self.report.write_if_due(self.config);
     }
 }

@@ -295,7 +295,7 @@ impl Layer {
         if let Some(proof) = &mut self.report.proof {
             what(proof);
         }
-        self.report.write_status(self.config, frame);
+        self.report.write(self.config, frame);
     }
 
     fn compare(&mut self, gl: &Gl, exact: Option<RgbImage>) {

@@ -10,6 +10,7 @@ pub use counts::Counts;
 pub use disparity::Disparity;
 pub use proof::{Culprit, Difference, Found, Proof, SpeedUp, Summary, Worst};
 
+use crate::config::{Config, Status};
 use crate::gl::Count;
 use disparity::Disparities;
 use serde::Serialize;
@@ -181,47 +182,34 @@ impl Report {
         self.walk.frame(ms, views);
     }
 
-    /// Whether it is time to write: the first frames each, then ten times a second (a program gives no sign before it
-    /// ends).
-    fn due(&mut self) -> bool {
-        let due = self.frames <= 10
-            || self
-                .last_write
-                .is_none_or(|t| t.elapsed() > Duration::from_millis(100));
-        if due {
-            self.last_write = Some(Instant::now());
+    /// After a frame: writes what is asked for when it is time, at the first frames each, then ten times a second (a program gives no sign before
+    /// it ends).
+    pub fn write_if_due(&mut self, config: &Config) {
+        let since = self.last_write.map(|last| last.elapsed());
+        let due = self.frames <= 10 || since.is_none_or(|since| since > Duration::from_millis(100));
+        if due && (config.report.is_some() || config.status.is_some()) {
+            self.write(config, self.frames);
         }
-        due
     }
 
-    /// Writes the report when it is due. A report that cannot be written must not disturb the program; the launcher has checked
-    /// the folder.
-    pub fn write(&mut self, path: &std::path::Path) {
-        if self.due() {
+    /// Tells the launcher how far the program is, and writes the report that belongs to this frame: the launcher ends the program when it has the
+    /// last one that it wants. What cannot be written must not disturb the program; the launcher has checked the folders.
+    pub fn write(&mut self, config: &Config, frames: u64) {
+        self.last_write = Some(Instant::now());
+        if let Some(path) = &config.status {
+            let proof = self.proof.as_ref().map(Proof::summary);
+            let status = Status {
+                frames,
+                notes: self.notes.clone(),
+                proof: proof.and_then(|proof| serde_json::to_value(proof).ok()),
+            };
+            let _ = status.write(path);
+        }
+        if let Some(path) = &config.report {
             let mut temporary = path.as_os_str().to_owned();
             temporary.push(".tmp");
             let _ = std::fs::write(&temporary, self.json())
                 .and_then(|()| std::fs::rename(&temporary, path));
-        }
-    }
-
-    /// Tells the launcher how far the program is, and writes the report that belongs to a captured or proved frame: the
-    /// launcher ends the program when it has its last one.
-    pub fn write_status(&mut self, config: &crate::config::Config, frames: u64) {
-        if let Some(path) = &config.status {
-            let _ = crate::config::Status {
-                frames,
-                notes: self.notes.clone(),
-                proof: self
-                    .proof
-                    .as_ref()
-                    .and_then(|proof| serde_json::to_value(proof.summary()).ok()),
-            }
-            .write(path);
-        }
-        if let Some(path) = &config.report {
-            self.last_write = None;
-            self.write(path);
         }
     }
 

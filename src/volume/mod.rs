@@ -2,7 +2,7 @@
 //!
 //! Popescu et al., "3D Display Rendering Acceleration Using Occlusion Camera Reference Images", sections VI and VII. A scene comes as
 //! triangles ([`Volume::of_triangles`]) or, in a fraction of the time, as the reference image of what one viewer can see of it
-//! ([`Volume::of_reference`]); `program` makes that of what a program has shown, whose triangles nobody has. `dither` makes light of its colours, with one bit for each channel, `stack` keeps that as a folder of pictures,
+//! ([`Volume::of_reference`]); `program` makes that of what a program has shown, whose triangles nobody has. `exposure` makes it as bright as can be, `dither` makes light of its colours, with one bit for each channel, `stack` keeps that as a folder of pictures,
 //! `eye` shows what is seen of it, and `compare` says how far two volumes are apart.
 //!
 //! Voxels. A slice stands for the sector that the screen goes through while it is shown, half a sector to either side of its plane; its pixels are
@@ -15,6 +15,7 @@ mod compare;
 mod display;
 mod dither;
 mod error;
+mod exposure;
 mod eye;
 mod fragments;
 mod patch;

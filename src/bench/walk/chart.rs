@@ -95,6 +95,7 @@ impl Drawing for Walk {
             let below = area.clone().shrink((0, TITLE + at as u32 * PLOT.1), PLOT);
             let mut chart = ChartBuilder::on(&below)
                 .margin(12)
+                .margin_right(30)
                 .x_label_area_size(34)
                 .y_label_area_size(84)
                 .build_cartesian_2d(first..last.max(first + 1.0), plot.from..plot.to)?;
@@ -102,6 +103,11 @@ impl Drawing for Walk {
                 .configure_mesh()
                 .y_desc(plot.about)
                 .y_labels(6)
+                .x_label_formatter(&|frame| format!("{frame:.0}"))
+                .y_label_formatter(&|value| {
+                    let text = format!("{value:.1}");
+                    text.strip_suffix(".0").unwrap_or(&text).to_owned()
+                })
                 .light_line_style(TRANSPARENT)
                 .bold_line_style(RGBColor(228, 230, 235))
                 .axis_style(GREY)

@@ -91,9 +91,10 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
         }
         .into());
     }
+    let (volume, gain) = volume.exposed();
     volume.dithered().write(&arguments.out)?;
     tell(&format_args!(
-        "wrote {} slices to {}",
+        "wrote {} slices to {}, {gain:.1} times as bright as the program's picture",
         screen.slices,
         arguments.out.display()
     ));

@@ -49,6 +49,38 @@ fn a_surface_keeps_its_mean_colour() {
     }
 }
 
+#[test]
+fn a_dark_scene_is_shown_as_bright_as_the_display_can_be() {
+    let screen = RotatingScreen::POPESCU;
+    let cells = |count: u32| -> Vec<_> { (0..count).map(|i| [7, i / 100, 1 + i % 100]).collect() };
+    let grey = |volume: &Volume| volume.half_planes[7][0].colour;
+    // One colour: its red is white then, and its green, with half of that light, half of white.
+    let mut dark = of_cells(&screen, &cells(1000), [100, 72, 0]);
+    let (bright, gain) = dark.clone().exposed();
+    assert_eq!(grey(&bright), [255, 189, 0]);
+    assert!((gain - 1.0 / linear(100.0 / 255.0)).abs() < 1e-3, "{gain}");
+    // Fifty of a thousand may be brighter, and 51 may not; black ones are none of them.
+    for (count, white) in [(50, 255), (51, 100)] {
+        for voxel in &mut dark.half_planes[7][1000 - count..] {
+            voxel.colour = [255; 3];
+        }
+        let (bright, _) = dark.clone().exposed();
+        assert_eq!(grey(&bright)[0], white, "{count}");
+        dark.half_planes[7].extend(cells(5000)[1000..].iter().map(|cell| Voxel {
+            at: cell[1] * screen.columns() + cell[2],
+            colour: [0; 3],
+        }));
+        let (bright, _) = dark.clone().exposed();
+        assert_eq!(grey(&bright)[0], white, "{count} and black ones");
+        dark.half_planes[7].truncate(1000);
+    }
+    // What is bright stays as it is, and so does nothing.
+    let light = of_cells(&screen, &cells(1000), [255, 60, 1]);
+    assert_eq!(light.clone().exposed(), (light, 1.0));
+    let nothing = of_cells(&screen, &[], GREY);
+    assert_eq!(nothing.clone().exposed(), (nothing, 1.0));
+}
+
 /// Every fifth voxel of a ball, in a colour that is dithered.
 fn ball(screen: &RotatingScreen) -> Slices {
     let mut cells = Vec::new();
