@@ -10,7 +10,9 @@ use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 use support::near::beyond;
 use support::views::{REPLAYED, Views};
-use support::{Compiled, bare, compiled, demo, layered, lines, manyview, rgb, screen, succeed};
+use support::{
+    Compiled, bare, built, compiled, demo, layered, lines, manyview, rgb, screen, succeed,
+};
 
 const VIEWS: usize = 5;
 const OWN: usize = 2;
@@ -194,6 +196,10 @@ fn bars() -> PathBuf {
 
 /// The third frame of it.
 fn bars_shown(way: &str, what: &str, strategy: &str) -> (RgbImage, Value) {
+    bars_of(&bars(), way, what, strategy)
+}
+
+fn bars_of(bars: &Path, way: &str, what: &str, strategy: &str) -> (RgbImage, Value) {
     let folder = tempfile::tempdir().expect("a folder");
     let (out, report) = (folder.path().join("a.png"), folder.path().join("a.json"));
     let mut command = manyview();
@@ -201,7 +207,7 @@ fn bars_shown(way: &str, what: &str, strategy: &str) -> (RgbImage, Value) {
     command.args(["--strategy", strategy, "--out"]).arg(&out);
     let (separation, convergence) = (WIDE.to_string(), CONVERGENCE.to_string());
     command.args(["--separation", &separation, "--convergence", &convergence]);
-    command.arg("--report").arg(&report).arg("--").arg(bars());
+    command.arg("--report").arg(&report).arg("--").arg(bars);
     succeed(screen().give(command.arg(way)));
     (rgb(&out), read(&report))
 }
@@ -240,6 +246,31 @@ fn colours_that_are_not_written_have_depths() {
     let (all, cyan) = (wrong("strips"), wrong("cyan"));
     println!("{all} and {cyan} pixels");
     assert!(all > 500 && cyan <= all, "{all} and {cyan} pixels");
+}
+
+#[test]
+fn depths_of_16_bits_tell_as_much() {
+    let libraries = ["-DDEPTH_BITS=16", "-lEGL", "-lGL"];
+    let source = Path::new("tests/support/c/bars.c");
+    let coarse = built("bars-16", &[source], Compiled::Program, &libraries);
+    for strategy in ["depth-image", "occlusion", "hybrid"] {
+        let (fine, _) = bars_shown("strips", "atlas", strategy);
+        let (picture, report) = bars_of(&coarse, "strips", "atlas", strategy);
+        let made = &report["frames_synthesised"]["into_tiles"];
+        assert!(made.as_u64() > Some(0), "{report}");
+        let differs = |(a, b): (&Rgb<u8>, &Rgb<u8>)| (0..3).any(|i| a[i].abs_diff(b[i]) > 8);
+        let off = picture
+            .pixels()
+            .zip(fine.pixels())
+            .filter(|pair| differs(*pair))
+            .count();
+        println!("{strategy}: {off} pixels");
+        // Silhouettes whose place is rounded otherwise.
+        assert!(
+            off * 500 <= (fine.width() * fine.height()) as usize,
+            "{strategy}: {off}"
+        );
+    }
 }
 
 #[test]

@@ -1,5 +1,5 @@
 /* A surface without a window system, for small programs: of 64 x 48 pixels, or where SURFACE_SIZE is defined of those that the program says, with colours of
- * 8 bits. */
+ * 8 bits; with a depth buffer of 24 bits, or of DEPTH_BITS. */
 #define GL_GLEXT_PROTOTYPES 1
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
@@ -14,6 +14,10 @@ enum { WIDTH = 64, HEIGHT = 48 };
 #define SURFACE_COLOURS EGL_RED_SIZE, 8, EGL_GREEN_SIZE, 8, EGL_BLUE_SIZE, 8, EGL_ALPHA_SIZE, 8,
 #endif
 
+#ifndef DEPTH_BITS
+#define DEPTH_BITS 24
+#endif
+
 static EGLDisplay display;
 static EGLConfig config;
 static EGLSurface surface;
@@ -23,7 +27,7 @@ static int open_surface(void)
 {
     PFNEGLGETPLATFORMDISPLAYEXTPROC get =
         (PFNEGLGETPLATFORMDISPLAYEXTPROC)eglGetProcAddress("eglGetPlatformDisplayEXT");
-    const EGLint wanted[] = {EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_DEPTH_SIZE, 24,
+    const EGLint wanted[] = {EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_DEPTH_SIZE, DEPTH_BITS,
                              SURFACE_COLOURS EGL_NONE};
     const EGLint size[] = {EGL_WIDTH, WIDTH, EGL_HEIGHT, HEIGHT, EGL_NONE};
     EGLint count;
@@ -31,6 +35,9 @@ static int open_surface(void)
     if (!display || !eglInitialize(display, NULL, NULL) || !eglBindAPI(EGL_OPENGL_API))
         return 0;
     if (!eglChooseConfig(display, wanted, &config, 1, &count) || !count)
+        return 0;
+    /* The smallest that is there comes first. */
+    if (!eglGetConfigAttrib(display, config, EGL_DEPTH_SIZE, &count) || count != DEPTH_BITS)
         return 0;
     surface = eglCreatePbufferSurface(display, config, size);
     return surface != EGL_NO_SURFACE;
