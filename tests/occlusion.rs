@@ -5,6 +5,7 @@
 mod support;
 
 use image::{GenericImageView, Rgb, RgbImage};
+use manyview::metric::pixels_over;
 use manyview::synthesis::{Bend, Bending};
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
@@ -258,16 +259,11 @@ fn depths_of_16_bits_tell_as_much() {
         let (picture, report) = bars_of(&coarse, "strips", "atlas", strategy);
         let made = &report["frames_synthesised"]["into_tiles"];
         assert!(made.as_u64() > Some(0), "{report}");
-        let differs = |(a, b): (&Rgb<u8>, &Rgb<u8>)| (0..3).any(|i| a[i].abs_diff(b[i]) > 8);
-        let off = picture
-            .pixels()
-            .zip(fine.pixels())
-            .filter(|pair| differs(*pair))
-            .count();
+        let off = pixels_over(&fine, &picture, 8);
         println!("{strategy}: {off} pixels");
         // Silhouettes whose place is rounded otherwise.
         assert!(
-            off * 500 <= (fine.width() * fine.height()) as usize,
+            off * 500 <= u64::from(fine.width() * fine.height()),
             "{strategy}: {off}"
         );
     }

@@ -5,13 +5,13 @@ mod support;
 
 use image::RgbImage;
 use manyview::bench::disocclusion::Experiment;
-use manyview::model::{MODELS, triangles};
+use manyview::model::MODELS;
 use manyview::volume::{
     Difference, ReferenceImage, RotatingScreen, Slices, Triangle, Vertex, Volume,
 };
 use std::ffi::OsString;
 use std::fs;
-use support::{demo, manyview, refused, rgb, run, succeed};
+use support::{demo, geometry, manyview, refused, rgb, run, succeed};
 use tempfile::tempdir;
 
 const SMALL: RotatingScreen = RotatingScreen {
@@ -104,11 +104,7 @@ fn a_reference_image_has_what_its_viewer_sees() {
     let camera = experiment.camera([0.0; 3]);
     let drawn = experiment.draw(&camera, &scene);
     let image = ReferenceImage::of(&drawn, &camera, experiment.step());
-    let vertex = |corner: manyview::model::Corner| Vertex {
-        at: corner.at,
-        colour: corner.colour,
-    };
-    let triangles: Vec<Triangle> = triangles(&scene).map(|solid| solid.map(vertex)).collect();
+    let triangles = geometry(&scene);
     let whole = Volume::of_triangles(&screen, &triangles).expect("a display");
     let seen = Volume::of_reference(&screen, &image).expect("a display");
     assert!(seen.len() * 2 < whole.len(), "much is hidden");

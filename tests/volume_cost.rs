@@ -4,12 +4,10 @@
 mod support;
 
 use manyview::bench::disocclusion::Experiment;
-use manyview::model::{MODELS, Surface, triangles};
-use manyview::volume::{
-    Difference, ReferenceImage, RotatingScreen, Sight, Slices, Triangle, Vertex, Volume,
-};
+use manyview::model::MODELS;
+use manyview::volume::{Difference, ReferenceImage, RotatingScreen, Sight, Slices, Volume};
 use std::time::Instant;
-use support::target_folder;
+use support::{geometry, target_folder};
 
 const SCREEN: RotatingScreen = RotatingScreen::POPESCU;
 
@@ -72,14 +70,6 @@ fn look(slices: &Slices, name: &str) {
 
 fn percent(part: usize, whole: usize) -> f64 {
     100.0 * part as f64 / whole.max(1) as f64
-}
-
-fn geometry(scene: &[Surface]) -> Vec<Triangle> {
-    let vertex = |corner: manyview::model::Corner| Vertex {
-        at: corner.at,
-        colour: corner.colour,
-    };
-    triangles(scene).map(|solid| solid.map(vertex)).collect()
 }
 
 /// Its pictures are in `target/volume`.

@@ -1,7 +1,6 @@
 //! The program's heap, where the driver draws with the processor.
 
 use manyview_core::gl::Gl;
-use manyview_core::gl::consts as c;
 use std::sync::Once;
 
 /// Blocks up to this size come from the heap: as far as glibc would go by itself (DEFAULT_MMAP_THRESHOLD_MAX).
@@ -17,23 +16,18 @@ const FREE: core::ffi::c_int = 4 * BLOCK;
 pub(crate) fn keep(gl: &Gl) {
     static ONCE: Once = Once::new();
     ONCE.call_once(|| {
-        if !chosen(|name| std::env::var_os(name).is_some())
-            && gl.get_string(c::RENDERER).contains("llvmpipe")
-        {
+        if !chosen() && gl.is_llvmpipe() {
             set();
         }
     });
 }
 
 /// Whether the user has set how this heap grows.
-fn chosen(is_set: impl Fn(&str) -> bool) -> bool {
-    [
-        "MALLOC_TRIM_THRESHOLD_",
-        "MALLOC_MMAP_THRESHOLD_",
-        "GLIBC_TUNABLES",
-    ]
-    .into_iter()
-    .any(is_set)
+fn chosen() -> bool {
+    let own = ["MALLOC_TRIM_THRESHOLD_", "MALLOC_MMAP_THRESHOLD_"];
+    let tunables = std::env::var_os("GLIBC_TUNABLES").unwrap_or_default();
+    own.into_iter().any(|name| std::env::var_os(name).is_some())
+        || tunables.to_string_lossy().contains("glibc.malloc.")
 }
 
 #[cfg(target_env = "gnu")]

@@ -26,7 +26,7 @@ pub use live::{Knob, Live};
 pub use options::{DISABLE, Field, LIBRARY, OPTIONS, OptionId, OptionSpec, Origin, PathKind};
 pub use profile::{Profile, Rule};
 pub use settings::{Setting, Settings};
-pub use status::Status;
+pub use status::{Status, replace};
 pub use strategy::{Behind, Strategy, TrueViews};
 
 use crate::display::Display;

@@ -1,10 +1,11 @@
 //! The small file in which the layer tells the launcher how far it is.
 #![forbid(unsafe_code)]
 
+use super::Capture;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 
-/// Written at the first frames, then ten times a second, and at each captured or proved frame.
+/// Written at each captured or proved frame; for a capture at the first frames and then ten times a second as well.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Status {
@@ -24,11 +25,15 @@ impl Status {
         serde_json::from_slice(&std::fs::read(path).ok()?).ok()
     }
 
-    /// Replaces the file in one step, so that a reader never sees half of it.
+    /// Replaces the file, see [`replace`].
     pub fn write(&self, path: &Path) -> std::io::Result<()> {
-        let mut growing = path.as_os_str().to_owned();
-        growing.push(".tmp");
-        std::fs::write(&growing, serde_json::to_vec(self)?)?;
-        std::fs::rename(&growing, path)
+        replace(path, &serde_json::to_vec(self)?)
     }
+}
+
+/// Replaces a file in one step, so that a reader never sees half of it.
+pub fn replace(path: &Path, contents: &[u8]) -> std::io::Result<()> {
+    let growing = Capture::partial(path);
+    std::fs::write(&growing, contents)?;
+    std::fs::rename(&growing, path)
 }

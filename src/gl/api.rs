@@ -214,6 +214,12 @@ impl Gl {
         text(unsafe { self.real.glGetString(name) })
     }
 
+    /// Whether Mesa's llvmpipe draws.
+    pub fn is_llvmpipe(&self) -> bool {
+        self.get_string(super::consts::RENDERER)
+            .contains("llvmpipe")
+    }
+
     /// glViewportIndexedf of the first viewport: x, y, width, height in fractions of pixels.
     pub fn viewport_f(&self, [x, y, width, height]: [f32; 4]) {
         self.viewport_indexed_f(0, x, y, width, height);

@@ -4,7 +4,7 @@
 //! it is one frame, it changes no state of the program's, and it is true of every kind of draw and strategy.
 
 use super::Layer;
-use crate::config::{Class, DepthRange, Explain, Word};
+use crate::config::{Capture, Class, DepthRange, Explain, Word};
 use crate::gl::{Gl, consts as c};
 use crate::plan::class::Target;
 use crate::plan::{Classed, Facts, Kind};
@@ -172,9 +172,8 @@ fn texts(linked: &Linked) -> Vec<(&'static str, Vec<u8>)> {
 
 /// Writes beside the file and renames, so that nobody sees half of it.
 fn replace(path: &Path, write: impl FnOnce(&Path) -> Result<(), String>) -> Result<(), String> {
-    let mut growing = path.as_os_str().to_owned();
-    growing.push(".tmp");
-    write(Path::new(&growing))
+    let growing = Capture::partial(path);
+    write(&growing)
         .and_then(|()| std::fs::rename(&growing, path).map_err(|e| e.to_string()))
         .map_err(|e| format!("{}: {e}", path.display()))
 }

@@ -40,7 +40,7 @@ pub struct Governor {
     patience: u32,
     /// It was raised last, and was not judged since.
     tried: bool,
-    /// What that before the last change took, and the number of views then.
+    /// What the window before the last change took, and the number of views then.
     before: Option<(f32, u32)>,
     /// What one view takes, of the whole frame.
     share: Option<f32>,
@@ -203,7 +203,7 @@ mod tests {
     fn one_slow_moment_changes_nothing() {
         let mut governor = Governor::new(25.0, 8, 8);
         let levels = walk(&mut governor, 0..3000, |level, frame, noise| {
-            // Six frames never fill most of two windows.
+            // Six frames are never a quarter of two windows.
             let slow = if frame % 32 < 6 { 1.12 } else { 1.0 };
             noise.sqrt() * slow * (20.0 + 3.0 * level as f32)
         });

@@ -10,7 +10,7 @@ pub use counts::Counts;
 pub use disparity::Disparity;
 pub use proof::{Culprit, Difference, Found, Proof, SpeedUp, Summary, Worst};
 
-use crate::config::{Config, Status};
+use crate::config::{Config, Status, replace};
 use crate::gl::Count;
 use disparity::Disparities;
 use serde::Serialize;
@@ -187,15 +187,27 @@ impl Report {
     pub fn write_if_due(&mut self, config: &Config) {
         let since = self.last_write.map(|last| last.elapsed());
         let due = self.frames <= 10 || since.is_none_or(|since| since > Duration::from_millis(100));
-        if due && (config.report.is_some() || config.status.is_some()) {
-            self.write(config, self.frames);
+        if !due {
+            return;
         }
+        self.last_write = Some(Instant::now());
+        // Of a proof the context tells that has proved a frame.
+        if config.capture.is_some() {
+            self.write_status(config, self.frames);
+        }
+        self.write_report(config);
     }
 
     /// Tells the launcher how far the program is, and writes the report that belongs to this frame: the launcher ends the program when it has the
-    /// last one that it wants. What cannot be written must not disturb the program; the launcher has checked the folders.
+    /// last one that it wants.
     pub fn write(&mut self, config: &Config, frames: u64) {
         self.last_write = Some(Instant::now());
+        self.write_status(config, frames);
+        self.write_report(config);
+    }
+
+    /// What cannot be written must not disturb the program; the launcher has checked the folders.
+    fn write_status(&self, config: &Config, frames: u64) {
         if let Some(path) = &config.status {
             let proof = self.proof.as_ref().map(Proof::summary);
             let status = Status {
@@ -205,11 +217,12 @@ impl Report {
             };
             let _ = status.write(path);
         }
+    }
+
+    /// The same.
+    fn write_report(&self, config: &Config) {
         if let Some(path) = &config.report {
-            let mut temporary = path.as_os_str().to_owned();
-            temporary.push(".tmp");
-            let _ = std::fs::write(&temporary, self.json())
-                .and_then(|()| std::fs::rename(&temporary, path));
+            let _ = replace(path, self.json().as_bytes());
         }
     }
 

@@ -8,6 +8,8 @@ pub(crate) mod views;
 use image::{ImageBuffer, RgbImage, Rgba};
 use manyview::config::OPTIONS;
 use manyview::launch::Xvfb;
+use manyview::model::{Corner, Surface, triangles};
+use manyview::volume::{Triangle, Vertex};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 use std::sync::Mutex;
@@ -414,4 +416,13 @@ pub(crate) fn record(
         .arg(&full);
     succeed(&mut trim);
     cut
+}
+
+/// The triangles of a model, as the volumetric display takes them.
+pub(crate) fn geometry(scene: &[Surface]) -> Vec<Triangle> {
+    let vertex = |corner: Corner| Vertex {
+        at: corner.at,
+        colour: corner.colour,
+    };
+    triangles(scene).map(|solid| solid.map(vertex)).collect()
 }
