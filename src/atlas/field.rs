@@ -25,12 +25,15 @@ pub struct FieldTextures {
     pub copied: bool,
     /// The reference image of an occlusion camera.
     pub bent: Option<BentTextures>,
+    /// Where views that are made have the program's own draws.
+    pub open: Option<u32>,
 }
 
 impl FieldTextures {
     /// What is known of what is hidden; `several`: there are more views than one.
     pub fn behind(&self, several: bool) -> Behind {
         match self.bent {
+            _ if several && self.open.is_some() => Behind::Draws,
             _ if several => Behind::Views,
             Some(_) => Behind::Reference,
             None => Behind::Nothing,
@@ -152,6 +155,7 @@ impl Atlas {
             range: field.range.texture,
             copied: copy.is_some(),
             bent: None,
+            open: None,
         })
     }
 

@@ -43,8 +43,7 @@ impl Config {
                 CLIPS,
                 "distances, discard, both and cut",
             )?,
-            marks_holes: choice(settings, OptionId::Holes, HOLES, "fill and mark")?
-                .unwrap_or(false),
+            holes: strategy::holes(settings, strategy)?,
             view_scale: view_scale(settings)?,
             hud_depth: hud_depth(settings)?,
             without: without(settings)?,
@@ -60,8 +59,6 @@ impl Config {
         })
     }
 }
-
-const HOLES: &[(&str, bool)] = &[("fill", false), ("mark", true)];
 
 const CLIPS: &[(&str, Clip)] = &[
     ("distances", Clip::Distances),

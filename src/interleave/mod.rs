@@ -1,7 +1,7 @@
 //! From N views to the picture that is shown.
 //!
 //! `reference` does it exactly on the CPU and is what the GPU is compared with; `shader` translates the passes of
-//! `shaders/*.wgsl` for the program's context, `program` compiles them; `layout`, `anaglyph`, `depth` and `field` hold what both agree on; `gpu` draws.
+//! `shaders/*.wgsl` for the program's context, `program` compiles them; `pass` names them; `layout`, `anaglyph`, `depth` and `field` hold what both agree on; `gpu` draws.
 #![forbid(unsafe_code)]
 
 mod anaglyph;
@@ -10,6 +10,7 @@ mod depth;
 mod field;
 mod gpu;
 mod layout;
+mod pass;
 mod program;
 #[cfg(feature = "cli")]
 pub mod quilt;
@@ -23,7 +24,7 @@ mod tests;
 pub use anaglyph::Matrix;
 pub use depth::{Depth, rgbd};
 pub use field::{Heights, Places};
-pub use gpu::{Glass, Interleaver, Source, bind_bent, glsl_version};
+pub use gpu::{Glass, Interleaver, Source, bind_bent, bind_open, glsl_version};
 pub use layout::Layout;
 pub use program::Program;
 pub use sources::Sources;

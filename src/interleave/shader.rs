@@ -8,6 +8,7 @@
 use super::Layout;
 use super::anaglyph::Matrix;
 use super::field::Heights;
+pub use super::pass::{Lenses, Pass, Step, Synthesis, Texels};
 use crate::atlas::Grid;
 use crate::config::{Behind, Filter};
 use naga::back::glsl;
@@ -32,6 +33,9 @@ const BENT: &str = include_str!("../../shaders/bent.wgsl");
 const BENDS: &str = include_str!("../../shaders/bends.wgsl");
 const THROUGH: &str = include_str!("../../shaders/through.wgsl");
 const THROUGH_BENT: &str = include_str!("../../shaders/through_bent.wgsl");
+const OPEN: &str = include_str!("../../shaders/open.wgsl");
+const SHUT: &str = include_str!("../../shaders/shut.wgsl");
+const OPENINGS: &str = include_str!("../../shaders/openings.wgsl");
 const COPY: &str = include_str!("../../shaders/copy.wgsl");
 const ACCUMULATE: &str = include_str!("../../shaders/accumulate.wgsl");
 
@@ -52,149 +56,8 @@ pub const STEPS_UNITS: [u32; 2] = [5, 6];
 /// Texture units of the reference image of an occlusion camera: its map, colours, depths, and by how much samples are moved.
 pub const BENT_UNITS: [u32; 4] = [5, 6, 7, 8];
 
-/// What a pass makes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Pass {
-    /// The panel's picture, through the mask: views of any size, filtered or not.
-    Interleave,
-    /// The same for views of the picture's size.
-    Texels(Texels),
-    /// The same for views that have fewer texels, lens by lens or evenly.
-    Lenses(Lenses),
-    /// Quilt, side by side or a single view.
-    Layout,
-    /// A single view of the picture's size.
-    Whole,
-    /// Two views for coloured glasses.
-    Anaglyph,
-    /// The own view beside its depth.
-    Rgbd,
-    /// A copy of a texture of two dimensions, which the others are measured by.
-    Copy,
-    /// A step of the accumulation buffer.
-    Accumulate(Step),
-    /// Views of a picture with depths.
-    Synthesis(Synthesis),
-}
-
-/// What the mask and the atlas are like; see `shaders/texels.wgsl`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Texels {
-    /// Any.
-    Subpixels,
-    /// All views lie in one layer.
-    SubpixelsOfOneLayer,
-    /// Each pixel shows one view.
-    Pixels,
-}
-
-/// How far the texels are from where the panel shows their view; see `shaders/lenses.wgsl`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Lenses {
-    /// Nowhere: each pixel shows one view.
-    Pixels,
-    /// Between texels.
-    Texels,
-}
-
-/// What is made of a picture with depths; see `shaders/field.wgsl`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Synthesis {
-    /// The greatest and the least height of each block of a row.
-    Peaks,
-    /// The greatest of each row.
-    Tops,
-    /// The greatest and the least of all that the rays of a block can meet.
-    Range,
-    /// Where heights step down or up.
-    Steps,
-    /// Which blocks are near such steps.
-    Splats,
-    /// The distortion map of an occlusion camera.
-    Bends,
-    /// One view, with depths, and what is known of what is hidden.
-    View(Behind),
-    /// The panel's picture, through a mask of views; of one view for each pixel, where the mask is `whole`.
-    Panel {
-        /// Red, green and blue show the same view.
-        whole: bool,
-        /// As for a view.
-        behind: Behind,
-    },
-}
-
-/// What is done to the accumulation buffer, texel by texel; see `shaders/accumulate.wgsl`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Step {
-    /// Four values.
-    Fill,
-    /// As it is.
-    Copy,
-    /// The colour.
-    Load,
-    /// The colour is added.
-    Accumulate,
-    /// Multiplied by a value.
-    Multiply,
-    /// A value is added.
-    Add,
-    /// The colour becomes what was accumulated.
-    Return,
-}
-
-impl Pass {
-    /// All that make a picture of views.
-    pub const OUTPUTS: [Self; 10] = [
-        Self::Interleave,
-        Self::Texels(Texels::Subpixels),
-        Self::Texels(Texels::SubpixelsOfOneLayer),
-        Self::Texels(Texels::Pixels),
-        Self::Lenses(Lenses::Pixels),
-        Self::Lenses(Lenses::Texels),
-        Self::Layout,
-        Self::Whole,
-        Self::Anaglyph,
-        Self::Rgbd,
-    ];
-}
-
-impl Synthesis {
-    /// All of them.
-    pub const ALL: [Self; 15] = [
-        Self::Peaks,
-        Self::Tops,
-        Self::Range,
-        Self::Steps,
-        Self::Splats,
-        Self::Bends,
-        Self::View(Behind::Nothing),
-        Self::View(Behind::Reference),
-        Self::View(Behind::Views),
-        Self::panel(false, Behind::Nothing),
-        Self::panel(false, Behind::Reference),
-        Self::panel(false, Behind::Views),
-        Self::panel(true, Behind::Nothing),
-        Self::panel(true, Behind::Reference),
-        Self::panel(true, Behind::Views),
-    ];
-
-    const fn panel(whole: bool, behind: Behind) -> Self {
-        Self::Panel { whole, behind }
-    }
-}
-
-impl Step {
-    /// All of them.
-    pub const ALL: [Self; 7] = [
-        Self::Fill,
-        Self::Copy,
-        Self::Load,
-        Self::Accumulate,
-        Self::Multiply,
-        Self::Add,
-        Self::Return,
-    ];
-}
+/// Texture unit of where the program's draws are let into views that are made; see `shaders/open.wgsl`.
+pub const OPEN_UNIT: u32 = 5;
 
 /// Which half of the program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -522,6 +385,9 @@ fn entry(pass: Pass) -> &'static str {
         Pass::Synthesis(Synthesis::Steps) => "steps",
         Pass::Synthesis(Synthesis::Splats) => "splats",
         Pass::Synthesis(Synthesis::Bends) => "bends",
+        Pass::Synthesis(Synthesis::Holes) => "holes",
+        Pass::Synthesis(Synthesis::Widen) => "widen",
+        Pass::Synthesis(Synthesis::Shut) => "shut",
         Pass::Synthesis(Synthesis::View(_)) => "view",
         Pass::Synthesis(BENT_PANEL) => "panel_subpixels_bent",
         Pass::Synthesis(Synthesis::Panel { whole: false, .. }) => "panel_subpixels",
@@ -547,10 +413,15 @@ fn source(pass: Pass) -> String {
             [COVER, COMMON, ATLAS, MASK, FIELD, BENT, THROUGH_BENT].join("\n")
         }
         Pass::Synthesis(Synthesis::Panel { behind, .. }) => {
-            [COVER, COMMON, ATLAS, MASK, FIELD, hidden(behind), THROUGH].join("\n")
+            let [open, hidden] = [openings(behind), hidden(behind)];
+            [COVER, COMMON, ATLAS, MASK, FIELD, open, hidden, THROUGH].join("\n")
         }
         Pass::Synthesis(Synthesis::View(behind)) => {
-            [COVER, COMMON, ATLAS, FIELD, hidden(behind), VIEW].join("\n")
+            let [open, hidden] = [openings(behind), hidden(behind)];
+            [COVER, COMMON, ATLAS, FIELD, open, hidden, VIEW].join("\n")
+        }
+        Pass::Synthesis(Synthesis::Holes | Synthesis::Widen | Synthesis::Shut) => {
+            [COVER, COMMON, ATLAS, FIELD, OPEN, BETWEEN, OPENINGS].join("\n")
         }
         Pass::Synthesis(Synthesis::Peaks | Synthesis::Tops | Synthesis::Range) => {
             [COVER, COMMON, ATLAS, FIELD, PLAIN, SYNTHESIS].join("\n")
@@ -566,6 +437,14 @@ fn hidden(behind: Behind) -> &'static str {
     match behind {
         Behind::Nothing => PLAIN,
         Behind::Reference => BENT,
-        Behind::Views => BETWEEN,
+        Behind::Views | Behind::Draws => BETWEEN,
+    }
+}
+
+/// What views that are made have of the program's own draws.
+fn openings(behind: Behind) -> &'static str {
+    match behind {
+        Behind::Nothing | Behind::Reference | Behind::Views => SHUT,
+        Behind::Draws => OPEN,
     }
 }
