@@ -176,6 +176,8 @@ pub fn configurations() -> impl Iterator<Item = &'static Configuration> {
         "hybrid-2",
         "hybrid-3",
         "hybrid-4",
+        "hybrid-1-drawn",
+        "hybrid-2-drawn",
         "instanced-layers",
         "geometry-layers",
     ];
