@@ -295,6 +295,7 @@ fn what_a_frame_frees_stays_for_the_next_one() {
         pages(bare(&program)),
         pages(layer("1")),
         told("MALLOC_TRIM_THRESHOLD_", "131072"),
+        told("MALLOC_MMAP_THRESHOLD_", "131072"),
         told("GLIBC_TUNABLES", "glibc.malloc.trim_threshold=131072"),
     ];
     assert!(

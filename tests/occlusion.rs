@@ -255,10 +255,13 @@ fn depths_of_16_bits_tell_as_much() {
     let source = Path::new("tests/support/c/bars.c");
     let coarse = built("bars-16", &[source], Compiled::Program, &libraries);
     for strategy in ["depth-image", "occlusion", "hybrid"] {
-        let (fine, _) = bars_shown("strips", "atlas", strategy);
+        let (fine, usual) = bars_shown("strips", "atlas", strategy);
         let (picture, report) = bars_of(&coarse, "strips", "atlas", strategy);
         let made = &report["frames_synthesised"]["into_tiles"];
         assert!(made.as_u64() > Some(0), "{report}");
+        // Four bytes of colour and two of depth, in place of four and four.
+        let [usual, less] = [&usual, &report].map(|told| told["view_bytes"].as_u64());
+        assert_eq!(usual.map(|bytes| bytes * 3), less.map(|bytes| bytes * 4));
         let off = pixels_over(&fine, &picture, 8);
         println!("{strategy}: {off} pixels");
         // Silhouettes whose place is rounded otherwise.

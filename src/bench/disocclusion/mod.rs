@@ -15,13 +15,16 @@ pub use outcome::{Outcome, Scene, View, text, write_csv};
 pub use sheet::sheet;
 
 use crate::model::{Surface, project, triangles};
-use crate::synthesis::{Distortions, Edges, Pinhole, Reference, Splats};
+use crate::synthesis::{Distortions, Edges, Pinhole, Reference, Splats, Triangle};
 use std::time::{Duration, Instant};
 
 /// What the paper says is left of a depth image's missing samples, on average of its scenes, %.
 pub const PAPER: f64 = 4.5;
 /// What the frames are made of. The last is the occlusion camera's reference image in twice as many columns and rows.
 pub const IMAGES: [&str; 3] = ["depth image", "occlusion camera", "twice as fine"];
+/// What is compared with the truth: a frame of each of those, and the truth itself, sampled half a pixel aside. Two pictures of samples part by as much
+/// as that without either being wrong.
+pub const FRAMES: [&str; 4] = [IMAGES[0], IMAGES[1], IMAGES[2], "truth, aside"];
 /// "The decrease in resolution can be alleviated by increasing the resolution of the reference image" (section IV.C, Figure 15).
 const FINER: u32 = 2;
 
@@ -102,6 +105,19 @@ impl Experiment {
         let mut drawn = Reference::new(self.size);
         let all = triangles(scene).filter_map(|solid| project(camera, &solid));
         drawn.draw(all, &Distortions::none(self.size), f64::INFINITY);
+        drawn
+    }
+
+    /// The same, sampled half a pixel further to the left.
+    #[must_use]
+    pub fn draw_aside(&self, camera: &Pinhole, scene: &[Surface]) -> Reference {
+        let mut drawn = Reference::new(self.size);
+        let aside = |mut triangle: Triangle| {
+            triangle.iter_mut().for_each(|vertex| vertex.at[0] += 0.5);
+            triangle
+        };
+        let all = triangles(scene).filter_map(|solid| project(camera, &solid));
+        drawn.draw(all.map(aside), &Distortions::none(self.size), f64::INFINITY);
         drawn
     }
 

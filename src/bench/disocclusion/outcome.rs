@@ -1,6 +1,6 @@
 //! What was measured, as text, JSON and CSV.
 
-use super::{Experiment, Frame, IMAGES, Images, PAPER};
+use super::{Experiment, FRAMES, Frame, IMAGES, Images, PAPER};
 use crate::bench::error::BenchError;
 use crate::bench::table::columns;
 use crate::metric::Comparison;
@@ -64,7 +64,7 @@ pub struct View {
     pub up: f64,
     /// Inches farther from the display; negative: nearer.
     pub farther: f64,
-    /// Of [`IMAGES`].
+    /// Of [`FRAMES`].
     pub image: &'static str,
     /// Pixels of the true picture that show the scene.
     pub samples: usize,
@@ -93,7 +93,7 @@ pub struct View {
 }
 
 impl View {
-    /// Of a frame; `image` is a number of [`IMAGES`].
+    /// Of a frame; `image` is a number of [`FRAMES`].
     #[must_use]
     pub fn new(scene: &'static str, at: [f64; 3], image: usize, frame: &Frame) -> View {
         let psnr = |comparison: &Comparison| Some(comparison.psnr).filter(|psnr| psnr.is_finite());
@@ -102,7 +102,7 @@ impl View {
             right: at[0],
             up: at[1],
             farther: at[2],
-            image: IMAGES.get(image).copied().unwrap_or_default(),
+            image: FRAMES.get(image).copied().unwrap_or_default(),
             samples: frame.samples,
             missing: frame.count(),
             displaced: frame.displaced,
@@ -192,11 +192,11 @@ pub fn text(outcome: &Outcome) -> String {
     ];
     let mut lines = vec![head.map(str::to_owned).to_vec()];
     for scene in &outcome.scenes {
-        lines.extend(IMAGES.map(|image| cells(scene, image, &outcome.views)));
+        lines.extend(FRAMES.map(|image| cells(scene, image, &outcome.views)));
     }
-    let views = outcome.views.len() / IMAGES.len() / outcome.scenes.len().max(1);
+    let views = outcome.views.len() / FRAMES.len() / outcome.scenes.len().max(1);
     format!(
-        "means of {views} viewpoints on the edges of the cube; worst: inches to the right, up and away from the display; px: disparity error of what is not a hole, max of all; times: construction over a single view; --csv: each view\n\n{}",
+        "means of {views} viewpoints on the edges of the cube; worst: inches to the right, up and away from the display; px: disparity error of what is not a hole, max of all; truth, aside: sampled half a pixel to the left; times: construction over a single view; --csv: each view\n\n{}",
         columns(&lines)
     )
 }

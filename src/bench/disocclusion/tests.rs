@@ -118,6 +118,21 @@ fn a_disparity_leaves_out_nothing_but_holes() {
 }
 
 #[test]
+fn the_truth_aside_parts_at_silhouettes_alone() {
+    let scene = column();
+    let camera = EXPERIMENT.camera([0.0; 3]);
+    let truth = EXPERIMENT.draw(&camera, &scene);
+    let aside = EXPERIMENT.draw_aside(&camera, &scene);
+    let frame = Frame::of(&EXPERIMENT, &truth, &aside).expect("pixels");
+    assert_eq!((frame.count(), frame.disparity.median), (0, 0.0));
+    // The column's left side goes from 79.06 to 79.56, past the middle of a pixel, in all rows that the wall has; its right side from 100.94
+    // to 101.44, past none.
+    let off = frame.disparity.over_percent * frame.samples as f64 / 100.0;
+    let rows = 10.5 * 8.0 * 50.0 / 53.0;
+    assert!((off - rows).abs() <= 2.0, "{off} of {rows} rows");
+}
+
+#[test]
 fn viewpoints_lie_on_the_edges_of_the_cube() {
     let all = viewpoints();
     assert_eq!(all.len(), 48);
@@ -145,16 +160,14 @@ fn a_small_run_is_told_twice_the_same() {
         let scene = (model.surfaces)();
         let images = EXPERIMENT.images(&scene);
         let at = [4.0, -4.0, 1.0];
-        let views: Vec<View> = (0..IMAGES.len())
-            .map(|image| {
-                View::new(
-                    model.name,
-                    at,
-                    image,
-                    &frame(&scene, &images.all[image], at),
-                )
-            })
-            .collect();
+        let aside = EXPERIMENT.draw_aside(&EXPERIMENT.camera(at), &scene);
+        let truth = EXPERIMENT.draw(&EXPERIMENT.camera(at), &scene);
+        let made = images.all.iter().map(|image| EXPERIMENT.seen(image, at));
+        let frames = made.chain([aside]).enumerate().map(|(image, seen)| {
+            let frame = Frame::of(&EXPERIMENT, &truth, &seen).expect("pixels");
+            View::new(model.name, at, image, &frame)
+        });
+        let views: Vec<View> = frames.collect();
         let mut row = Scene::new(model.name, 7, &EXPERIMENT, &images, &views);
         row.single_ms = 1.0;
         for (made, ms) in row.references.iter_mut().zip([2.5, 4.25]) {
@@ -174,7 +187,8 @@ fn a_small_run_is_told_twice_the_same() {
     assert_eq!(told(), (text.clone(), sheet.clone()));
     assert_eq!(sheet.dimensions(), (7 * 180, 120));
     let lines: Vec<&str> = text.lines().collect();
-    assert_eq!(lines.len(), 6, "{text}");
+    assert_eq!(lines.len(), 7, "{text}");
+    assert!(lines[6].contains("truth, aside"), "{text}");
     assert!(lines[0].starts_with("means of 1 viewpoints"), "{text}");
     assert!(lines[3].contains("(4, -4, 1)"), "{text}");
     for (line, times) in lines[4..].iter().zip(["2.50", "4.25"]) {

@@ -101,8 +101,10 @@ fn views(
                 break;
             };
             let truth = experiment.draw(&experiment.camera(place), scene);
-            for (image, reference) in images.all.iter().enumerate() {
-                let seen = experiment.seen(reference, place);
+            let made = images.all.iter();
+            let made = made.map(|image| experiment.seen(image, place));
+            let aside = || experiment.draw_aside(&experiment.camera(place), scene);
+            for (image, seen) in made.chain(std::iter::once_with(aside)).enumerate() {
                 let frame = Frame::of(experiment, &truth, &seen);
                 let view = frame.map(|frame| View::new(name, place, image, &frame));
                 if let Ok(mut all) = all.lock() {

@@ -74,7 +74,16 @@ fn a_dark_scene_is_shown_as_bright_as_the_display_can_be() {
         assert_eq!(grey(&bright)[0], white, "{count} and black ones");
         dark.half_planes[7].truncate(1000);
     }
-    // What is bright stays as it is, and so does nothing.
+    // The darkest there is counts as well, also where some are white.
+    let mut darkest = of_cells(&screen, &cells(1000), [1; 3]);
+    assert_eq!(grey(&darkest.clone().exposed().0), [255; 3]);
+    for voxel in &mut darkest.half_planes[7][950..] {
+        voxel.colour = [255; 3];
+    }
+    assert_eq!(grey(&darkest.exposed().0), [255; 3]);
+    // What is bright stays as it is, and so does nothing, and black.
+    let black = of_cells(&screen, &cells(1), [0; 3]);
+    assert_eq!(black.clone().exposed(), (black, 1.0));
     let light = of_cells(&screen, &cells(1000), [255, 60, 1]);
     assert_eq!(light.clone().exposed(), (light, 1.0));
     let nothing = of_cells(&screen, &[], GREY);
