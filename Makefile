@@ -32,7 +32,7 @@ SHADER_PACKAGES := colobot-common glmark2-data goxel ioquake3 kodi-data libopens
 	trackballs-data xmoto xscreensaver-gl xscreensaver-gl-extra
 
 .PHONY: help build demos demo bench overhead pictures gallery test test-long test-full programs soak openarena openarena-walk openarena-pictures shaders lint packages \
-	install uninstall clean
+	install install-debug uninstall clean
 
 help: ## list the targets
 	@sed -n 's/^\([a-z-]*\):.*## /\1	/p' $(MAKEFILE_LIST) | expand -t 20
@@ -143,9 +143,9 @@ install: ## install to PREFIX after `make build` (default /usr/local)
 		{ echo "Nothing to install: run make build first" >&2; exit 1; }
 	install -d $(DESTDIR)$(PREFIX)/bin $(DESTDIR)$(PREFIX)/lib/manyview \
 		$(DESTDIR)$(PREFIX)/lib/manyview/profiles $(DESTDIR)$(PREFIX)/share/manyview/shaders $(DESTDIR)$(PREFIX)/share/doc/manyview/docs
-	install -m 755 $(BIN)/manyview $(DESTDIR)$(PREFIX)/bin/manyview
-	install -m 644 $(BIN)/libmanyview.so $(DESTDIR)$(PREFIX)/lib/manyview/libmanyview.so
-	install -m 755 $(BIN)/manyview-probe $(DESTDIR)$(PREFIX)/lib/manyview/manyview-probe
+	install -s -m 755 $(BIN)/manyview $(DESTDIR)$(PREFIX)/bin/manyview
+	install -s -m 644 $(BIN)/libmanyview.so $(DESTDIR)$(PREFIX)/lib/manyview/libmanyview.so
+	install -s -m 755 $(BIN)/manyview-probe $(DESTDIR)$(PREFIX)/lib/manyview/manyview-probe
 	@for scene in $(SCENES); do test -x $(DEMOS)/$$scene || \
 		{ echo "The scenes of manyview bench are not built: run make demos first to install them as well" >&2; exit 0; }; done; \
 		install -d $(DESTDIR)$(PREFIX)/lib/manyview/scenes && \
@@ -157,8 +157,17 @@ install: ## install to PREFIX after `make build` (default /usr/local)
 	install -m 644 README.md ARCHITECTURE.md CHANGELOG.md LICENSE $(DESTDIR)$(PREFIX)/share/doc/manyview/
 	install -m 644 docs/*.png docs/*.md $(DESTDIR)$(PREFIX)/share/doc/manyview/docs/
 
+# Debuggers look for .debug/NAME.debug beside a binary that says so in a link; its checksum is that of the file.
+install-debug: install ## install the debug information of what install has stripped, beside it
+	@set -e; for binary in bin/manyview lib/manyview/libmanyview.so lib/manyview/manyview-probe; do \
+		folder=$(DESTDIR)$(PREFIX)/$$(dirname $$binary); name=$$(basename $$binary); \
+		install -d $$folder/.debug; \
+		objcopy --only-keep-debug $(BIN)/$$name $$folder/.debug/$$name.debug; \
+		objcopy --remove-section=.gnu_debuglink --add-gnu-debuglink=$$folder/.debug/$$name.debug $$folder/$$name; \
+	done
+
 uninstall: ## remove what install has put to PREFIX
-	rm -f $(DESTDIR)$(PREFIX)/bin/manyview
+	rm -f $(DESTDIR)$(PREFIX)/bin/manyview $(DESTDIR)$(PREFIX)/bin/.debug/manyview.debug
 	rm -rf $(DESTDIR)$(PREFIX)/lib/manyview $(DESTDIR)$(PREFIX)/share/manyview $(DESTDIR)$(PREFIX)/share/doc/manyview
 
 clean: ## remove what was built

@@ -4,8 +4,7 @@
 fn through(view: u32, at: vec2<u32>, row: i32, range: vec2<f32>) -> vec3<f32> {
     let x = f32(at.x) + 0.5;
     let seen = see(f32(view), x, row, range);
-    let shown = drawn_or(view, i32(at.x), row, colour_of(seen, row));
-    return select(shown, vec3<f32>(0.0), view >= u.views);
+    return select(colour_of(seen, row), vec3<f32>(0.0), view >= u.views);
 }
 
 // A mask of whole pixels: one view for all three colours.

@@ -15,9 +15,6 @@ fn view(@builtin(position) position: vec4<f32>) -> Made {
     let at = vec2<u32>(position.xy);
     let row = i32(texel_row(min(at.y, u.tile.y - 1u), u.tile.y));
     let x = position.x - u.aim.y;
-    if is_open(i32(u.aim.x), vec2<i32>(i32(x), row)) {
-        discard;
-    }
     let seen = see(u.aim.x, x, row, range_of(u32(x), row));
     let low = sample_depth(seen.low, row, seen.behind);
     let high = sample_depth(seen.high, row, seen.behind);

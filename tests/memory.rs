@@ -270,40 +270,6 @@ fn contexts_that_come_and_go_leave_nothing() {
     }
 }
 
-/// Pages that the system gives a program which frees 32 MiB and gets them again.
-fn pages(mut program: Command) -> u64 {
-    let told = lines(&mut program);
-    told.trim().parse().expect("pages")
-}
-
-#[test]
-fn what_a_frame_frees_stays_for_the_next_one() {
-    let program = compiled("heap", Compiled::Program, &["-lEGL", "-lGL"]);
-    let layer = |views| layered(&program, &[("VIEWS", views)]);
-    let told = |name, value| {
-        let mut command = layer("2");
-        command.env(name, value);
-        pages(command)
-    };
-    let kept = [
-        pages(layer("2")),
-        told("GLIBC_TUNABLES", "glibc.rtld.nns=4"),
-    ];
-    assert!(kept.iter().all(|&pages| pages < 400), "{kept:?}");
-    // What the user has set stays, and where the layer does nothing nothing changes.
-    let given_back = [
-        pages(bare(&program)),
-        pages(layer("1")),
-        told("MALLOC_TRIM_THRESHOLD_", "131072"),
-        told("MALLOC_MMAP_THRESHOLD_", "131072"),
-        told("GLIBC_TUNABLES", "glibc.malloc.trim_threshold=131072"),
-    ];
-    assert!(
-        given_back.iter().all(|&pages| pages > 4000),
-        "{given_back:?}"
-    );
-}
-
 #[test]
 fn what_the_driver_does_without_us_is_not_ours() {
     let error = |kind: &str, objects: &[&str]| {

@@ -65,19 +65,13 @@ struct Side<'a> {
 
 impl Side<'_> {
     fn command(&self, first: u64, count: u64, without: &str, more: &[&str]) -> Command {
-        // Holes of views that are made may be drawn again.
-        let (strategy, holes) = self
-            .strategy
-            .split_once('+')
-            .unwrap_or((self.strategy, "fill"));
         let mut command = match self.atlas {
             None => bare(self.program),
             Some(atlas) => layered(
                 self.program,
                 &[
                     ("VIEWS", "3"),
-                    ("STRATEGY", strategy),
-                    ("HOLES", holes),
+                    ("STRATEGY", self.strategy),
                     ("ATLAS", atlas),
                 ],
             ),
@@ -282,13 +276,6 @@ fn random_calls_by_several_true_views() {
     compare(Api::Egl, "side-by-side", "hybrid", 45_000..45_060);
     compare(Api::Egl, "layers", "hybrid", 45_060..45_090);
     compare(Api::OsMesa, "side-by-side", "hybrid", 45_090..45_110);
-}
-
-#[test]
-fn random_calls_with_holes_drawn_again() {
-    compare(Api::Egl, "side-by-side", "hybrid+draw", 46_000..46_060);
-    compare(Api::Egl, "layers", "hybrid+draw", 46_060..46_090);
-    compare(Api::OsMesa, "side-by-side", "hybrid+draw", 46_090..46_110);
 }
 
 #[test]

@@ -177,7 +177,6 @@ fn a_panel_s_picture_is_that_of_its_views() {
         ("lenticular-5", "5", WAYS[0]),
         ("slanted8", "8", &two),
         ("slanted8", "8", &six),
-        ("slanted8", "8", WAYS[4]),
         ("lenticular-5", "5", &three),
     ] {
         let folder = tempfile::tempdir().expect("a folder");
@@ -212,28 +211,12 @@ fn a_panel_s_picture_is_that_of_its_views() {
 }
 
 /// Those that make views, and have the same bounds.
-const WAYS: [&[&str]; 5] = [
+const WAYS: [&[&str]; 4] = [
     &["--strategy", "depth-image"],
     &["--strategy", "occlusion"],
     &["--strategy", "hybrid", "--true-views", "2"],
     &["--strategy", "hybrid", "--true-views", "3"],
-    &[
-        "--strategy",
-        "hybrid",
-        "--true-views",
-        "2",
-        "--holes",
-        "draw",
-    ],
 ];
-
-/// The same with magenta in the holes that are left.
-fn marking(way: &[&'static str]) -> Vec<&'static str> {
-    match way.split_last() {
-        Some((&"draw", others)) => [others, &["mark-left"]].concat(),
-        _ => [way, &["--holes", "mark"]].concat(),
-    }
-}
 
 /// Scenes with something that depths do not tell of, what ends them, and how close the worst view is to what is drawn, in dB.
 const HARD: [(&[&str], &str, f64); 11] = [
@@ -330,7 +313,7 @@ fn hard_scenes_are_right_outside_of_holes() {
         let (exact, _) = by(&["--strategy", "replay"]);
         for way in WAYS {
             let (all, report) = by(way);
-            let (marked, _) = by(&marking(way));
+            let (marked, _) = by(&[way, &["--holes", "mark"]].concat());
             assert!(
                 exact[OWN as usize] == all[OWN as usize],
                 "{name}: the own view is another"
@@ -381,12 +364,11 @@ fn a_program_that_does_not_clear_draws_on() {
     assert_eq!(expected.matches("error 0x0").count(), 8, "{expected}");
     let report = folder.path().join("report.json");
     for frame in ["1", "2", "3", "4", "5", "6", "7", "8"] {
-        let picture = |strategy: &str, holes: &str| {
+        let picture = |strategy: &str| {
             let out = folder.path().join(format!("{strategy}-{frame}.png"));
             let options = [
                 ("DISPLAY", "lenticular-5"),
                 ("STRATEGY", strategy),
-                ("HOLES", holes),
                 ("SEPARATION", "0.08"),
                 ("REPORT", report.to_str().expect("UTF-8")),
                 ("CONVERGENCE", "6"),
@@ -399,18 +381,15 @@ fn a_program_that_does_not_clear_draws_on() {
             );
             rgb(&out)
         };
-        let exact = picture("replay", "fill");
-        for (strategy, holes) in [("depth-image", "fill"), ("hybrid", "draw")] {
-            let panel = picture(strategy, holes);
-            let told = std::fs::read_to_string(&report).expect("a report");
-            let report: Value = serde_json::from_str(&told).expect("JSON");
-            // Two frames begin a scene, two go on with it, two end it; after that nothing is made of depths.
-            assert_eq!(made(&report), [4, 2], "{report}");
-            // Columns at the edges of four squares, in four of five views.
-            let wrong = pixels_over(&exact, &panel, 8);
-            println!("frame {frame} by {strategy}: {wrong}");
-            assert!(wrong <= 60, "frame {frame}: {wrong} of 3072 pixels");
-        }
+        let (exact, panel) = (picture("replay"), picture("depth-image"));
+        let told = std::fs::read_to_string(&report).expect("a report");
+        let report: Value = serde_json::from_str(&told).expect("JSON");
+        // Two frames begin a scene, two go on with it, two end it; after that nothing is made of depths.
+        assert_eq!(made(&report), [4, 2], "{report}");
+        // Columns at the edges of four squares, in four of five views.
+        let wrong = pixels_over(&exact, &panel, 8);
+        println!("frame {frame}: {wrong}");
+        assert!(wrong <= 60, "frame {frame}: {wrong} of 3072 pixels");
     }
 }
 
@@ -487,41 +466,6 @@ fn what_one_true_view_hides_another_shows() {
     assert!(one >= 600 && three * 10 <= one, "{one} and {three} holes");
 }
 
-/// Where the frame before had holes, a view is what the program draws; what is left of them is a part of what they were.
-#[test]
-fn holes_are_drawn_again() {
-    let cameras = ["--eye-spacing", "0.3", "--focal-depth", "8"];
-    let scene = ["hard", "--case", "gaps"];
-    let (exact, _) = views(&scene, &[&cameras[..], &["--strategy", "replay"]].concat());
-    let way = ["--strategy", "hybrid", "--true-views", "1"];
-    let by = |holes: &str| {
-        let options = [&cameras[..], &way, &["--holes", holes]].concat();
-        views(&scene, &options).0
-    };
-    let [filled, marked, drawn, rest] = ["fill", "mark", "draw", "mark-left"].map(by);
-    for view in (0..VIEWS as usize).filter(|&view| view != OWN as usize) {
-        let (mut holes, mut left, mut wrong) = (0, 0, [0, 0]);
-        let pixels = marked[view].enumerate_pixels();
-        for (x, y, _) in pixels.filter(|(.., pixel)| pixel.0 == MAGENTA) {
-            holes += 1;
-            if rest[view].get_pixel(x, y).0 == MAGENTA {
-                left += 1;
-                continue;
-            }
-            let expected = exact[view].get_pixel(x, y);
-            for (wrong, made) in wrong.iter_mut().zip([&filled, &drawn]) {
-                *wrong += u32::from(made[view].get_pixel(x, y) != expected);
-            }
-        }
-        println!(
-            "view {view}: {holes} pixels in holes, {left} left; filled {}, drawn {} wrong",
-            wrong[0], wrong[1]
-        );
-        assert!(holes > 1000 && left * 4 <= holes, "{left} of {holes}");
-        assert!(wrong[0] > 100 && wrong[1] == 0, "{wrong:?}");
-    }
-}
-
 /// What is shown of `over` through a panel of five views, and what is reported.
 fn over(strategy: &[(&str, &str)], arguments: [&str; 2]) -> (RgbImage, Value) {
     let program = support::compiled("over", support::Compiled::Program, &["-lEGL", "-lGL"]);
@@ -547,15 +491,9 @@ fn over(strategy: &[(&str, &str)], arguments: [&str; 2]) -> (RgbImage, Value) {
 #[test]
 fn clears_of_their_own_begin_a_scene() {
     let frames = ["clears", "6"];
-    let ways: [&[(&str, &str)]; 4] = [
-        &[("STRATEGY", "depth-image")],
-        &[("STRATEGY", "occlusion")],
-        &[("STRATEGY", "hybrid")],
-        &[("STRATEGY", "hybrid"), ("HOLES", "draw")],
-    ];
-    for way in ways {
-        let (_, report) = over(way, frames);
-        assert_eq!(made(&report), [6, 0], "{way:?}: {report}");
+    for strategy in ["depth-image", "occlusion", "hybrid"] {
+        let (_, report) = over(&[("STRATEGY", strategy)], frames);
+        assert_eq!(made(&report), [6, 0], "{strategy}: {report}");
     }
 }
 
@@ -576,14 +514,11 @@ fn all_views_are_drawn_where_there_is_time() {
     // What is cleared once only is there in views that join as well.
     let frames = ["once", "60"];
     let (exact, _) = over(&[("STRATEGY", "replay")], frames);
-    for holes in ["fill", "draw"] {
-        let way = [&governed[..], &[("HOLES", holes)]].concat();
-        let (joined, report) = over(&way, frames);
-        let drawn = report["true_views"].as_array().expect("all frames");
-        let drawn: Vec<_> = drawn.iter().filter_map(|frame| frame[1].as_u64()).collect();
-        assert!(matches!(drawn.last(), Some(3 | 4)), "{drawn:?}");
-        let wrong = pixels_over(&exact, &joined, 8);
-        println!("{holes}: {wrong} pixels");
-        assert!(wrong <= 3, "{wrong} of 3072 pixels");
-    }
+    let (joined, report) = over(&governed, frames);
+    let drawn = report["true_views"].as_array().expect("all frames");
+    let drawn: Vec<_> = drawn.iter().filter_map(|frame| frame[1].as_u64()).collect();
+    assert!(matches!(drawn.last(), Some(3 | 4)), "{drawn:?}");
+    let wrong = pixels_over(&exact, &joined, 8);
+    println!("{wrong} pixels");
+    assert!(wrong <= 3, "{wrong} of 3072 pixels");
 }

@@ -3,7 +3,6 @@
 use crate::control;
 use crate::deep;
 use crate::geometry::{self, Seen};
-use crate::heap;
 use crate::keys;
 use crate::live;
 use crate::provider::Provider;
@@ -295,7 +294,6 @@ pub(crate) fn made_current(provider: Provider, handle: Ptr, drawable: Option<Dra
 fn attach(gl: &Gl, c: &mut Context, width: u32, height: u32) -> Result<(), String> {
     match (switch::mode(), switch::config()) {
         (Mode::Active, Some(config)) => {
-            heap::keep(gl);
             c.layer = Some(
                 Layer::new(
                     gl,

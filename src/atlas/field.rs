@@ -1,6 +1,7 @@
 //! Copies of views with their depths, and how high they are at most, for what makes other views of them.
 
-use super::{Atlas, BentTextures, Names, Single, fetched};
+use super::layers::Layers;
+use super::{Atlas, BentTextures, Names, Single};
 use crate::config::Behind;
 use crate::gl::{Gl, consts as c};
 use crate::state::Window;
@@ -25,15 +26,12 @@ pub struct FieldTextures {
     pub copied: bool,
     /// The reference image of an occlusion camera.
     pub bent: Option<BentTextures>,
-    /// Where views that are made have the program's own draws.
-    pub open: Option<u32>,
 }
 
 impl FieldTextures {
     /// What is known of what is hidden; `several`: there are more views than one.
     pub fn behind(&self, several: bool) -> Behind {
         match self.bent {
-            _ if several && self.open.is_some() => Behind::Draws,
             _ if several => Behind::Views,
             Some(_) => Behind::Reference,
             None => Behind::Nothing,
@@ -46,16 +44,9 @@ impl FieldTextures {
 pub(super) struct Field {
     /// None where what the tiles are resolved to is no tile.
     copy: Option<Single>,
-    peaks: Lines,
-    tops: Lines,
-    range: Lines,
-}
-
-/// A texture, and the framebuffers of its layers.
-#[derive(Debug)]
-struct Lines {
-    texture: u32,
-    framebuffers: Vec<u32>,
+    peaks: Layers,
+    tops: Layers,
+    range: Layers,
 }
 
 /// What is drawn to.
@@ -70,7 +61,7 @@ pub enum FieldTarget {
 }
 
 impl Field {
-    fn lines(&self, target: FieldTarget) -> &Lines {
+    fn lines(&self, target: FieldTarget) -> &Layers {
         match target {
             FieldTarget::Peaks => &self.peaks,
             FieldTarget::Tops => &self.tops,
@@ -81,7 +72,7 @@ impl Field {
     pub(super) fn framebuffers(&self) -> impl Iterator<Item = u32> {
         let lines = [&self.peaks, &self.tops, &self.range].into_iter();
         let copies = self.copy.iter().flat_map(Single::framebuffers);
-        copies.chain(lines.flat_map(|lines| lines.framebuffers.iter().copied()))
+        copies.chain(lines.flat_map(Layers::framebuffers))
     }
 }
 
@@ -89,42 +80,16 @@ impl Atlas {
     /// Makes what [`Atlas::take_field`] copies to, for as many views. The caller saves and restores bindings as for [`Atlas::new`].
     pub fn make_field(&mut self, gl: &Gl, names: &mut Names, window: &Window, layers: u32) -> bool {
         let size = [self.tiles.width, self.tiles.height].map(|side| side as i32);
-        let mut complete = true;
         let blocks = self.tiles.width.div_ceil(BLOCK).max(1) as i32;
         let mut lines = |width: i32| {
-            let texture = names.texture(gl);
-            let target = c::TEXTURE_2D_ARRAY;
-            gl.bind_texture(target, texture);
-            let depth = layers as i32;
-            gl.tex_storage_3d(c::RG32F, width, size[1], depth, c::RG, c::FLOAT);
-            fetched(gl);
-            gl.bind_texture(target, 0);
-            self.textures.push(texture);
-            let mut framebuffer = |layer: u32| {
-                let name = gl.gen_framebuffer();
-                gl.bind_framebuffer(c::FRAMEBUFFER, name);
-                let layer = layer as i32;
-                gl.framebuffer_texture_layer(
-                    c::FRAMEBUFFER,
-                    c::COLOR_ATTACHMENT0,
-                    texture,
-                    0,
-                    layer,
-                );
-                // As the tiles: Mesa 22.3 turns a polygon stipple for the framebuffer that is drawn to first, and keeps it so.
-                if self.flipped {
-                    gl.flip_framebuffer(c::FRAMEBUFFER);
-                }
-                complete &= gl.check_framebuffer_status(c::FRAMEBUFFER) == c::FRAMEBUFFER_COMPLETE;
-                name
-            };
-            let framebuffers = (0..layers).map(&mut framebuffer).collect();
-            Lines {
-                texture,
-                framebuffers,
-            }
+            let format = (c::RG32F, c::RG, c::FLOAT);
+            let size = [width, size[1], layers as i32];
+            let lines = Layers::new(gl, names, self.flipped, format, size);
+            self.textures.push(lines.texture);
+            lines
         };
         let (peaks, tops, range) = (lines(blocks), lines(1), lines(blocks));
+        let complete = [&peaks, &tops, &range].iter().all(|lines| lines.complete);
         let copy = match self.multisampled() {
             true => None,
             false => {
@@ -155,7 +120,6 @@ impl Atlas {
             range: field.range.texture,
             copied: copy.is_some(),
             bent: None,
-            open: None,
         })
     }
 
@@ -173,8 +137,8 @@ impl Atlas {
     /// Binds what a pass draws to, of a layer, and answers its width in texels.
     pub fn enter_field(&mut self, gl: &Gl, target: FieldTarget, layer: u32) -> i32 {
         let Some(field) = &self.field else { return 0 };
-        let framebuffer = field.lines(target).framebuffers.get(layer as usize);
-        gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, framebuffer.copied().unwrap_or(0));
+        let framebuffer = field.lines(target).framebuffer(layer);
+        gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, framebuffer);
         self.bound_row = u32::MAX;
         match target {
             FieldTarget::Tops => 1,

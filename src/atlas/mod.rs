@@ -5,8 +5,8 @@ mod depths;
 mod field;
 mod front;
 mod grid;
+mod layers;
 mod names;
-mod openings;
 mod reference;
 mod shown;
 mod single;
@@ -20,8 +20,6 @@ pub use field::{FieldTarget, FieldTextures};
 use front::Front;
 pub use grid::Grid;
 pub use names::Names;
-pub use openings::OpeningTarget;
-use openings::Openings;
 use reference::Bent;
 pub use reference::{BendTarget, BentSurface, BentTextures};
 pub use shown::Shown;
@@ -55,7 +53,6 @@ pub struct Atlas {
     depths: Option<Depths>,
     field: Option<Field>,
     bent: Option<Bent>,
-    openings: Option<Openings>,
     bound_row: u32,
 }
 
@@ -275,7 +272,6 @@ impl Atlas {
             depths: None,
             field: None,
             bent: None,
-            openings: None,
             bound_row: 0,
         };
         if status != c::FRAMEBUFFER_COMPLETE {
@@ -308,9 +304,7 @@ impl Atlas {
         let field = self.field.iter().flat_map(Field::framebuffers);
         let bent = self.bent.iter().flat_map(Bent::framebuffers);
         let views = self.targets().chain(resolve);
-        let openings = self.openings.iter().flat_map(Openings::framebuffers);
-        let made = field.chain(bent).chain(openings);
-        views.chain(singles).chain(depths).chain(made)
+        views.chain(singles).chain(depths).chain(field).chain(bent)
     }
 
     /// Whether a texture is the atlas's own.

@@ -34,7 +34,6 @@ const LAYERS: (OptionId, &str) = (OptionId::Atlas, "layers");
 const REPLAY: (OptionId, &str) = (OptionId::Strategy, "replay");
 const INSTANCED: (OptionId, &str) = (OptionId::Strategy, "instanced");
 const HYBRID: (OptionId, &str) = (OptionId::Strategy, "hybrid");
-const DRAWN: (OptionId, &str) = (OptionId::Holes, "draw");
 const GEOMETRY: (OptionId, &str) = (OptionId::Strategy, "geometry");
 
 const DISTANCES: (OptionId, &str) = (OptionId::Clip, "distances");
@@ -96,16 +95,6 @@ pub const CONFIGURATIONS: &[Configuration] = &[
         "hybrid-4",
         &[HYBRID, (OptionId::TrueViews, "4")],
         "the same with four",
-    ),
-    row(
-        "hybrid-1-drawn",
-        &[HYBRID, (OptionId::TrueViews, "1"), DRAWN],
-        "the scene in one view, and in the others where they had holes",
-    ),
-    row(
-        "hybrid-2-drawn",
-        &[HYBRID, (OptionId::TrueViews, "2"), DRAWN],
-        "hybrid-2, and the scene in the other views where they had holes",
     ),
     row(
         "replay-layers",

@@ -46,18 +46,6 @@ pub enum ConfigError {
         /// The other one.
         remedy: Field,
     },
-    /// Holes are drawn by one strategy only.
-    #[error(
-        "{field} is '{value}', which is for the strategy hybrid; give {remedy} as 'hybrid' with it, or fill or mark"
-    )]
-    DrawsHoles {
-        /// The option.
-        field: Field,
-        /// What it was given.
-        value: String,
-        /// The other one.
-        remedy: Field,
-    },
     /// Either says how many views are drawn.
     #[error("{count} and {rate} both say how many views are drawn; leave one of them out")]
     TrueViewsAndRate {

@@ -27,7 +27,7 @@ pub use options::{DISABLE, Field, LIBRARY, OPTIONS, OptionId, OptionSpec, Origin
 pub use profile::{Profile, Rule};
 pub use settings::{Setting, Settings};
 pub use status::{Status, replace};
-pub use strategy::{Behind, Holes, Strategy, TrueViews};
+pub use strategy::{Behind, Strategy, TrueViews};
 
 use crate::display::Display;
 use std::path::{Path, PathBuf};
@@ -59,8 +59,8 @@ pub struct Config {
     pub clip: Option<Clip>,
     /// How many views are drawn where the others are made of them.
     pub true_views: TrueViews,
-    /// What views that are made of depths have where nothing is known.
-    pub holes: Holes,
+    /// Holes of views that are made of depths are magenta.
+    pub marks_holes: bool,
     /// Size of a tile over the size of the window.
     pub view_scale: ViewScale,
     /// Where flat draws stand that no rule places: 0 on the panel, 1 infinitely far; a fraction of the separation at infinity.

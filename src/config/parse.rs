@@ -43,7 +43,8 @@ impl Config {
                 CLIPS,
                 "distances, discard, both and cut",
             )?,
-            holes: strategy::holes(settings, strategy)?,
+            marks_holes: choice(settings, OptionId::Holes, HOLES, "fill and mark")?
+                .unwrap_or(false),
             view_scale: view_scale(settings)?,
             hud_depth: hud_depth(settings)?,
             without: without(settings)?,
@@ -59,6 +60,8 @@ impl Config {
         })
     }
 }
+
+const HOLES: &[(&str, bool)] = &[("fill", false), ("mark", true)];
 
 const CLIPS: &[(&str, Clip)] = &[
     ("distances", Clip::Distances),

@@ -58,42 +58,6 @@ pub enum Behind {
     Reference,
     /// What other views that are drawn see.
     Views,
-    /// The same, and what the program draws there again.
-    Draws,
-}
-
-/// What views that are made have where nothing is known of what they show.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Holes {
-    /// What is behind.
-    Fill,
-    /// Magenta.
-    Mark,
-    /// What the program draws there, as far as the frame before had them; else what is behind.
-    Draw,
-    /// The same, else magenta.
-    MarkLeft,
-}
-
-const HOLES: &[(&str, Holes)] = &[
-    ("fill", Holes::Fill),
-    ("mark", Holes::Mark),
-    ("draw", Holes::Draw),
-    ("mark-left", Holes::MarkLeft),
-];
-
-impl Holes {
-    /// Whether the program draws there again.
-    #[must_use]
-    pub fn draws(self) -> bool {
-        matches!(self, Holes::Draw | Holes::MarkLeft)
-    }
-
-    /// Whether they are marked, those that are left.
-    #[must_use]
-    pub fn marks(self) -> bool {
-        matches!(self, Holes::Mark | Holes::MarkLeft)
-    }
 }
 
 /// How many views `--strategy hybrid` draws.
@@ -125,11 +89,7 @@ impl Config {
     /// Of what views are made instead of drawn; none where they are all drawn.
     #[must_use]
     pub fn synthesis(&self) -> Option<Behind> {
-        let behind = self.strategy.behind().filter(|_| self.views > 1);
-        behind.map(|behind| match self.holes.draws() {
-            true => Behind::Draws,
-            false => behind,
-        })
+        self.strategy.behind().filter(|_| self.views > 1)
     }
 }
 
@@ -137,21 +97,6 @@ pub(super) fn chosen(settings: &Settings) -> Result<Strategy, ConfigError> {
     let names = "auto, replay, instanced, geometry, depth-image, occlusion and hybrid";
     let given = choice(settings, OptionId::Strategy, STRATEGIES, names)?;
     Ok(given.unwrap_or(Strategy::Auto))
-}
-
-pub(super) fn holes(settings: &Settings, strategy: Strategy) -> Result<Holes, ConfigError> {
-    let names = "fill, mark, draw and mark-left";
-    let holes = choice(settings, OptionId::Holes, HOLES, names)?.unwrap_or(Holes::Fill);
-    match settings.field(OptionId::Holes) {
-        Some((field, value)) if holes.draws() && strategy != Strategy::Hybrid => {
-            Err(ConfigError::DrawsHoles {
-                remedy: field.sibling(OptionId::Strategy),
-                field,
-                value: value.to_owned(),
-            })
-        }
-        _ => Ok(holes),
-    }
 }
 
 pub(super) fn true_views(

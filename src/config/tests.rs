@@ -121,11 +121,6 @@ fn every_message_is_one_clear_sentence() {
             ("MANYVIEW_CAPTURE_WHAT", "view:9"),
         ],
         &[("MANYVIEW_TRUE_VIEWS", "3")],
-        &[
-            ("MANYVIEW_STRATEGY", "depth-image"),
-            ("MANYVIEW_HOLES", "draw"),
-        ],
-        &[("MANYVIEW_HOLES", "mark-left")],
         &[("MANYVIEW_FPS", "30"), ("MANYVIEW_STRATEGY", "replay")],
         &[
             ("MANYVIEW_STRATEGY", "hybrid"),

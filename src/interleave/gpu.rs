@@ -1,8 +1,8 @@
 //! The output passes in the program's context: on the GPU, or by the CPU reference where the context's GLSL is too old.
 
 use super::shader::{
-    BENT_UNITS, DEPTH_UNIT, Lenses, MASK_UNIT, OPEN_UNIT, PEAKS_UNIT, Pass, RANGE_UNIT, Synthesis,
-    Texels, Uniforms, VIEWS_UNIT,
+    BENT_UNITS, DEPTH_UNIT, Lenses, MASK_UNIT, PEAKS_UNIT, Pass, RANGE_UNIT, Synthesis, Texels,
+    Uniforms, VIEWS_UNIT,
 };
 use super::sheet::{self, Sheet};
 use super::{Depth, Form, Heights, Layout, Program, reference, rgbd};
@@ -101,14 +101,6 @@ pub fn bind_bent(gl: &Gl, textures: Option<BentTextures>) {
     }
 }
 
-/// Binds where views that are made have the program's own draws.
-pub fn bind_open(gl: &Gl, texture: Option<u32>) {
-    if let Some(texture) = texture {
-        gl.active_texture(c::TEXTURE0 + OPEN_UNIT);
-        gl.bind_texture(c::TEXTURE_2D_ARRAY, texture);
-    }
-}
-
 /// A texture name that is taken from now on.
 fn reserve(gl: &Gl, names: &mut Names) -> u32 {
     let name = names.texture(gl);
@@ -133,11 +125,10 @@ impl Interleaver {
             cpu: None,
         };
         let panels = Synthesis::ALL.into_iter().filter(|pass| match pass {
-            // There is no reference image in the first frame, and nothing is open.
+            // There is no reference image in the first frame.
             Synthesis::Panel { behind, .. } => {
                 synthesis == Some(*behind)
                     || (synthesis, *behind) == (Some(Behind::Reference), Behind::Nothing)
-                    || (synthesis, *behind) == (Some(Behind::Draws), Behind::Views)
             }
             _ => false,
         });
@@ -242,7 +233,6 @@ impl Interleaver {
                 gl.bind_texture(c::TEXTURE_2D_ARRAY, texture);
             }
             bind_bent(gl, textures.bent);
-            bind_open(gl, textures.open);
         }
         gl.active_texture(c::TEXTURE0 + VIEWS_UNIT);
         gl.bind_texture(c::TEXTURE_2D_ARRAY, source.texture);

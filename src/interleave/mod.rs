@@ -24,7 +24,7 @@ mod tests;
 pub use anaglyph::Matrix;
 pub use depth::{Depth, rgbd};
 pub use field::{Heights, Places};
-pub use gpu::{Glass, Interleaver, Source, bind_bent, bind_open, glsl_version};
+pub use gpu::{Glass, Interleaver, Source, bind_bent, glsl_version};
 pub use layout::Layout;
 pub use program::Program;
 pub use sources::Sources;

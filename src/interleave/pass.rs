@@ -63,12 +63,6 @@ pub enum Synthesis {
     Splats,
     /// The distortion map of an occlusion camera.
     Bends,
-    /// Where a view that is made of several has holes.
-    Holes,
-    /// That, and what is around it.
-    Widen,
-    /// What the program's draws are to leave alone.
-    Shut,
     /// One view, with depths, and what is known of what is hidden.
     View(Behind),
     /// The panel's picture, through a mask of views; of one view for each pixel, where the mask is `whole`.
@@ -117,28 +111,22 @@ impl Pass {
 
 impl Synthesis {
     /// All of them.
-    pub const ALL: [Self; 21] = [
+    pub const ALL: [Self; 15] = [
         Self::Peaks,
         Self::Tops,
         Self::Range,
         Self::Steps,
         Self::Splats,
         Self::Bends,
-        Self::Holes,
-        Self::Widen,
-        Self::Shut,
         Self::View(Behind::Nothing),
         Self::View(Behind::Reference),
         Self::View(Behind::Views),
-        Self::View(Behind::Draws),
         Self::panel(false, Behind::Nothing),
         Self::panel(false, Behind::Reference),
         Self::panel(false, Behind::Views),
-        Self::panel(false, Behind::Draws),
         Self::panel(true, Behind::Nothing),
         Self::panel(true, Behind::Reference),
         Self::panel(true, Behind::Views),
-        Self::panel(true, Behind::Draws),
     ];
 
     pub(super) const fn panel(whole: bool, behind: Behind) -> Self {

@@ -33,9 +33,6 @@ const BENT: &str = include_str!("../../shaders/bent.wgsl");
 const BENDS: &str = include_str!("../../shaders/bends.wgsl");
 const THROUGH: &str = include_str!("../../shaders/through.wgsl");
 const THROUGH_BENT: &str = include_str!("../../shaders/through_bent.wgsl");
-const OPEN: &str = include_str!("../../shaders/open.wgsl");
-const SHUT: &str = include_str!("../../shaders/shut.wgsl");
-const OPENINGS: &str = include_str!("../../shaders/openings.wgsl");
 const COPY: &str = include_str!("../../shaders/copy.wgsl");
 const ACCUMULATE: &str = include_str!("../../shaders/accumulate.wgsl");
 
@@ -55,9 +52,6 @@ pub const PEAKS_UNIT: u32 = 4;
 pub const STEPS_UNITS: [u32; 2] = [5, 6];
 /// Texture units of the reference image of an occlusion camera: its map, colours, depths, and by how much samples are moved.
 pub const BENT_UNITS: [u32; 4] = [5, 6, 7, 8];
-
-/// Texture unit of where the program's draws are let into views that are made; see `shaders/open.wgsl`.
-pub const OPEN_UNIT: u32 = 5;
 
 /// Which half of the program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -385,9 +379,6 @@ fn entry(pass: Pass) -> &'static str {
         Pass::Synthesis(Synthesis::Steps) => "steps",
         Pass::Synthesis(Synthesis::Splats) => "splats",
         Pass::Synthesis(Synthesis::Bends) => "bends",
-        Pass::Synthesis(Synthesis::Holes) => "holes",
-        Pass::Synthesis(Synthesis::Widen) => "widen",
-        Pass::Synthesis(Synthesis::Shut) => "shut",
         Pass::Synthesis(Synthesis::View(_)) => "view",
         Pass::Synthesis(BENT_PANEL) => "panel_subpixels_bent",
         Pass::Synthesis(Synthesis::Panel { whole: false, .. }) => "panel_subpixels",
@@ -413,15 +404,10 @@ fn source(pass: Pass) -> String {
             [COVER, COMMON, ATLAS, MASK, FIELD, BENT, THROUGH_BENT].join("\n")
         }
         Pass::Synthesis(Synthesis::Panel { behind, .. }) => {
-            let [open, hidden] = [openings(behind), hidden(behind)];
-            [COVER, COMMON, ATLAS, MASK, FIELD, open, hidden, THROUGH].join("\n")
+            [COVER, COMMON, ATLAS, MASK, FIELD, hidden(behind), THROUGH].join("\n")
         }
         Pass::Synthesis(Synthesis::View(behind)) => {
-            let [open, hidden] = [openings(behind), hidden(behind)];
-            [COVER, COMMON, ATLAS, FIELD, open, hidden, VIEW].join("\n")
-        }
-        Pass::Synthesis(Synthesis::Holes | Synthesis::Widen | Synthesis::Shut) => {
-            [COVER, COMMON, ATLAS, FIELD, OPEN, BETWEEN, OPENINGS].join("\n")
+            [COVER, COMMON, ATLAS, FIELD, hidden(behind), VIEW].join("\n")
         }
         Pass::Synthesis(Synthesis::Peaks | Synthesis::Tops | Synthesis::Range) => {
             [COVER, COMMON, ATLAS, FIELD, PLAIN, SYNTHESIS].join("\n")
@@ -437,14 +423,6 @@ fn hidden(behind: Behind) -> &'static str {
     match behind {
         Behind::Nothing => PLAIN,
         Behind::Reference => BENT,
-        Behind::Views | Behind::Draws => BETWEEN,
-    }
-}
-
-/// What views that are made have of the program's own draws.
-fn openings(behind: Behind) -> &'static str {
-    match behind {
-        Behind::Nothing | Behind::Reference | Behind::Views => SHUT,
-        Behind::Draws => OPEN,
+        Behind::Views => BETWEEN,
     }
 }

@@ -490,18 +490,11 @@ fn every_pass_of_synthesis_translates_for_every_version() {
             Synthesis::Splats => &[5],
             Synthesis::Bends => &[2, 5, 6],
             Synthesis::View(Behind::Nothing | Behind::Views) => &[0, 2, 3, 4],
-            Synthesis::Holes => &[2, 3, 4],
-            Synthesis::Widen | Synthesis::Shut => &[5],
-            Synthesis::View(Behind::Draws) => &[0, 2, 3, 4, 5],
             Synthesis::View(Behind::Reference) => &[0, 2, 3, 4, 5, 6, 7, 8],
             Synthesis::Panel {
                 behind: Behind::Nothing | Behind::Views,
                 ..
             } => &[0, 1, 2, 3, 4],
-            Synthesis::Panel {
-                behind: Behind::Draws,
-                ..
-            } => &[0, 1, 2, 3, 4, 5],
             Synthesis::Panel {
                 behind: Behind::Reference,
                 ..

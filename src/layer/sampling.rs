@@ -164,7 +164,7 @@ impl Layer {
         if self.rests() {
             return [].into_iter().collect();
         }
-        if self.synthesis.is_on() && !self.synthesis.is_open() {
+        if self.synthesis.is_on() {
             return self.synthesis.drawn();
         }
         self.wanted_views()

@@ -5,7 +5,6 @@
 //! HUD, glass, another clear, a copy of the frame) the views are made into their tiles, depths as well, and all that follows is drawn in each of
 //! them. Where nothing else follows, the panel's picture is made straight from the views that are drawn.
 
-mod openings;
 mod samples;
 mod surface;
 
@@ -42,8 +41,6 @@ struct Scene {
     clear: f32,
     /// It has been shown, and no other view has it.
     shown: bool,
-    /// Its draws go to all views, but only where the frame before had holes.
-    open: bool,
 }
 
 /// How depths become disparities.
@@ -111,8 +108,6 @@ pub(super) struct Synthesis {
     pub(super) surfaces: Surfaces,
     /// While a panel's picture is made straight from the views that are drawn.
     pub(super) field: Option<(FieldTextures, Heights)>,
-    /// What the openings for the program's draws were found by.
-    opened: Option<Heights>,
     /// Of this frame's scene, where they are to be written.
     samples: Option<Samples>,
 }
@@ -132,13 +127,15 @@ enum Number {
 impl Number {
     fn of(config: &Config) -> Number {
         match (config.synthesis(), config.true_views) {
-            (None | Some(Behind::Nothing | Behind::Reference), _) => Number::One,
             // More are no sources for others.
-            (_, TrueViews::Fixed(count)) if count > Sources::MOST => Number::Fixed(config.views),
-            (_, TrueViews::Fixed(count)) => Number::Fixed(count),
-            (_, TrueViews::Rate(rate)) => {
+            (Some(Behind::Views), TrueViews::Fixed(count)) if count > Sources::MOST => {
+                Number::Fixed(config.views)
+            }
+            (Some(Behind::Views), TrueViews::Fixed(count)) => Number::Fixed(count),
+            (Some(Behind::Views), TrueViews::Rate(rate)) => {
                 Number::Governed(Governor::new(rate, config.views, Sources::MOST))
             }
+            _ => Number::One,
         }
     }
 
@@ -225,9 +222,6 @@ impl Layer {
         };
         match self.stays(gl, kind, plan, classed, &mut scene) {
             Ok(look) => {
-                if scene.open && !scene.begun {
-                    self.shut_views(gl);
-                }
                 scene.begun = true;
                 if let Some(look) = look {
                     self.expect_bent(kind, &look);
@@ -267,8 +261,7 @@ impl Layer {
         let (own, views) = (self.atlas.tiles.own(), self.config.views);
         let count = self.synthesis.number();
         let sources = count.map(|count| Sources::spread(own, views, count));
-        let before = self.whole();
-        let open = self.may_open(colours);
+        let before = self.atlas.tiles.shown;
         let mut drawn = sources.iter().flat_map(Sources::iter);
         if !colours && drawn.any(|view| view != own && !before.has(view)) {
             // A view that joins them has nothing to be drawn on, unless it is made first.
@@ -281,7 +274,6 @@ impl Layer {
         self.synthesis.sources = sources;
         self.synthesis.scene = Some(Scene {
             clear: gl.get_floats::<1>(c::DEPTH_CLEAR_VALUE)[0],
-            open,
             ..Scene::default()
         });
         self.atlas.tiles.shown = self.shown();
@@ -393,19 +385,13 @@ impl Layer {
         };
         self.synthesis.done = true;
         self.atlas.tiles.shown = self.shown();
-        self.aside(gl, |layer| match scene.look {
-            Some(look) if layer.has_field(gl) => layer.make_of(gl, &scene, &look),
-            _ => layer.atlas.share_own(gl),
-        });
-    }
-
-    /// Draws something of ours into the tiles between two draws of the program's. The state is as [`Saved::take`] leaves it; the framebuffers
-    /// that are bound may be changed.
-    fn aside(&mut self, gl: &Gl, work: impl FnOnce(&mut Self)) {
         self.queries.pause(gl);
         self.queries.lift_condition(gl);
         let saved = Saved::take(gl, self.state.compatibility);
-        self.reading(gl, BACK, work);
+        self.reading(gl, BACK, |layer| match scene.look {
+            Some(look) if layer.has_field(gl) => layer.make_of(gl, &scene, &look),
+            _ => layer.atlas.share_own(gl),
+        });
         saved.restore(gl);
         self.rebind(gl);
         self.queries.put_condition(gl);
@@ -415,31 +401,38 @@ impl Layer {
     /// The state is as [`Saved::take`] leaves it; changes the framebuffers that are bound.
     fn make_of(&mut self, gl: &Gl, scene: &Scene, look: &Look) {
         let heights = self.heights(scene, look);
-        self.resolve_sources(gl, scene);
+        self.resolve_sources(gl);
         self.take_samples(gl, scene, look);
         let (sources, own) = (self.synthesis.sources, self.atlas.tiles.own());
         match sources {
             Some(sources) => self.atlas.take_field(gl, sources.iter()),
             None => self.atlas.take_field(gl, [own].into_iter()),
         }
-        let Some(mut textures) = self.measure(gl, &heights, true) else {
+        let Some(textures) = self.measure(gl, &heights, true) else {
             return self.atlas.share_own(gl);
         };
-        textures.open = self.openings(scene);
         let Some(passes) = &self.synthesis.passes else {
             return;
         };
+        let (mask, func) = (
+            gl.get_integer(c::DEPTH_WRITEMASK) as u8,
+            gl.get_integer(c::DEPTH_FUNC) as u32,
+        );
+        gl.enable(c::DEPTH_TEST);
+        gl.depth_mask(1);
+        gl.depth_func(c::ALWAYS);
         let srgb = self.state.window.srgb;
         if srgb {
             gl.enable_srgb(true);
         }
-        let atlas = &mut self.atlas;
-        over_depths(gl, || passes.views(gl, atlas, &heights, &textures));
+        passes.views(gl, &mut self.atlas, &heights, &textures);
         self.report.synthesised(false);
         if srgb {
             gl.enable_srgb(false);
         }
-        self.open_views(gl, &heights, &textures);
+        gl.depth_func(func);
+        gl.depth_mask(mask);
+        gl.disable(c::DEPTH_TEST);
     }
 
     /// Makes the textures where they are not there.
@@ -453,11 +446,7 @@ impl Layer {
             Number::Fixed(count) => (*count).min(Sources::MOST),
             Number::Governed(_) => Sources::MOST.min(self.config.views),
         };
-        let opens = self.synthesis.passes.as_ref().is_some_and(Passes::opens);
-        let made = keep_bindings(gl, || {
-            self.atlas.make_field(gl, names, window, layers)
-                && (!opens || self.atlas.make_openings(gl, names))
-        });
+        let made = keep_bindings(gl, || self.atlas.make_field(gl, names, window, layers));
         if !made {
             self.synthesis.passes = None;
             self.report
@@ -467,10 +456,9 @@ impl Layer {
     }
 
     /// Only with what views are made of, colours and depths.
-    fn resolve_sources(&mut self, gl: &Gl, scene: &Scene) {
+    fn resolve_sources(&mut self, gl: &Gl) {
         let sources = self.synthesis.sources;
         let views = match sources {
-            _ if scene.open => self.wanted_views(),
             Some(sources) => sources.iter().collect(),
             None => self.atlas.tiles.own_alone(),
         };
@@ -528,7 +516,7 @@ impl Layer {
             aim: (0, 0),
             sources: self.synthesis.sources,
             places: Places::Tiles,
-            marked: self.config.holes.marks(),
+            marked: self.config.marks_holes,
             reach: REACH,
         }
     }
@@ -547,10 +535,8 @@ impl Layer {
         match scene.look {
             Some(look) if straight && self.has_field(gl) => {
                 let heights = self.heights(&scene, &look);
-                self.resolve_sources(gl, &scene);
-                if let Some(mut textures) = self.measure(gl, &heights, false) {
-                    textures.open = self.openings(&scene);
-                    self.open_views(gl, &heights, &textures);
+                self.resolve_sources(gl);
+                if let Some(textures) = self.measure(gl, &heights, false) {
                     self.synthesis.field = Some((textures, heights));
                     self.report.synthesised(true);
                 }
@@ -572,20 +558,6 @@ impl Layer {
     /// The tiles are others.
     pub(super) fn forget_scene(&mut self) {
         self.synthesis.scene = None;
-        self.synthesis.opened = None;
         self.synthesis.bent = Bent::default();
     }
-}
-
-/// Draws so that all depths are written. The depth test must be off.
-fn over_depths(gl: &Gl, draw: impl FnOnce()) {
-    let mask = gl.get_integer(c::DEPTH_WRITEMASK) as u8;
-    let func = gl.get_integer(c::DEPTH_FUNC) as u32;
-    gl.enable(c::DEPTH_TEST);
-    gl.depth_mask(1);
-    gl.depth_func(c::ALWAYS);
-    draw();
-    gl.depth_func(func);
-    gl.depth_mask(mask);
-    gl.disable(c::DEPTH_TEST);
 }

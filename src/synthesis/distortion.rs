@@ -202,7 +202,8 @@ fn owners(
     for (number, (edge, &radius)) in edges.iter().zip(radii).enumerate() {
         let reach = radius.ceil() as i64;
         let [columns, rows] = [(0, w), (1, h)].map(|(i, end): (usize, i64)| {
-            (edge.at[i] - reach).max(0)..(edge.at[i] + reach + 1).min(end)
+            edge.at[i].saturating_sub(reach).max(0)
+                ..edge.at[i].saturating_add(reach).saturating_add(1).min(end)
         });
         for y in rows {
             for x in columns.clone() {

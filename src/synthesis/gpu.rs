@@ -5,13 +5,13 @@
 //! straight to what is a plane. What is hidden it seeks in the reference image of an occlusion camera, where there is one (see
 //! `shaders/bent.wgsl`); that camera's map is made here as well, and has to be what [`super::Bending`] says.
 
-use crate::atlas::{Atlas, BendTarget, FieldTarget, FieldTextures, OpeningTarget, Tiles};
+use crate::atlas::{Atlas, BendTarget, FieldTarget, FieldTextures, Tiles};
 use crate::config::{Behind, Filter};
 use crate::gl::{Gl, consts as c};
 use crate::interleave::shader::{
     DEPTH_UNIT, PEAKS_UNIT, Pass, RANGE_UNIT, STEPS_UNITS, Synthesis, Uniforms, VIEWS_UNIT,
 };
-use crate::interleave::{Heights, Layout, Places, Program, Sources, bind_bent, bind_open};
+use crate::interleave::{Heights, Layout, Places, Program, bind_bent};
 
 /// The passes of one context.
 #[derive(Debug)]
@@ -23,16 +23,6 @@ pub struct Passes {
     /// Where nothing else is known of what is hidden, or several views are drawn.
     view: Program,
     bent: Option<Bent>,
-    openings: Option<Openings>,
-}
-
-/// Those of openings for the program's own draws.
-#[derive(Debug)]
-struct Openings {
-    holes: Program,
-    widen: Program,
-    shut: Program,
-    view: Program,
 }
 
 /// Those of an occlusion camera.
@@ -60,15 +50,7 @@ impl Passes {
         let bent = behind == Behind::Reference;
         let plain = match behind {
             Behind::Nothing | Behind::Reference => Behind::Nothing,
-            Behind::Views | Behind::Draws => Behind::Views,
-        };
-        let openings = || {
-            Ok::<_, String>(Openings {
-                holes: program(Synthesis::Holes)?,
-                widen: program(Synthesis::Widen)?,
-                shut: program(Synthesis::Shut)?,
-                view: program(Synthesis::View(Behind::Draws))?,
-            })
+            Behind::Views => Behind::Views,
         };
         Ok(Passes {
             peaks: program(Synthesis::Peaks)?,
@@ -76,14 +58,8 @@ impl Passes {
             range: program(Synthesis::Range)?,
             view: program(Synthesis::View(plain))?,
             bent: bent.then(camera).transpose()?,
-            openings: (behind == Behind::Draws).then(openings).transpose()?,
             vertex_array: gl.gen_vertex_array(),
         })
-    }
-
-    /// Whether the program's own draws are let into views that are made.
-    pub fn opens(&self) -> bool {
-        self.openings.is_some()
     }
 
     /// Whether an occlusion camera is among them.
@@ -97,12 +73,9 @@ impl Passes {
             .bent
             .iter()
             .flat_map(|b| [&b.steps, &b.splats, &b.map, &b.view]);
-        let openings = self.openings.iter();
-        let openings = openings.flat_map(|o| [&o.holes, &o.widen, &o.shut, &o.view]);
         [&self.peaks, &self.tops, &self.range, &self.view]
             .into_iter()
             .chain(bent)
-            .chain(openings)
             .map(Program::name)
     }
 
@@ -169,69 +142,21 @@ impl Passes {
         true
     }
 
-    /// Finds where views that are made of those that have been measured have holes, for the next frame. As [`Passes::views`] leaves what is bound;
-    /// changes the framebuffers that are bound.
-    pub fn open(&self, gl: &Gl, atlas: &mut Atlas, heights: &Heights, textures: &FieldTextures) {
-        let (Some(passes), Some([_, holes])) = (&self.openings, atlas.openings()) else {
-            return;
-        };
-        let heights = Heights {
-            places: places(textures),
-            ..*heights
-        };
-        gl.bind_vertex_array(self.vertex_array);
-        bind_open(gl, Some(holes));
-        for view in 0..atlas.tiles.views {
-            let aim = (view, 0);
-            let words = uniforms(&atlas.tiles, atlas.flipped, Heights { aim, ..heights }).words();
-            for (program, target) in [
-                (&passes.holes, OpeningTarget::Holes),
-                (&passes.widen, OpeningTarget::Next(view)),
-            ] {
-                let [width, height] = atlas.enter_openings(gl, target);
-                gl.viewport(0, 0, width, height);
-                program.bind(gl, &words);
-                gl.draw_arrays(c::TRIANGLES, 0, 3);
-            }
-        }
-        atlas.turn_openings();
-    }
-
-    /// Shuts the views that are made, but for the openings; `heights` are those of the frame that has found them. As for [`Passes::views`], and no colours
-    /// must be written.
-    pub fn shut(&self, gl: &Gl, atlas: &mut Atlas, heights: &Heights, drawn: &Sources) {
-        let (Some(passes), Some([open, _])) = (&self.openings, atlas.openings()) else {
-            return;
-        };
-        gl.bind_vertex_array(self.vertex_array);
-        bind_open(gl, Some(open));
-        let tiles = atlas.tiles;
-        for view in tiles.order().filter(|&view| !drawn.has(view)) {
-            let left = atlas.enter(gl, view);
-            gl.viewport(left, 0, tiles.width as i32, tiles.height as i32);
-            let aim = (view, left as u32);
-            let words = uniforms(&tiles, atlas.flipped, Heights { aim, ..*heights }).words();
-            passes.shut.bind(gl, &words);
-            gl.draw_arrays(c::TRIANGLES, 0, 3);
-        }
-    }
-
     /// Makes the views that are shown, and not drawn, of copies of those that are, which have been measured: colours, and depths for what is drawn
     /// after them. The depth test must pass and write everything; changes the framebuffers that are bound.
     pub fn views(&self, gl: &Gl, atlas: &mut Atlas, heights: &Heights, textures: &FieldTextures) {
         let (tiles, own) = (atlas.tiles, atlas.tiles.own());
         bind_bent(gl, textures.bent);
-        bind_open(gl, textures.open);
         let bent = self.bent.as_ref().filter(|_| textures.bent.is_some());
-        let bent = bent.map(|bent| &bent.view);
-        let open = self.openings.as_ref().filter(|_| textures.open.is_some());
-        let open = open.map(|openings| &openings.view);
-        let program = bent.or(open).unwrap_or(&self.view);
+        let program = bent.map_or(&self.view, |bent| &bent.view);
         let drawn = |view: u32| match &heights.sources {
             Some(sources) => sources.has(view),
             None => view == own,
         };
-        let places = places(textures);
+        let places = match textures.copied {
+            true => Places::Copies,
+            false => Places::Tiles,
+        };
         for view in tiles.order().filter(|&view| !drawn(view)) {
             let left = atlas.enter(gl, view);
             gl.viewport(left, 0, tiles.width as i32, tiles.height as i32);
@@ -244,13 +169,6 @@ impl Passes {
             program.bind(gl, &words);
             gl.draw_arrays(c::TRIANGLES, 0, 3);
         }
-    }
-}
-
-fn places(textures: &FieldTextures) -> Places {
-    match textures.copied {
-        true => Places::Copies,
-        false => Places::Tiles,
     }
 }
 

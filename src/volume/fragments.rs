@@ -214,7 +214,8 @@ impl Sums {
         // Whether a piece is the first one of its voxel is anything but predictable: no branch.
         let had = u64::from(*set & bit != 0);
         let before = *sum & had.wrapping_neg();
-        *sum = before + piece;
+        // A full sum overflows, and is taken out below.
+        *sum = before.wrapping_add(piece);
         *set |= bit;
         self.count += 1 - had as usize;
         if let Some(some) = self.some.get_mut(word / 64) {

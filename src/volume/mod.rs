@@ -11,67 +11,52 @@
 //! No point of a surface is farther than a voxel from one of its pieces, in sectors, pixels outwards or pixels down: a slice has no gaps.
 #![forbid(unsafe_code)]
 
+// What the layer writes; all else is the command's.
+mod samples;
+
+#[cfg(feature = "cli")]
 mod compare;
+#[cfg(feature = "cli")]
 mod display;
+#[cfg(feature = "cli")]
 mod dither;
+#[cfg(feature = "cli")]
 mod error;
+#[cfg(feature = "cli")]
 mod exposure;
+#[cfg(feature = "cli")]
 mod eye;
+#[cfg(feature = "cli")]
 mod fragments;
+#[cfg(feature = "cli")]
 mod patch;
+#[cfg(feature = "cli")]
 mod place;
+#[cfg(feature = "cli")]
 mod program;
+#[cfg(feature = "cli")]
 mod reference;
+#[cfg(feature = "cli")]
 mod sampled;
+#[cfg(feature = "cli")]
 mod stack;
-#[cfg(test)]
+#[cfg(all(test, feature = "cli"))]
 mod tests;
+#[cfg(feature = "cli")]
 mod triangles;
+#[cfg(feature = "cli")]
+mod voxels;
 
-pub use compare::{Difference, VISIBLE};
-pub use display::{RotatingScreen, Turn};
-pub use dither::{Lit, Slices};
-pub use error::VolumeError;
-pub use eye::Sight;
-pub use program::{Before, Head, Picture, Samples, Source};
-pub use reference::{Joined, ReferenceImage, Sample};
-pub use triangles::{Triangle, Vertex};
-
-/// A voxel that a surface goes through.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Voxel {
-    /// Row · columns of a half plane + column; rows from the top, columns from the axis.
-    pub at: u32,
-    /// Red, green and blue, sRGB: the mean of the surface's pieces in it.
-    pub colour: [u8; 3],
-}
-
-/// The voxels of a scene in its colours.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Volume {
-    screen: RotatingScreen,
-    /// Half plane 0 goes from the axis to the right, the next ones turn towards the viewer. Voxels in order.
-    half_planes: Vec<Vec<Voxel>>,
-}
-
-impl Volume {
-    /// Of which display.
-    pub fn screen(&self) -> &RotatingScreen {
-        &self.screen
-    }
-
-    /// Each half plane's voxels, in order.
-    pub fn half_planes(&self) -> &[Vec<Voxel>] {
-        &self.half_planes
-    }
-
-    /// Voxels that are set.
-    pub fn len(&self) -> usize {
-        self.half_planes.iter().map(Vec::len).sum()
-    }
-
-    /// Whether none is.
-    pub fn is_empty(&self) -> bool {
-        self.half_planes.iter().all(Vec::is_empty)
-    }
-}
+pub use samples::{Before, Head, Picture, Samples};
+#[cfg(feature = "cli")]
+pub use {
+    compare::{Difference, VISIBLE},
+    display::{RotatingScreen, Turn},
+    dither::{Lit, Slices},
+    error::VolumeError,
+    eye::Sight,
+    program::Source,
+    reference::{Joined, ReferenceImage, Sample},
+    triangles::{Triangle, Vertex},
+    voxels::{Volume, Voxel},
+};

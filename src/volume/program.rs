@@ -1,19 +1,9 @@
-//! What a program has shown, in a file between the layer and the command, and what slices are made of it.
-//!
-//! A program hands over samples with depths, not its geometry: those that its own camera sees, and those of the reference image, which reach behind.
-//! The file is a line that says what it is, a line of JSON ([`Head`]), and the planes: colours and depths of the own view, colours, depths and
-//! by how many pixels each sample is moved of the reference image. Depths and pixels are 32-bit floats with the lowest byte first; rows from the top.
+//! What slices are made of the samples of a running program.
 
 use super::place::Box;
+use super::samples::{Head, MAGIC, NOTHING, Picture, Samples};
 use super::{ReferenceImage, RotatingScreen, VolumeError};
 use crate::synthesis::{Reference, Vertex};
-use serde::{Deserialize, Serialize};
-
-/// The first line.
-const MAGIC: &str = "manyview samples 1";
-
-/// Before the reason why there are none.
-const NOTHING: &str = "nothing: ";
 
 /// A depth is that of a clear if it is no farther from it than this: one of 24 bits comes back with the error of one step.
 const STEP: f32 = 1e-7;
@@ -21,50 +11,6 @@ const STEP: f32 = 1e-7;
 /// What is joined may be parted by no more than this on the way to the farthest eye, pixels. Four, which views of the bench take, put sheets between
 /// surfaces: 2 to 14 % of the voxels of its models had none of the surface near them, with one less than 1 %.
 const PARTED: f64 = 1.0;
-
-/// How to read the planes.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Head {
-    /// Pixels.
-    pub size: [u32; 2],
-    /// Of the scene, as glViewport has it: left and lower edge, width and height.
-    pub viewport: [i32; 4],
-    /// Slope and offset of 1/w over the depth.
-    pub line: [f64; 2],
-    /// What stands before everything, such as a weapon in the hand.
-    pub before: Option<Before>,
-    /// The depth of what nothing was drawn on.
-    pub clear: f32,
-    /// Clip-space w of zero parallax.
-    pub focal: f64,
-}
-
-/// A part of the depths with distances of its own.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Before {
-    /// As in [`Head`].
-    pub line: [f64; 2],
-    /// Depths from the nearest one to this one.
-    pub to: f64,
-}
-
-/// Red, green and blue by pixel, and depths.
-pub type Picture = (Vec<u8>, Vec<f32>);
-
-/// All of it.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Samples {
-    /// How to read the rest.
-    pub head: Head,
-    /// The program's own view.
-    pub own: Picture,
-    /// The reference image.
-    pub reference: Picture,
-    /// Pixels to the right by which each sample of it lies beside its place.
-    pub moved: Vec<f32>,
-}
 
 /// What slices are made of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -76,26 +22,6 @@ pub enum Source {
 }
 
 impl Samples {
-    /// As a file.
-    pub fn bytes(&self) -> Vec<u8> {
-        let head = serde_json::to_string(&self.head).unwrap_or_default();
-        let mut bytes = format!("{MAGIC}\n{head}\n").into_bytes();
-        let floats = |bytes: &mut Vec<u8>, floats: &[f32]| {
-            bytes.extend(floats.iter().flat_map(|v| v.to_le_bytes()));
-        };
-        for (colours, depths) in [&self.own, &self.reference] {
-            bytes.extend(colours);
-            floats(&mut bytes, depths);
-        }
-        floats(&mut bytes, &self.moved);
-        bytes
-    }
-
-    /// The file of a frame that has none.
-    pub fn nothing(why: &str) -> Vec<u8> {
-        format!("{MAGIC}\n{NOTHING}{why}\n").into_bytes()
-    }
-
     /// Reads a file.
     pub fn read(bytes: &[u8]) -> Result<Samples, VolumeError> {
         let no = |reason: &str| VolumeError::Shown {

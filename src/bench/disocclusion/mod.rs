@@ -102,22 +102,24 @@ impl Experiment {
     /// What a camera sees of the geometry.
     #[must_use]
     pub fn draw(&self, camera: &Pinhole, scene: &[Surface]) -> Reference {
-        let mut drawn = Reference::new(self.size);
-        let all = triangles(scene).filter_map(|solid| project(camera, &solid));
-        drawn.draw(all, &Distortions::none(self.size), f64::INFINITY);
-        drawn
+        self.draw_moved(camera, scene, 0.0)
     }
 
     /// The same, sampled half a pixel further to the left.
     #[must_use]
     pub fn draw_aside(&self, camera: &Pinhole, scene: &[Surface]) -> Reference {
+        self.draw_moved(camera, scene, 0.5)
+    }
+
+    /// The same, so many pixels to the right in the picture.
+    fn draw_moved(&self, camera: &Pinhole, scene: &[Surface], by: f64) -> Reference {
         let mut drawn = Reference::new(self.size);
-        let aside = |mut triangle: Triangle| {
-            triangle.iter_mut().for_each(|vertex| vertex.at[0] += 0.5);
+        let moved = |mut triangle: Triangle| {
+            triangle.iter_mut().for_each(|vertex| vertex.at[0] += by);
             triangle
         };
         let all = triangles(scene).filter_map(|solid| project(camera, &solid));
-        drawn.draw(all.map(aside), &Distortions::none(self.size), f64::INFINITY);
+        drawn.draw(all.map(moved), &Distortions::none(self.size), f64::INFINITY);
         drawn
     }
 

@@ -137,11 +137,6 @@ pub(super) fn run(arguments: &Arguments, rate: &str) -> Outcome {
     let TrueViews::Rate(fps) = config.true_views else {
         return Err(BenchError::NoWalk("leave MANYVIEW_TRUE_VIEWS out".to_owned()).into());
     };
-    // As they are shown, and where they are told apart.
-    let holes = match config.holes.draws() {
-        true => ["draw", "mark-left"],
-        false => ["fill", "mark"],
-    };
     let all = config.views.to_string();
     let bar = measure::bar(3);
     bar.set_message("at the rate");
@@ -159,7 +154,7 @@ pub(super) fn run(arguments: &Arguments, rate: &str) -> Outcome {
     for level in levels {
         bar.set_message(format!("{level} views drawn"));
         let text = level.to_string();
-        for holes in holes {
+        for holes in ["fill", "mark"] {
             let options = [
                 hybrid,
                 (OptionId::TrueViews, &*text),
@@ -182,10 +177,11 @@ pub(super) fn run(arguments: &Arguments, rate: &str) -> Outcome {
     let mut rows = Vec::new();
     for ((frame, (ms, drawn)), (exact_ms, _)) in frames.zip(held).zip(exact_times) {
         let truth = read(Some(&exact), frame)?;
-        let [filled, marked] = holes.map(|holes| read(pictures.get(&(drawn, holes)), frame));
+        let [filled, marked] =
+            ["fill", "mark"].map(|holes| read(pictures.get(&(drawn, holes)), frame));
         let (filled, marked) = (filled?, marked?);
-        let pixels = filled.pixels().zip(marked.pixels());
-        let left = pixels.filter(|(filled, marked)| filled != marked).count();
+        let holes = filled.pixels().zip(marked.pixels());
+        let holes = holes.filter(|(filled, marked)| filled != marked).count();
         let compared = Comparison::new(&truth, &filled, None);
         let psnr = compared.map_or(0.0, |compared| compared.psnr);
         rows.push(Frame {
@@ -194,7 +190,7 @@ pub(super) fn run(arguments: &Arguments, rate: &str) -> Outcome {
             exact_ms,
             drawn,
             psnr: psnr.is_finite().then_some(psnr),
-            hole_percent: 100.0 * left as f64 / f64::from(truth.width() * truth.height()),
+            hole_percent: 100.0 * holes as f64 / f64::from(truth.width() * truth.height()),
         });
     }
     let command = arguments.command.iter();

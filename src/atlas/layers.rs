@@ -1,0 +1,56 @@
+//! An array texture with a framebuffer for each of its layers: what passes of ours write numbers to.
+
+use super::{Names, store};
+use crate::gl::{Gl, consts as c};
+
+/// The texture, and the framebuffers of its layers.
+#[derive(Debug)]
+pub(super) struct Layers {
+    pub(super) texture: u32,
+    framebuffers: Vec<u32>,
+    /// The driver draws to them.
+    pub(super) complete: bool,
+}
+
+impl Layers {
+    /// Of an internal format, format and type, and of a width, a height and a number of layers. Changes the bindings that [`super::Atlas::new`] does.
+    pub(super) fn new(
+        gl: &Gl,
+        names: &mut Names,
+        flip: bool,
+        format: (u32, u32, u32),
+        size: [i32; 3],
+    ) -> Layers {
+        let texture = names.texture(gl);
+        store(gl, texture, format, size);
+        let mut complete = true;
+        let framebuffer = |layer: i32| {
+            let name = gl.gen_framebuffer();
+            gl.bind_framebuffer(c::FRAMEBUFFER, name);
+            let point = c::COLOR_ATTACHMENT0;
+            gl.framebuffer_texture_layer(c::FRAMEBUFFER, point, texture, 0, layer);
+            // As the tiles: Mesa 22.3 turns a polygon stipple for the framebuffer that is drawn to first, and keeps it so.
+            if flip {
+                gl.flip_framebuffer(c::FRAMEBUFFER);
+            }
+            complete &= gl.check_framebuffer_status(c::FRAMEBUFFER) == c::FRAMEBUFFER_COMPLETE;
+            name
+        };
+        let framebuffers = (0..size[2]).map(framebuffer).collect();
+        Layers {
+            texture,
+            framebuffers,
+            complete,
+        }
+    }
+
+    pub(super) fn framebuffers(&self) -> impl Iterator<Item = u32> {
+        self.framebuffers.iter().copied()
+    }
+
+    /// That of a layer; 0 where there is none.
+    pub(super) fn framebuffer(&self, layer: u32) -> u32 {
+        let framebuffer = self.framebuffers.get(layer as usize);
+        framebuffer.copied().unwrap_or(0)
+    }
+}
