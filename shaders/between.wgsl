@@ -31,7 +31,7 @@ fn pair(view: f32) -> vec2<i32> {
     return select(both, both.yx, source(right) - view < view - source(left));
 }
 
-// Looks at one of them from now on, and answers the lever that a view has of it.
+// Looks at one of them from now on, and answers the baseline that a view has of it.
 fn enter(i: i32, view: f32) -> f32 {
     let at = source(i);
     let s = slot(u32(at));
@@ -39,10 +39,10 @@ fn enter(i: i32, view: f32) -> f32 {
     let left = (s - layer * u.columns) * u.stride;
     // Copies lie one to a layer.
     picture = Place(i32(left), i32(layer), i);
-    if u.bend.y > 0.0 {
+    if u.occlusion.y > 0.0 {
         picture = Place(0, i, i);
     }
-    return (view - at) * u.lever.y;
+    return (view - at) * u.baseline.y;
 }
 
 fn see(view: f32, x: f32, row: i32, range: vec2<f32>) -> Seen {
@@ -53,10 +53,10 @@ fn see(view: f32, x: f32, row: i32, range: vec2<f32>) -> Seen {
     var held = picture;
     // The second time only for holes. Left at its end: llvmpipe goes through a loop once more to see at its beginning that it is over.
     loop {
-        let lever = enter(i, view);
-        let other = seek(x, row, lever, range_of(u32(x), row));
+        let baseline = enter(i, view);
+        let other = seek(x, row, baseline, range_of(u32(x), row));
         // What lies deeper is behind.
-        let deep = height(other.low, row);
+        let deep = disparity(other.low, row);
         let better = !other.hole || deep < deepest;
         if better {
             seen = other;

@@ -50,21 +50,21 @@ struct Uniforms {
     // (x, y, 1, i) (lenses only).
     column: vec4<f32>,
     row: vec4<f32>,
-    // Heights: the factor of the depth, what is added, what is infinitely far, and the depth of what nothing was drawn on (the rest
-    // is of synthesis only, see field.wgsl).
-    field: vec4<f32>,
-    // Levers: of view 0, from view to view; the height of what nothing was drawn on; by how much depths are moved away.
-    lever: vec4<f32>,
-    // Of one view: which it is, the left edge of its tile; 1: holes are marked; the longest lever of any view that the picture is
+    // Disparities: the factor of the depth, what is added, what is infinitely far, and the depth of what nothing was drawn on (the rest
+    // is of synthesis only, see disparity.wgsl).
+    disparity: vec4<f32>,
+    // Baselines: of view 0, from view to view; the disparity of what nothing was drawn on; by how much depths are moved away.
+    baseline: vec4<f32>,
+    // Of one view: which it is, the left edge of its tile; 1: holes are marked; the longest baseline of any view that the picture is
     // looked at for.
     aim: vec4<f32>,
-    // Of an occlusion camera: how far it reaches behind at most (see bends.wgsl). The rest, while a picture is measured: where it lies, as
+    // Of an occlusion camera: how far it reaches behind at most (see distortion.wgsl). The rest, while a picture is measured: where it lies, as
     // `Place` has it; while views are made of several: 1 where these are looked at in copies, one to a layer.
-    bend: vec4<f32>,
+    occlusion: vec4<f32>,
     // The views that are drawn, from left to right, 8 at most, beyond all views where there are no more (see between.wgsl).
     sources_low: vec4<f32>,
     sources_high: vec4<f32>,
-    // Heights of what stands before everything, nearer than a depth: the factor, what is added, that depth, and 1 where nearer depths are
+    // Disparities of what stands before everything, nearer than a depth: the factor, what is added, that depth, and 1 where nearer depths are
     // larger, -1 where they are smaller; 0 where there is no such thing.
     before: vec4<f32>,
 }

@@ -1,7 +1,7 @@
 // Of what is hidden in a picture with depths nothing is known.
 
 fn see(view: f32, x: f32, row: i32, range: vec2<f32>) -> Seen {
-    return seek(x, row, u.lever.x + view * u.lever.y, range);
+    return seek(x, row, u.baseline.x + view * u.baseline.y, range);
 }
 
 fn sample_at(x: i32, row: i32, behind: bool) -> vec3<f32> {

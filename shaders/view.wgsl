@@ -1,7 +1,7 @@
 // A view of a picture with depths, into its tile.
 
 // Part of the step from a sample to the next.
-const BENT = 0.25;
+const SLOPE = 0.25;
 
 struct Made {
     @location(0) colour: vec4<f32>,
@@ -18,8 +18,8 @@ fn view(@builtin(position) position: vec4<f32>) -> Made {
     let seen = see(u.aim.x, x, row, range_of(u32(x), row));
     let low = sample_depth(seen.low, row, seen.behind);
     let high = sample_depth(seen.high, row, seen.behind);
-    // Where the surface is bent it is not where the straight line between two samples is.
-    let away = u.lever.w + sign(u.lever.w) * BENT * abs(high - low);
+    // Where the surface is curved it is not where the straight line between two samples is.
+    let away = u.baseline.w + sign(u.baseline.w) * SLOPE * abs(high - low);
     let moved = clamp(mix(low, high, seen.weight) + away, 0.0, 1.0);
     let depth = select(moved, low, is_clear(low));
     return Made(vec4<f32>(colour_of(seen, row), 1.0), depth);

@@ -157,9 +157,14 @@ fn attenuated_points_by_invocations() {
 }
 
 #[test]
-fn flat_quads_for_bent_rays() {
+fn flat_quads_for_distorted_rays() {
     let key = FixedKey {
-        target: target(Amplifier::Tessellation, Tiles::Bent, Primitive::Quads, 3),
+        target: target(
+            Amplifier::Tessellation,
+            Tiles::DistortedRays,
+            Primitive::Quads,
+            3,
+        ),
         flat: true,
         fog: FogSource::DepthMagnitude,
         ..FixedKey::default()

@@ -6,7 +6,7 @@ mod support;
 
 use image::{GenericImageView, Rgb, RgbImage};
 use manyview::metric::pixels_over;
-use manyview::synthesis::{Bend, Bending};
+use manyview::synthesis::{RowDistortion, RowDistortionMap};
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 use support::near::beyond;
@@ -113,7 +113,7 @@ fn nearest(x: f64, y: f64) -> f64 {
 fn measured(picture: &RgbImage) -> [usize; 3] {
     let [width, height] = SIZE;
     let places = VIEWS as f64 / 2.0 - 0.5;
-    let bending = Bending {
+    let map = RowDistortionMap {
         reach: REACH,
         longest: places * WIDE * CONVERGENCE * f64::from(width) / 2.0,
     };
@@ -123,12 +123,12 @@ fn measured(picture: &RgbImage) -> [usize; 3] {
         let inverses: Vec<f32> = (0..width)
             .map(|x| nearest(middle(x).0, middle(x).1) as f32)
             .collect();
-        let row = bending.row(&inverses);
+        let row = map.row(&inverses);
         // Where the wall at a place in the picture comes to lie.
         let moved = |x: f64| {
-            let bend: Option<&Bend> = row.get(x as usize / 2)?.as_ref();
+            let distortion: Option<&RowDistortion> = row.get(x as usize / 2)?.as_ref();
             let (inverse, ..) = wall(ray(x, middle(0).1));
-            bend.map(|bend| x + bend.at(x, inverse))
+            distortion.map(|distortion| x + distortion.at(x, inverse))
         };
         // What is hidden behind the broad one, on its right side, in quarters of pixels.
         let edge = (0.6 / 6.0 / 0.8 + 1.0) * f64::from(width) / 2.0;
@@ -158,7 +158,7 @@ fn measured(picture: &RgbImage) -> [usize; 3] {
 }
 
 /// `part`: how much of it may be, at edges.
-fn assert_bent(picture: &RgbImage, what: &str, part: f64) {
+fn assert_distorted(picture: &RgbImage, what: &str, part: f64) {
     let [hidden, seen, wrong] = measured(picture);
     println!("{what}: {hidden} hidden, {seen} in front, {wrong} wrong");
     assert!(hidden > 3_000 && seen > 10_000, "{what}: {hidden}, {seen}");
@@ -169,7 +169,7 @@ fn assert_bent(picture: &RgbImage, what: &str, part: f64) {
 }
 
 #[test]
-fn the_reference_image_is_that_of_bent_rays() {
+fn the_reference_image_is_that_of_distorted_rays() {
     let (picture, report) = shown(
         &["hard", "--case", "gaps"],
         "reference",
@@ -177,7 +177,7 @@ fn the_reference_image_is_that_of_bent_rays() {
         WIDE,
     );
     assert!(report["draws"]["reference"].as_u64() > Some(0), "{report}");
-    assert_bent(&picture, "fixed function", 0.02);
+    assert_distorted(&picture, "fixed function", 0.02);
 }
 
 /// Ways of `bars.c`: with shaders, and of fixed function, where surfaces as large as the wall's squares have to be cut, but in the list.
@@ -186,7 +186,7 @@ const SHADED: [&str; 6] = ["matrix", "begin", "old", "coord", "new", "instanced"
 const FIXED: [&str; 6] = ["strips", "fans", "polygons", "quads", "indexed", "list"];
 
 /// Those that take no part, and why.
-const UNBENT: [(&str, &str); 2] = [
+const REFUSED: [(&str, &str); 2] = [
     ("several", "the shader writes to more than one image"),
     ("geometry", "its vertices are placed after the vertex stage"),
 ];
@@ -220,7 +220,7 @@ fn programs_with_shaders_have_one_too() {
         assert!(report["draws"]["reference"].as_u64() > Some(0), "{report}");
         assert_eq!(report["fallbacks"], json!({}), "{way}");
         assert_eq!(report["gl_errors"], 0, "{way}");
-        assert_bent(&picture, way, 0.02);
+        assert_distorted(&picture, way, 0.02);
     }
 }
 
@@ -230,7 +230,7 @@ fn strips_and_fans_are_cut_and_lists_are_drawn() {
         let (picture, report) = bars_shown(way, "reference", "occlusion");
         assert!(report["draws"]["reference"].as_u64() > Some(0), "{report}");
         assert_eq!(report["gl_errors"], 0, "{way}");
-        assert_bent(&picture, way, 0.005);
+        assert_distorted(&picture, way, 0.005);
     }
 }
 
@@ -274,9 +274,9 @@ fn depths_of_16_bits_tell_as_much() {
 
 #[test]
 fn programs_with_other_stages_and_outputs_are_left_out() {
-    for (way, why) in UNBENT {
+    for (way, why) in REFUSED {
         let (picture, report) = bars_shown(way, "view:2", "occlusion");
-        let reason = format!("no rays are bent for a program: {why}");
+        let reason = format!("a program draws nothing to the reference image: {why}");
         let counted = &report["fallbacks"][&reason];
         assert!(counted.as_u64() > Some(0), "{way}: {report}");
         assert_eq!(report["draws"]["reference"], Value::Null, "{way}");

@@ -40,7 +40,7 @@ const COLOUR: &str = "Mesa alone sets the colour from before a list's vertices a
 
 /// Sequences in one process; a crash costs only these.
 const BATCH: u64 = 50;
-/// Sequences of a hundred on which Mesa alone may be of two minds ([`of_two_minds`]).
+/// Sequences of a hundred on which Mesa alone may be nondeterministic ([`is_nondeterministic`]).
 const TWO_MINDS: u64 = 3;
 /// How often a sequence that differs is asked again.
 const AGAIN: usize = 8;
@@ -128,7 +128,7 @@ fn explain(bare: &Side, layer: &Side, seed: u64, without: &str) -> String {
 /// compiled in pieces (`--apart`), or when it is asked again, and the layer differs in nothing else. Mesa 22.3 takes some things from what was drawn before: the
 /// texture coordinates of pictures, which edges a loop has, what glPopAttrib puts back, the current values after a list; and some
 /// from memory that nobody has written. Such a sequence has no right answer.
-fn of_two_minds(bare: &Side, layer: &Side, seed: u64, without: &str) -> bool {
+fn is_nondeterministic(bare: &Side, layer: &Side, seed: u64, without: &str) -> bool {
     let words = |side: &Side, more: &[&str]| -> Vec<String> {
         let (lines, _) = side.lines(side.command(seed, 1, without, more));
         let words = lines.iter().flat_map(|line| line.split(' '));
@@ -206,7 +206,7 @@ fn compare_without(
     wrong.dedup();
     wrong.retain(|seed| !KNOWN.iter().any(|(known, _)| known == seed));
     let found = wrong.len() as u64;
-    wrong.retain(|&seed| !of_two_minds(&bare, &layer, seed, without));
+    wrong.retain(|&seed| !is_nondeterministic(&bare, &layer, seed, without));
     let minds = found - wrong.len() as u64;
     let shown: Vec<String> = wrong
         .iter()
@@ -221,9 +221,11 @@ fn compare_without(
     );
     assert!(
         minds * 100 <= compared.max(100) * TWO_MINDS,
-        "Mesa alone is of two minds on {minds} of {compared} sequences"
+        "Mesa alone is nondeterministic on {minds} of {compared} sequences"
     );
-    println!("{compared} sequences are the same, but {minds} on which Mesa alone is of two minds");
+    println!(
+        "{compared} sequences are the same, but {minds} on which Mesa alone is nondeterministic"
+    );
 }
 
 #[test]

@@ -1,5 +1,5 @@
 //! Programs with shaders of their own: what they know of them, of their uniforms and of their errors is the same under the layer, whose
-//! twins are linked anew, follow the uniforms, and outlive what is deleted as the program does.
+//! variants are linked anew, follow the uniforms, and outlive what is deleted as the program does.
 #![forbid(unsafe_code)]
 
 mod support;

@@ -1,4 +1,4 @@
-//! Views that are made of depths (`--strategy depth-image`): they are those of the CPU reference, the panel's picture is that of the
+//! Synthesised views of depths (`--strategy depth-image`): they are those of the CPU reference, the panel's picture is that of the
 //! views, the program's own view is untouched, and what no depth tells of is drawn in each view.
 #![forbid(unsafe_code)]
 

@@ -412,7 +412,7 @@ pub(crate) fn destroyed(provider: Provider, handle: Ptr) {
 
 /// End of a frame on a drawable: shows it. `swap` is the program's own call.
 pub(crate) fn frame<R>(drawable: Option<Drawable>, swap: impl FnOnce() -> R) -> R {
-    settle_shared();
+    write_back_shared();
     let ours = drawable.is_none_or(draws_to);
     if ours {
         with_context(|gl, c| {
@@ -474,15 +474,15 @@ pub(crate) fn draws_to_memory() -> bool {
 }
 
 /// Other contexts may look at what is drawn to the program's textures: they hold it now.
-pub(crate) fn settle_shared() {
+pub(crate) fn write_back_shared() {
     if peek(|l| l.has_copies() && l.is_shared()) == Some(true) {
-        enter(|gl, l| l.settle_textures(gl));
+        enter(|gl, l| l.write_back_textures(gl));
     }
 }
 
 /// The program leaves an OSMesa context: what it has drawn since its last glFinish is a frame.
 pub(crate) fn finish_memory_frame() {
-    settle_shared();
+    write_back_shared();
     if draws_to_memory() && enter(|_, l| l.drawn()) == Some(true) {
         // SAFETY: the context is still current.
         frame(None, || unsafe { Provider::OsMesa.real().glFinish() });

@@ -11803,31 +11803,31 @@ export! { 841, glCopyImageSubDataOES, first_glCopyImageSubDataOES, hook_glCopyIm
     unsafe { special::glCopyImageSubData(srcName, srcTarget, srcLevel, srcX, srcY, srcZ, dstName, dstTarget, dstLevel, dstX, dstY, dstZ, srcWidth, srcHeight, srcDepth) }
 } }
 export! { 842, glGetTextureImage, first_glGetTextureImage, hook_glGetTextureImage, (texture: u32, level: i32, format: u32, type_: u32, bufSize: i32, pixels: Ptr) -> (), {
-    hooks::settle();
+    hooks::write_back();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetTextureImage(texture, level, format, type_, bufSize, pixels) };
 } }
 export! { 843, glGetTextureSubImage, first_glGetTextureSubImage, hook_glGetTextureSubImage, (texture: u32, level: i32, xoffset: i32, yoffset: i32, zoffset: i32, width: i32, height: i32, depth: i32, format: u32, type_: u32, bufSize: i32, pixels: Ptr) -> (), {
-    hooks::settle();
+    hooks::write_back();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetTextureSubImage(texture, level, xoffset, yoffset, zoffset, width, height, depth, format, type_, bufSize, pixels) };
 } }
 export! { 844, glGetCompressedTextureImage, first_glGetCompressedTextureImage, hook_glGetCompressedTextureImage, (texture: u32, level: i32, bufSize: i32, pixels: Ptr) -> (), {
-    hooks::settle();
+    hooks::write_back();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetCompressedTextureImage(texture, level, bufSize, pixels) };
 } }
 export! { 845, glBindImageTexture, first_glBindImageTexture, hook_glBindImageTexture, (unit: u32, texture: u32, level: i32, layered: u8, layer: i32, access: u32, format: u32) -> (), {
-    hooks::settle();
+    hooks::write_back();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBindImageTexture(unit, texture, level, layered, layer, access, format) };
 } }
 export! { 846, glBindImageTextures, first_glBindImageTextures, hook_glBindImageTextures, (first: u32, count: i32, textures: Ptr) -> (), {
-    hooks::settle();
+    hooks::write_back();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glBindImageTextures(first, count, textures) };
@@ -13975,31 +13975,31 @@ export! { 1273, glGetIntegerIndexedvEXT, first_glGetIntegerIndexedvEXT, hook_glG
     unsafe { gl.glGetIntegerIndexedvEXT(target, index, data) };
 } }
 export! { 1274, glGetTexImage, first_glGetTexImage, hook_glGetTexImage, (target: u32, level: i32, format: u32, type_: u32, pixels: Ptr) -> (), {
-    hooks::settle();
+    hooks::write_back();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetTexImage(target, level, format, type_, pixels) };
 } }
 export! { 1275, glGetnTexImage, first_glGetnTexImage, hook_glGetnTexImage, (target: u32, level: i32, format: u32, type_: u32, bufSize: i32, pixels: Ptr) -> (), {
-    hooks::settle();
+    hooks::write_back();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetnTexImage(target, level, format, type_, bufSize, pixels) };
 } }
 export! { 1276, glGetCompressedTexImage, first_glGetCompressedTexImage, hook_glGetCompressedTexImage, (target: u32, level: i32, img: Ptr) -> (), {
-    hooks::settle();
+    hooks::write_back();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetCompressedTexImage(target, level, img) };
 } }
 export! { 1277, glGetCompressedTexImageARB, first_glGetCompressedTexImageARB, hook_glGetCompressedTexImageARB, (target: u32, level: i32, img: Ptr) -> (), {
-    hooks::settle();
+    hooks::write_back();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetCompressedTexImageARB(target, level, img) };
 } }
 export! { 1278, glGetnCompressedTexImage, first_glGetnCompressedTexImage, hook_glGetnCompressedTexImage, (target: u32, lod: i32, bufSize: i32, pixels: Ptr) -> (), {
-    hooks::settle();
+    hooks::write_back();
     let gl = hooks::real();
     // SAFETY: the program's own call.
     unsafe { gl.glGetnCompressedTexImage(target, lod, bufSize, pixels) };

@@ -79,9 +79,9 @@ pub(crate) fn named(object: Object) {
 
 /// Textures are about to be read or written in another way than by drawing.
 #[inline]
-pub(crate) fn settle() {
+pub(crate) fn write_back() {
     ask();
-    copied(|gl, l| l.settle_textures(gl));
+    copied(|gl, l| l.write_back_textures(gl));
 }
 
 /// An attribute is about to advance by instances.

@@ -1,6 +1,6 @@
 //! Which points of the window the texels of a tile show.
 
-use crate::display::Turns;
+use crate::display::LensPhase;
 
 /// From the window to the tile of view i, both in pixels from the lower left corner:
 /// `x = across · X + shear · Y + origin + i · step`, and `y` likewise without a shear.
@@ -55,36 +55,41 @@ impl Grid {
     /// A column for each lens: the middle of a texel is where the panel shows the view. `parts` is what a turn is cut into, N for a
     /// panel; `between` how many of them lie between neighbouring views, 1 for a panel. None where that is more than the window has,
     /// or most of it outside.
-    pub fn lenses(turns: &Turns, window: [u32; 2], parts: f64, between: f64) -> Option<Grid> {
+    pub fn sample_aligned(
+        phase: &LensPhase,
+        window: [u32; 2],
+        parts: f64,
+        between: f64,
+    ) -> Option<Grid> {
         let [width, height] = window.map(f64::from);
         // Rows are counted from the top there and from the bottom here; at the corner between pixels, not in the middle of one.
-        let corner = turns.start - 0.5 * turns.right + (height - 0.5) * turns.down;
-        if turns.right == 0.0 {
+        let corner = phase.start - 0.5 * phase.right + (height - 0.5) * phase.down;
+        if phase.right == 0.0 {
             // Lenses along the rows.
-            let sign = if turns.down > 0.0 { -1.0 } else { 1.0 };
-            let up = -sign * turns.down;
+            let sign = if phase.down > 0.0 { -1.0 } else { 1.0 };
+            let up = -sign * phase.down;
             let grid = Grid {
                 up,
-                origin: [0.0, sign * (corner - turns.within / parts) + 0.5],
+                origin: [0.0, sign * (corner - phase.within / parts) + 0.5],
                 step: [0.0, -sign * between / parts],
-                exact: turns.exact,
+                exact: phase.exact,
                 ..Grid::FULL
             };
             return (up > 0.0 && up < LARGEST_DENSITY).then_some(grid);
         }
-        let sign = turns.right.signum();
-        let (across, shear) = (sign * turns.right, -sign * turns.down);
+        let sign = phase.right.signum();
+        let (across, shear) = (sign * phase.right, -sign * phase.down);
         // Where the lens has more views than subpixels not every row is needed; and where texels lie between those of the panel, what is
         // between rows of them is no worse.
-        let most = if turns.exact { 1.0 } else { ROWS };
+        let most = if phase.exact { 1.0 } else { ROWS };
         let up = (3.0 / (parts * across)).min(most);
         let grid = Grid {
             across,
             shear,
             up: (up * height).ceil() / height,
-            origin: [sign * (corner - turns.within / parts) + 0.5, 0.0],
+            origin: [sign * (corner - phase.within / parts) + 0.5, 0.0],
             step: [-sign * between / parts, 0.0],
-            exact: turns.exact && up == 1.0,
+            exact: phase.exact && up == 1.0,
         };
         let waste = (shear * height).abs() / (across * width);
         (across * grid.up < LARGEST_DENSITY && waste < LARGEST_WASTE).then_some(grid)
@@ -96,7 +101,7 @@ impl Grid {
     }
 
     /// Whether the texels are those of the lenses, and not simply fewer.
-    pub fn follows_lenses(&self) -> bool {
+    pub fn is_sample_aligned(&self) -> bool {
         self.step != [0.0; 2]
     }
 
@@ -107,7 +112,7 @@ impl Grid {
 
     /// Moved by whole texels so that the window lies inside all tiles; their width and height.
     pub fn fit(mut self, window: [u32; 2], views: u32) -> (Grid, [u32; 2]) {
-        if !self.follows_lenses() {
+        if !self.is_sample_aligned() {
             let size = [self.across, self.up].map(f64::from);
             let size = [0, 1].map(|i| (size[i] * f64::from(window[i])).round() as u32);
             return (self, size);

@@ -2,30 +2,30 @@
 #![forbid(unsafe_code)]
 
 mod depths;
-mod field;
 mod front;
 mod grid;
 mod layers;
 mod names;
+mod pyramid;
 mod reference;
-mod shown;
 mod single;
 mod spread;
 mod surface;
 mod tiles;
+mod view_set;
 
 use depths::Depths;
-use field::Field;
-pub use field::{FieldTarget, FieldTextures};
 use front::Front;
 pub use grid::Grid;
 pub use names::Names;
-use reference::Bent;
-pub use reference::{BendTarget, BentSurface, BentTextures};
-pub use shown::Shown;
+use pyramid::Pyramid;
+pub use pyramid::{PyramidTarget, PyramidTextures};
+use reference::Reference;
+pub use reference::{DistortionTarget, ReferenceSurface, ReferenceTextures};
 use single::Single;
 pub use surface::Surface;
 pub use tiles::{Limits, Tiles, TilesError};
+pub use view_set::ViewSet;
 
 use crate::gl::{Gl, consts as c};
 use crate::state::Window;
@@ -51,8 +51,8 @@ pub struct Atlas {
     /// What is read from, and what a scaled blit is drawn to.
     singles: Vec<Single>,
     depths: Option<Depths>,
-    field: Option<Field>,
-    bent: Option<Bent>,
+    pyramid: Option<Pyramid>,
+    reference: Option<Reference>,
     bound_row: u32,
 }
 
@@ -270,8 +270,8 @@ impl Atlas {
             front: None,
             singles: Vec::new(),
             depths: None,
-            field: None,
-            bent: None,
+            pyramid: None,
+            reference: None,
             bound_row: 0,
         };
         if status != c::FRAMEBUFFER_COMPLETE {
@@ -301,10 +301,14 @@ impl Atlas {
         let resolve = self.resolve.iter().flatten().copied();
         let singles = self.singles.iter().map(Single::framebuffer);
         let depths = self.depths.iter().map(Depths::framebuffer);
-        let field = self.field.iter().flat_map(Field::framebuffers);
-        let bent = self.bent.iter().flat_map(Bent::framebuffers);
+        let pyramid = self.pyramid.iter().flat_map(Pyramid::framebuffers);
+        let reference = self.reference.iter().flat_map(Reference::framebuffers);
         let views = self.targets().chain(resolve);
-        views.chain(singles).chain(depths).chain(field).chain(bent)
+        views
+            .chain(singles)
+            .chain(depths)
+            .chain(pyramid)
+            .chain(reference)
     }
 
     /// Whether a texture is the atlas's own.
@@ -494,7 +498,7 @@ impl Atlas {
     }
 
     /// Resolves the samples of some views. Changes the framebuffer bindings; the scissor test must be off.
-    pub fn resolve(&self, gl: &Gl, views: &Shown, mask: u32) {
+    pub fn resolve(&self, gl: &Gl, views: &ViewSet, mask: u32) {
         let Some(resolve) = &self.resolve else { return };
         let t = &self.tiles;
         let blit = |row: usize, left: u32, width: u32| {

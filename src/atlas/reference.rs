@@ -10,10 +10,10 @@ const BLOCK: u32 = 16;
 /// Samples of a row in one texel of the map.
 const CELL: i32 = 2;
 
-/// The textures of a reference image and of its distortion map, array textures of one layer; see `shaders/bent.wgsl` and
-/// `shaders/bends.wgsl`.
+/// The textures of a reference image and of its distortion map, array textures of one layer; see `shaders/reference.wgsl` and
+/// `shaders/distortion.wgsl`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct BentTextures {
+pub struct ReferenceTextures {
     /// Colours, depths and by how much samples are moved.
     pub image: [u32; 3],
     /// Where depths step, and what is near that.
@@ -24,18 +24,18 @@ pub struct BentTextures {
 
 /// What is drawn to on the way to the map.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum BendTarget {
+pub enum DistortionTarget {
     /// Where depths step.
     Steps,
     /// What is near that.
     Splats,
-    /// [`BentTextures::map`]
+    /// [`ReferenceTextures::map`]
     Map,
 }
 
 /// Where they are drawn to.
 #[derive(Debug)]
-pub(super) struct Bent {
+pub(super) struct Reference {
     image: Single,
     moved: u32,
     /// Texture and framebuffer.
@@ -44,7 +44,7 @@ pub(super) struct Bent {
     map: (u32, u32),
 }
 
-impl Bent {
+impl Reference {
     pub(super) fn framebuffers(&self) -> impl Iterator<Item = u32> + use<> {
         [
             self.image.framebuffer(),
@@ -58,7 +58,7 @@ impl Bent {
 
 impl Atlas {
     /// Makes the reference image and its map. The caller saves and restores bindings as for [`Atlas::new`].
-    pub fn make_bent(&mut self, gl: &Gl, names: &mut Names, window: &Window) -> bool {
+    pub fn make_reference(&mut self, gl: &Gl, names: &mut Names, window: &Window) -> bool {
         let size = [self.tiles.width, self.tiles.height].map(|side| side as i32);
         let (flip, textures) = (self.flipped, &mut self.textures);
         let image = Single::new(gl, names, window, size, flip, textures);
@@ -97,7 +97,7 @@ impl Atlas {
         let steps = target(steps);
         let splats = target(splats);
         let map = target(map);
-        self.bent = Some(Bent {
+        self.reference = Some(Reference {
             image,
             moved,
             steps,
@@ -107,25 +107,27 @@ impl Atlas {
         complete
     }
 
-    /// The textures of the reference image, where [`Atlas::make_bent`] has made it.
-    pub fn bent(&self) -> Option<BentTextures> {
-        let bent = self.bent.as_ref()?;
-        let [colour, depth] = bent.image.textures();
-        Some(BentTextures {
-            image: [colour, depth, bent.moved],
-            steps: [bent.steps.0, bent.splats.0],
-            map: bent.map.0,
+    /// The textures of the reference image, where [`Atlas::make_reference`] has made it.
+    pub fn reference(&self) -> Option<ReferenceTextures> {
+        let reference = self.reference.as_ref()?;
+        let [colour, depth] = reference.image.textures();
+        Some(ReferenceTextures {
+            image: [colour, depth, reference.moved],
+            steps: [reference.steps.0, reference.splats.0],
+            map: reference.map.0,
         })
     }
 
     /// Binds what a step towards the map is drawn to, and answers its width in texels.
-    pub fn enter_bends(&mut self, gl: &Gl, target: BendTarget) -> i32 {
-        let Some(bent) = &self.bent else { return 0 };
+    pub fn enter_distortion(&mut self, gl: &Gl, target: DistortionTarget) -> i32 {
+        let Some(reference) = &self.reference else {
+            return 0;
+        };
         let blocks = self.tiles.width.div_ceil(BLOCK).max(1);
         let (framebuffer, width) = match target {
-            BendTarget::Steps => (bent.steps.1, blocks),
-            BendTarget::Splats => (bent.splats.1, blocks),
-            BendTarget::Map => (bent.map.1, self.tiles.width.div_ceil(2)),
+            DistortionTarget::Steps => (reference.steps.1, blocks),
+            DistortionTarget::Splats => (reference.splats.1, blocks),
+            DistortionTarget::Map => (reference.map.1, self.tiles.width.div_ceil(2)),
         };
         gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, framebuffer);
         self.bound_row = u32::MAX;
@@ -133,16 +135,16 @@ impl Atlas {
     }
 
     /// The framebuffer of the reference image.
-    pub fn bent_framebuffer(&self) -> Option<u32> {
-        Some(self.bent.as_ref()?.image.framebuffer())
+    pub fn reference_framebuffer(&self) -> Option<u32> {
+        Some(self.reference.as_ref()?.image.framebuffer())
     }
 }
 
 /// The reference image as what a draw goes to: in the place of the program's own view, and of no other.
 #[derive(Debug)]
-pub struct BentSurface<'a>(pub &'a mut Atlas);
+pub struct ReferenceSurface<'a>(pub &'a mut Atlas);
 
-impl Surface for BentSurface<'_> {
+impl Surface for ReferenceSurface<'_> {
     fn tiles(&self) -> Tiles {
         let tiles = self.0.tiles;
         Tiles {
@@ -159,7 +161,7 @@ impl Surface for BentSurface<'_> {
     }
 
     fn bind_row(&mut self, gl: &Gl, _: u32) {
-        if let Some(framebuffer) = self.0.bent_framebuffer() {
+        if let Some(framebuffer) = self.0.reference_framebuffer() {
             gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, framebuffer);
             self.0.bound_row = u32::MAX;
         }

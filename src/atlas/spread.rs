@@ -1,6 +1,6 @@
 //! A tile whose texels are not the window's pixels, stretched to the window's size: for reads, and for tiles of another kind.
 
-use super::{Atlas, Names, Shown};
+use super::{Atlas, Names, ViewSet};
 use crate::gl::{Gl, consts as c};
 use crate::state::Window;
 
@@ -10,7 +10,7 @@ impl Atlas {
     /// Draws a view's tile over a framebuffer of the window's size, each pixel from the nearest texel, give or take one. Binds the
     /// single-sampled tile for reading and that framebuffer for drawing; the scissor test must be off.
     pub(super) fn spread(&self, gl: &Gl, view: u32, to: u32) {
-        self.resolve(gl, &Shown::ALL, ALL);
+        self.resolve(gl, &ViewSet::ALL, ALL);
         let (from, x) = self.readable(view);
         let (tiles, grid) = (&self.tiles, &self.tiles.grid);
         let [_, height] = tiles.window.map(|side| side as i32);

@@ -1,6 +1,6 @@
 //! Where each view lies.
 
-use super::{Grid, Shown};
+use super::{Grid, ViewSet};
 use crate::config::AtlasLayout;
 
 /// Places of N tiles in an array texture: `columns` beside each other in each of `rows` layers. Side by side is one row (several
@@ -18,7 +18,7 @@ pub struct Tiles {
     /// What of the window a tile shows.
     pub grid: Grid,
     /// The views that are drawn, beside the program's own.
-    pub shown: Shown,
+    pub shown: ViewSet,
     /// Of a tile, pixels.
     pub width: u32,
     /// Of a tile, pixels.
@@ -97,7 +97,7 @@ impl Tiles {
             views,
             window,
             grid,
-            shown: Shown::ALL,
+            shown: ViewSet::ALL,
             width,
             height,
             stride,
@@ -127,7 +127,7 @@ impl Tiles {
     }
 
     /// The program's own view alone.
-    pub fn own_alone(&self) -> Shown {
+    pub fn own_alone(&self) -> ViewSet {
         [self.own()].into_iter().collect()
     }
 

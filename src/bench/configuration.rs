@@ -152,7 +152,7 @@ pub struct Variant {
     pub view_scale: String,
     /// As `--display` has it; none for the layer's own.
     pub display: Option<String>,
-    /// The name of a [`crate::config::Saving`] that is not made.
+    /// The name of a [`crate::config::Optimisation`] that is not made.
     pub without: Option<&'static str>,
 }
 
@@ -182,7 +182,7 @@ impl Variant {
             settings.set(*id, *value, Origin::CommandLine);
         }
         if let Some(saving) = self.without {
-            settings.set(OptionId::Without, saving, Origin::CommandLine);
+            settings.set(OptionId::Disable, saving, Origin::CommandLine);
         }
         settings.set(OptionId::Views, views, Origin::CommandLine);
         settings

@@ -47,7 +47,7 @@ pub(crate) struct LayerArguments {
     /// Put the views of instanced and geometry side by side, and keep them apart so [default: views lie in layers]
     #[arg(long, value_name = "distances|discard|both|cut")]
     clip: Option<String>,
-    /// What views that are made, not drawn, have where nothing is known: what is behind, or magenta [default: fill]
+    /// What synthesised views have where nothing is known: what is behind, or magenta [default: fill]
     #[arg(long, value_name = "fill|mark")]
     holes: Option<String>,
     /// Views that --strategy hybrid draws, the others are made of them [default: as many as --fps leaves time for]
@@ -111,7 +111,7 @@ impl LayerArguments {
             (OptionId::Fps, &self.fps),
             (OptionId::ViewScale, &self.view_scale),
             (OptionId::HudDepth, &self.hud_depth),
-            (OptionId::Without, &self.without),
+            (OptionId::Disable, &self.without),
             (OptionId::Profile, &self.profile),
             (OptionId::Explain, &self.explain),
             (OptionId::ExplainFrame, &self.explain_frame),

@@ -27,7 +27,7 @@ pub use options::{DISABLE, Field, LIBRARY, OPTIONS, OptionId, OptionSpec, Origin
 pub use profile::{Profile, Rule};
 pub use settings::{Setting, Settings};
 pub use status::{Status, replace};
-pub use strategy::{Behind, Strategy, TrueViews};
+pub use strategy::{DisocclusionSource, Strategy, TrueViews};
 
 use crate::display::Display;
 use std::path::{Path, PathBuf};
@@ -59,14 +59,14 @@ pub struct Config {
     pub clip: Option<Clip>,
     /// How many views are drawn where the others are made of them.
     pub true_views: TrueViews,
-    /// Holes of views that are made of depths are magenta.
+    /// Holes of synthesised views are magenta.
     pub marks_holes: bool,
     /// Size of a tile over the size of the window.
     pub view_scale: ViewScale,
     /// Where flat draws stand that no rule places: 0 on the panel, 1 infinitely far; a fraction of the separation at infinity.
     pub hud_depth: Option<f64>,
     /// What is done although the scene does not need it.
-    pub without: Without,
+    pub disabled: Disabled,
     /// What the program's draws are, where the state does not say it.
     pub profile: Profile,
     /// One frame to explain, if any.
@@ -100,7 +100,7 @@ impl Config {
         Ok(config)
     }
 
-    /// Without `--profile`, takes the profile that names the program.
+    /// Disabled `--profile`, takes the profile that names the program.
     pub fn choose_profile(&mut self, settings: &Settings, program: Option<String>) {
         let folder = settings.get(OptionId::Profiles);
         if settings.get(OptionId::Profile).is_none()
@@ -261,11 +261,11 @@ pub enum Kept {
 
 /// Work that is left out where a scene does not need it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Saving {
+pub enum Optimisation {
     /// Views that no subpixel shows are not drawn.
     Unseen,
     /// Frames that are the same in all views are drawn once.
-    Alike,
+    MonoFrames,
     /// The driver copies many vertices between glBegin and glEnd once, not once per view.
     Lists,
     /// Uniforms that have their value are not sent again.
@@ -274,33 +274,33 @@ pub enum Saving {
     Frustum,
 }
 
-impl Saving {
+impl Optimisation {
     /// All of them, with their names.
-    pub const ALL: [(&str, Saving); 5] = [
-        ("unseen", Saving::Unseen),
-        ("alike", Saving::Alike),
-        ("lists", Saving::Lists),
-        ("uniforms", Saving::Uniforms),
-        ("frustum", Saving::Frustum),
+    pub const ALL: [(&str, Optimisation); 5] = [
+        ("unseen", Optimisation::Unseen),
+        ("alike", Optimisation::MonoFrames),
+        ("lists", Optimisation::Lists),
+        ("uniforms", Optimisation::Uniforms),
+        ("frustum", Optimisation::Frustum),
     ];
 }
 
 /// The savings that are not made, to measure them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Without(u8);
+pub struct Disabled(u8);
 
-impl Without {
+impl Disabled {
     /// Whether a saving is not made.
     #[must_use]
-    pub fn has(self, saving: Saving) -> bool {
+    pub fn has(self, saving: Optimisation) -> bool {
         self.0 >> (saving as u8) & 1 != 0
     }
 }
 
-impl FromIterator<Saving> for Without {
-    fn from_iter<I: IntoIterator<Item = Saving>>(savings: I) -> Self {
+impl FromIterator<Optimisation> for Disabled {
+    fn from_iter<I: IntoIterator<Item = Optimisation>>(savings: I) -> Self {
         let bits = savings.into_iter().map(|saving| 1 << (saving as u8));
-        Without(bits.fold(0, |all, bit| all | bit))
+        Disabled(bits.fold(0, |all, bit| all | bit))
     }
 }
 

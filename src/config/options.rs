@@ -49,7 +49,7 @@ pub enum OptionId {
     /// Depth of flat draws.
     HudDepth,
     /// What is not left out.
-    Without,
+    Disable,
     /// Rules for the program.
     Profile,
     /// Folder of the profiles that come with the library.
@@ -150,7 +150,7 @@ pub const OPTIONS: &[OptionSpec] = &[
     option!(Clip, Some("clip"), Some("clip"), "MANYVIEW_CLIP", "distances|discard|both|cut", No,
         "put the views of instanced and geometry side by side, and keep them apart so; views lie in layers unless given"),
     option!(Holes, Some("holes"), Some("holes"), "MANYVIEW_HOLES", "fill|mark", No,
-        "what views that are made have where nothing is known: what is behind, or magenta; fill unless given"),
+        "what synthesised views have where nothing is known: what is behind, or magenta; fill unless given"),
     option!(TrueViews, Some("true-views"), Some("true-views"), "MANYVIEW_TRUE_VIEWS", "K", No,
         "views that hybrid draws, the others are made of them; as many as --fps leaves time for unless given"),
     option!(Fps, Some("fps"), Some("fps"), "MANYVIEW_FPS", "F", No,
@@ -159,7 +159,7 @@ pub const OPTIONS: &[OptionSpec] = &[
         "size of a view over that of the window, from 0.05 to 1, or auto: as much as the output shows; 1 unless given"),
     option!(HudDepth, Some("hud-depth"), Some("hud-depth"), "MANYVIEW_HUD_DEPTH", "D", No,
         "where flat draws stand: 0 on the panel, 1 infinitely far, below 0 before the panel; 0 unless given"),
-    option!(Without, Some("without"), Some("without"), "MANYVIEW_WITHOUT", "NAME,…", No,
+    option!(Disable, Some("without"), Some("without"), "MANYVIEW_WITHOUT", "NAME,…", No,
         "do the work that is left out where a scene does not need it, to see what that saves: unseen, alike, lists, uniforms and frustum, by commas"),
     option!(Profile, Some("profile"), Some("profile"), "MANYVIEW_PROFILE", "NAME|FILE|none", ProfileOrFile,
         "rules that say what draws are; the profile that names the program unless given"),

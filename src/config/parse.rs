@@ -5,8 +5,8 @@ use super::error::ConfigError;
 use super::options::{Field, OptionId, Origin};
 use super::settings::Settings;
 use super::{
-    Anaglyph, AtlasLayout, Camera, Capture, CaptureWhat, Clip, Config, Explain, Filter, Glasses,
-    Interlace, Kept, MAX_VIEWS, Mixture, Output, Profile, Saving, ViewScale, Without, panel,
+    Anaglyph, AtlasLayout, Camera, Capture, CaptureWhat, Clip, Config, Disabled, Explain, Filter,
+    Glasses, Interlace, Kept, MAX_VIEWS, Mixture, Optimisation, Output, Profile, ViewScale, panel,
     profile, strategy,
 };
 use crate::display::{Display, Kind, MAX_FINE_VIEWS, MaskError};
@@ -47,7 +47,7 @@ impl Config {
                 .unwrap_or(false),
             view_scale: view_scale(settings)?,
             hud_depth: hud_depth(settings)?,
-            without: without(settings)?,
+            disabled: disabled(settings)?,
             profile: named_profile(settings)?,
             explain: explain(settings, views)?,
             prove: prove(settings, views)?,
@@ -75,15 +75,17 @@ const ATLASES: &[(&str, AtlasLayout)] = &[
     ("layers", AtlasLayout::Layers),
 ];
 
-fn without(settings: &Settings) -> Result<Without, ConfigError> {
-    let Some((field, value)) = settings.field(OptionId::Without) else {
-        return Ok(Without::default());
+fn disabled(settings: &Settings) -> Result<Disabled, ConfigError> {
+    let Some((field, value)) = settings.field(OptionId::Disable) else {
+        return Ok(Disabled::default());
     };
     let named = |name: &str| {
-        let known = Saving::ALL.iter().find(|(known, _)| *known == name.trim());
+        let known = Optimisation::ALL
+            .iter()
+            .find(|(known, _)| *known == name.trim());
         known.map(|(_, saving)| *saving)
     };
-    let savings: Option<Without> = value.split(',').map(named).collect();
+    let savings: Option<Disabled> = value.split(',').map(named).collect();
     savings.ok_or_else(|| ConfigError::Choice {
         field,
         value: value.to_owned(),

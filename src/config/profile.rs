@@ -188,7 +188,7 @@ pub fn this_program() -> Option<String> {
     Some(program_name(&path.file_name()?.to_string_lossy()).to_owned())
 }
 
-/// Without what Linux appends to the name of a program that has been replaced since it was started, as updates do.
+/// Disabled what Linux appends to the name of a program that has been replaced since it was started, as updates do.
 pub(super) fn program_name(link: &str) -> &str {
     link.strip_suffix(" (deleted)").unwrap_or(link)
 }

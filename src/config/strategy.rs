@@ -51,7 +51,7 @@ impl std::fmt::Display for Strategy {
 
 /// What is known of what the view hides that another one is made of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Behind {
+pub enum DisocclusionSource {
     /// What is behind it beside it.
     Nothing,
     /// The reference image of an occlusion camera.
@@ -75,11 +75,11 @@ const RATE: f64 = 60.0;
 impl Strategy {
     /// None where all views are drawn.
     #[must_use]
-    pub fn behind(self) -> Option<Behind> {
+    pub fn disocclusion_source(self) -> Option<DisocclusionSource> {
         match self {
-            Strategy::DepthImage => Some(Behind::Nothing),
-            Strategy::Occlusion => Some(Behind::Reference),
-            Strategy::Hybrid => Some(Behind::Views),
+            Strategy::DepthImage => Some(DisocclusionSource::Nothing),
+            Strategy::Occlusion => Some(DisocclusionSource::Reference),
+            Strategy::Hybrid => Some(DisocclusionSource::Views),
             Strategy::Auto | Strategy::Replay | Strategy::Instanced | Strategy::Geometry => None,
         }
     }
@@ -88,8 +88,10 @@ impl Strategy {
 impl Config {
     /// Of what views are made instead of drawn; none where they are all drawn.
     #[must_use]
-    pub fn synthesis(&self) -> Option<Behind> {
-        self.strategy.behind().filter(|_| self.views > 1)
+    pub fn synthesis(&self) -> Option<DisocclusionSource> {
+        self.strategy
+            .disocclusion_source()
+            .filter(|_| self.views > 1)
     }
 }
 

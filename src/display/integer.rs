@@ -5,8 +5,8 @@
 //! of as many equal parts of the modulus as it is long.
 #![forbid(unsafe_code)]
 
-use super::lattice::{Lattice, Row, Way, by_colour};
-use super::turns::Phase;
+use super::lattice::{Direction, Lattice, Row, by_colour};
+use super::lens_phase::Phase;
 use super::{GUARD, Mask, MaskError, Placement, SubpixelOrder};
 
 /// The steps.
@@ -48,7 +48,7 @@ impl Integer {
     }
 
     pub(super) fn mask(&self, placement: &Placement, views: u32) -> Result<Mask, MaskError> {
-        let lattice = Lattice::new(self.modulus.into(), self.horizontal.into(), Way::Up);
+        let lattice = Lattice::new(self.modulus.into(), self.horizontal.into(), Direction::Up);
         let Some(lattice) = lattice else {
             return Err(MaskError::Pitch);
         };

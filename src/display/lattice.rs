@@ -13,7 +13,7 @@ pub(super) const LARGEST_TURN: i128 = 1 << 94;
 
 /// How views follow the phase.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Way {
+pub(super) enum Direction {
     /// `⌊N · φ⌋`
     Up,
     /// `⌊N · (1 − φ)⌋`, and N − 1 where φ is 0.
@@ -25,7 +25,7 @@ pub(super) enum Way {
 pub(super) struct Lattice {
     turn: i128,
     step: i128,
-    way: Way,
+    direction: Direction,
 }
 
 /// One row.
@@ -39,11 +39,11 @@ pub(super) struct Row {
 
 impl Lattice {
     /// None where the turn is not in 1 to 2^94 units.
-    pub(super) fn new(turn: i128, step: i128, way: Way) -> Option<Self> {
+    pub(super) fn new(turn: i128, step: i128, direction: Direction) -> Option<Self> {
         (1..=LARGEST_TURN).contains(&turn).then(|| Self {
             turn,
             step: step.rem_euclid(turn),
-            way,
+            direction,
         })
     }
 
@@ -91,9 +91,9 @@ impl Lattice {
         for (i, out) in out.iter_mut().enumerate() {
             for (c, out) in out.iter_mut().enumerate() {
                 let fraction = fractions[i % 2][c].wrapping_add(step.wrapping_mul(i as u64));
-                let fraction = match self.way {
-                    Way::Up => fraction,
-                    Way::Down => fraction.wrapping_neg(),
+                let fraction = match self.direction {
+                    Direction::Up => fraction,
+                    Direction::Down => fraction.wrapping_neg(),
                 };
                 let wide = u128::from(fraction) * u128::from(views);
                 let (view, rest) = ((wide >> 64) as u16, wide as u64);
@@ -110,9 +110,9 @@ impl Lattice {
     /// The view of a phase in 0 .. turn.
     fn view(&self, phase: i128, views: u32) -> u16 {
         let n = i128::from(views);
-        match self.way {
-            Way::Up => (n * phase / self.turn) as u16,
-            Way::Down => (n * (self.turn - phase) / self.turn).min(n - 1) as u16,
+        match self.direction {
+            Direction::Up => (n * phase / self.turn) as u16,
+            Direction::Down => (n * (self.turn - phase) / self.turn).min(n - 1) as u16,
         }
     }
 

@@ -9,9 +9,9 @@
 //! of the panel; with another N the phase `view / n` is spread over N views.
 #![forbid(unsafe_code)]
 
-use super::lattice::{Lattice, Row, Way};
+use super::lattice::{Direction, Lattice, Row};
+use super::lens_phase::Phase;
 use super::number::in_units;
-use super::turns::Phase;
 use super::{Mask, MaskError, Number, Placement};
 
 /// The numbers of a panel; all in views.
@@ -57,7 +57,7 @@ impl Leia {
             self.offset,
         ];
         let (unit, [across, up, slant, offset]) = in_units(numbers);
-        let Some(lattice) = Lattice::new(i128::from(native) * unit, across, Way::Up) else {
+        let Some(lattice) = Lattice::new(i128::from(native) * unit, across, Direction::Up) else {
             return Err(MaskError::Pitch);
         };
         let places = if self.colour_inversion {

@@ -13,8 +13,8 @@
 //! and shown, and have no part in the mask.
 #![forbid(unsafe_code)]
 
-use super::lattice::{Lattice, Row, Way};
-use super::turns::Phase;
+use super::lattice::{Direction, Lattice, Row};
+use super::lens_phase::Phase;
 use super::{Mask, MaskError, Placement};
 
 /// What a device is calibrated to; lengths in pixels unless said otherwise.
@@ -147,7 +147,11 @@ impl LookingGlass {
         let (lenses, climb) = (self.lenses(), self.lenses() * self.tilt());
         // All of z times this is whole: u has the denominator 2W, v 2H and the subpixels 3W.
         let unit = 6 * width * height;
-        let way = if self.inverted { Way::Down } else { Way::Up };
+        let way = if self.inverted {
+            Direction::Down
+        } else {
+            Direction::Up
+        };
         let across = fixed(lenses) * 6 * height;
         let Some(lattice) = Lattice::new(unit << DIGITS, across, way) else {
             return Err(MaskError::Pitch);

@@ -25,6 +25,7 @@ mod integer;
 mod lattice;
 mod leia;
 mod lens;
+mod lens_phase;
 mod looking_glass;
 mod mask;
 mod number;
@@ -34,7 +35,6 @@ mod rotation;
 mod slanted;
 #[cfg(test)]
 mod tests;
-mod turns;
 mod written;
 
 pub use bias::Bias;
@@ -45,6 +45,7 @@ pub use error::{DisplayError, MaskError};
 pub use integer::Integer;
 pub use leia::Leia;
 pub use lens::{Lens, LensPart};
+pub use lens_phase::LensPhase;
 pub use looking_glass::{CellPattern, LookingGlass};
 pub use mask::{GUARD, Mask};
 pub use number::Number;
@@ -52,7 +53,6 @@ pub use pattern::Pattern;
 pub use quilt::{QuiltError, QuiltName};
 pub use rotation::Rotation;
 pub use slanted::Slanted;
-pub use turns::Turns;
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;

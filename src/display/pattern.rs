@@ -1,7 +1,7 @@
 //! Patterns written by hand, repeated from the screen's top left corner: interlaced stereo panels, barriers with black guards.
 #![forbid(unsafe_code)]
 
-use super::turns::Phase;
+use super::lens_phase::Phase;
 use super::{GUARD, Mask, MaskError, Placement};
 
 /// Rows of cells.

@@ -4,9 +4,9 @@
 //! the place of the subpixel in its pixel. An inverted one has −φ for the phase φ.
 #![forbid(unsafe_code)]
 
-use super::lattice::{Lattice, Row, Way, by_colour};
+use super::lattice::{Direction, Lattice, Row, by_colour};
+use super::lens_phase::Phase;
 use super::number::{are_exact, in_units};
-use super::turns::Phase;
 use super::{Bias, Mask, MaskError, Number, Placement, SubpixelOrder};
 
 /// The optics of a slanted lens or barrier.
@@ -71,7 +71,7 @@ impl Slanted {
         let (unit, [pitch, slant, offset, r, g, b]) = in_units(self.numbers());
         // Descending views are ascending ones of the phase that falls.
         let sign = if self.inverted { -1 } else { 1 };
-        let Some(lattice) = Lattice::new(pitch, sign * 3 * unit, Way::Up) else {
+        let Some(lattice) = Lattice::new(pitch, sign * 3 * unit, Direction::Up) else {
             return Err(MaskError::Pitch);
         };
         let places = by_colour(self.order, [0, unit, 2 * unit]);

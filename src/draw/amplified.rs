@@ -4,8 +4,8 @@
 
 use super::fixed_state::{Driver, FixedState};
 use super::fragment_state;
+use super::pixel_size::{PixelSizeGuard, Units};
 use super::replay::cut;
-use super::tuned::{Tuned, Units};
 use crate::atlas::Atlas;
 use crate::fixed::{
     self, Amplifier, Clip, FixedKey, FragmentKey, Limits, Patches, Primitive, Provoking, Tiles,
@@ -42,7 +42,7 @@ pub(super) struct Program {
     tiles: i32,
     grid: i32,
     pub(super) window: i32,
-    pub(super) bend: i32,
+    pub(super) disparity: i32,
     pub(super) levels: i32,
     /// What the uniforms hold.
     uploaded: Uniforms,
@@ -76,7 +76,7 @@ pub struct Amplified {
 }
 
 impl Programs {
-    /// For a context. `clip` is for views that lie side by side; `resends`: uniforms that have their value are sent again.
+    /// For a context. `clip` is for views that lie side by side; `resends`: uniforms that have their value are sent hazard.
     pub fn new(limits: Limits, driver: Driver, clip: Clip, resends: bool) -> Programs {
         Programs {
             limits,
@@ -160,7 +160,7 @@ impl Programs {
                 fixed::batch(&key, &self.limits).max(1)
             }
         };
-        // Without clip distances other vertices of the draw are clipped than the program's own, and so the cut is another.
+        // Disabled clip distances other vertices of the draw are clipped than the program's own, and so the cut is another.
         if key.target.discards() && mode == c::QUADS && !key.flat {
             return Err(Reason::Kind(
                 "smooth quads under `--clip discard`, which the driver cuts along either diagonal,",
@@ -189,9 +189,9 @@ impl Programs {
                 "wide and smooth points and lines under `geometry`",
             ));
         }
-        let fragment = if key.target.discards() || grid.follows_lenses() {
+        let fragment = if key.target.discards() || grid.is_sample_aligned() {
             let mut read = fragment_state::read(gl, self.driver, &key).map_err(Reason::Fixed)?;
-            read.grid = grid.follows_lenses();
+            read.grid = grid.is_sample_aligned();
             // The driver's own stage does what needs no level of detail.
             Some(read.canonical()).filter(|key| key.discard || key.grid)
         } else {
@@ -251,7 +251,7 @@ impl Programs {
             tiles: gl.uniform_location(name, c"mv_tile"),
             grid: gl.uniform_location(name, c"mv_grid"),
             window: gl.uniform_location(name, c"mv_window"),
-            bend: gl.uniform_location(name, c"mv_bend"),
+            disparity: gl.uniform_location(name, c"mv_disparity"),
             levels: gl.uniform_location(name, c"mv_levels"),
             uploaded: Uniforms::default(),
         });
@@ -288,14 +288,14 @@ impl Programs {
             Some(fragment) if fragment.grid => Units::None,
             _ => Units::Enabled,
         };
-        let around = Around::enter(gl, state, atlas, key, program, units, fixed);
+        let around = StateGuard::enter(gl, state, atlas, key, program, units, fixed);
         let tiles = atlas.tiles;
         let layers = key.target.tiles == Tiles::Layer;
         let discards = key.target.discards();
         let modelview = how.modelview;
         let first_row_of = |view: u32| {
             let p = shear.map_or(state.projection, |s| {
-                s.projection(&state.projection, rig.place(view))
+                s.projection(&state.projection, rig.position(view))
             });
             if tiles.grid.is_full() {
                 return first_row(&p, &modelview);
@@ -365,9 +365,9 @@ fn name_units(gl: &Gl, program: u32, key: &FragmentKey) {
             gl.uniform_1i(gl.uniform_location(program, &name), unit as i32);
         }
     }
-    if key.bent {
-        let map = gl.uniform_location(program, c"mv_bends");
-        gl.uniform_1i(map, super::bent::UNIT as i32);
+    if key.displaced {
+        let map = gl.uniform_location(program, c"mv_distortion_map");
+        gl.uniform_1i(map, super::reference::UNIT as i32);
     }
     gl.use_program(0);
 }
@@ -425,7 +425,7 @@ fn primitive(mode: u32, flat: bool) -> Result<(Primitive, u32), Reason> {
 }
 
 /// State around an amplified draw.
-pub(super) struct Around {
+pub(super) struct StateGuard {
     /// Width of the program's viewport over the atlas's.
     scale: f32,
     /// What may be drawn, in NDC of the program's viewport: left, right, bottom, top.
@@ -436,13 +436,13 @@ pub(super) struct Around {
     width: f64,
     /// Viewport and scissor are not the program's.
     placed: bool,
-    tuned: Tuned,
+    pixel_sizes: PixelSizeGuard,
     toggled: Vec<(u32, bool)>,
     /// The last-vertex convention was set where the program has the first.
     last: bool,
 }
 
-impl Around {
+impl StateGuard {
     pub(super) fn enter(
         gl: &Gl,
         state: &State,
@@ -451,7 +451,7 @@ impl Around {
         program: &Program,
         units: Units,
         fixed: &FixedState,
-    ) -> Around {
+    ) -> StateGuard {
         let patches = &program.patches;
         let beside = key.target.tiles == Tiles::ClipLeftRight;
         let width = f64::from(atlas.tiles.texture_width());
@@ -483,7 +483,7 @@ impl Around {
             }
         }
         let grid = &atlas.tiles.grid;
-        let tuned = Tuned::enter(gl, state, grid, units);
+        let pixel_sizes = PixelSizeGuard::enter(gl, state, grid, units);
         if !grid.is_full() {
             gl.viewport_f(grid.viewport(atlas.tiles.own(), 0, state.viewport));
             if state.scissor_test {
@@ -532,14 +532,14 @@ impl Around {
         if last {
             gl.provoking_vertex(c::LAST_VERTEX_CONVENTION);
         }
-        Around {
+        StateGuard {
             scale: (f64::from(vw) / width) as f32,
             clip,
             limits,
             viewport: state.viewport,
             width,
             placed: beside || !grid.is_full(),
-            tuned,
+            pixel_sizes,
             toggled,
             last,
         }
@@ -559,7 +559,7 @@ impl Around {
             gl.provoking_vertex(c::FIRST_VERTEX_CONVENTION);
         }
         gl.use_program(0);
-        self.tuned.leave(gl);
+        self.pixel_sizes.leave(gl);
         if self.placed {
             let [x, y, w, h] = state.viewport;
             gl.viewport(x, y, w, h);

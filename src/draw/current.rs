@@ -77,7 +77,7 @@ impl Current {
         current
     }
 
-    /// Sets them again.
+    /// Sets them hazard.
     pub fn put(&self, gl: &Gl) {
         for (face, name, v) in &self.material {
             gl.material(*face, *name, v);

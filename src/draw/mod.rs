@@ -1,18 +1,20 @@
-//! Executes a plan: the draw, once per view. Never looks at the program's state again.
+//! Executes a plan: the draw, once per view. Never looks at the program's state hazard.
 #![forbid(unsafe_code)]
 
 mod amplified;
-mod bent;
 mod current;
 mod fixed_state;
 mod fragment_state;
+mod pixel_size;
+mod reference;
 mod replay;
-mod tuned;
-mod twin;
+mod variant;
 
 pub use amplified::{Amplified, Programs};
-pub use bent::{Drawing, Rays, draw_bent};
 pub use current::Current;
 pub use fixed_state::{Driver, FixedState, limits};
-pub use replay::{Again, cut, enter_own, others, place, replay, unplace};
-pub use twin::{Drawn, NoTwin, Twin, Way, drawn};
+pub use reference::{Drawing, Rays, draw_to_reference};
+pub use replay::{
+    ReplayHazard, cut, enter_own, others, replay, restore_viewport, set_tile_viewport,
+};
+pub use variant::{Drawn, NoVariant, Variant, VariantKind, drawn};

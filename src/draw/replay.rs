@@ -1,7 +1,7 @@
-//! The draw itself again, per view, with P_i and the tile's viewport and scissor. Needs no shader.
+//! The draw itself hazard, per view, with P_i and the tile's viewport and scissor. Needs no shader.
 
 use super::current::Current;
-use super::tuned::{Tuned, Units};
+use super::pixel_size::{PixelSizeGuard, Units};
 use crate::atlas::{Grid, Surface, Tiles};
 use crate::gl::{Gl, consts as c};
 use crate::plan::{Rig, Shear};
@@ -9,9 +9,9 @@ use crate::state::{Effect, State};
 
 /// What the draw does to the state that its second sending would start from.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Again {
+pub enum ReplayHazard {
     /// Nothing: it can be sent again as it is.
-    Same,
+    None,
     /// Sets current values that its first vertices used.
     Current(Effect),
     /// Anything: a display list.
@@ -47,27 +47,27 @@ pub fn replay(
     state: &State,
     rig: &Rig,
     shear: Option<Shear>,
-    again: Again,
+    hazard: ReplayHazard,
     leaves: bool,
     call: &mut dyn FnMut(u32),
 ) -> bool {
     let tiles = surface.tiles();
-    if again == Again::Clear && !state.scissor_test {
+    if hazard == ReplayHazard::Clear && !state.scissor_test {
         for row in (0..tiles.rows).rev().filter(|&row| tiles.draws_row(row)) {
             surface.bind_row(gl, row);
             call(tiles.own());
         }
         return true;
     }
-    let saves = match again {
-        Again::Same | Again::Clear => 0,
+    let saves = match hazard {
+        ReplayHazard::None | ReplayHazard::Clear => 0,
         // What an array element or an evaluator sets is not known here.
-        Again::Current(e) if e.has(Effect::UNKNOWN) || e.has(Effect::ATTRIB) => {
+        ReplayHazard::Current(e) if e.has(Effect::UNKNOWN) || e.has(Effect::ATTRIB) => {
             c::CURRENT_BIT | c::LIGHTING_BIT
         }
-        Again::Current(_) => 0,
-        Again::Raster(_) => c::CURRENT_BIT,
-        Again::Anything { .. } => c::ALL_ATTRIB_BITS,
+        ReplayHazard::Current(_) => 0,
+        ReplayHazard::Raster(_) => c::CURRENT_BIT,
+        ReplayHazard::Anything { .. } => c::ALL_ATTRIB_BITS,
     };
     if saves != 0
         && gl.get_integer(c::ATTRIB_STACK_DEPTH) >= gl.get_integer(c::MAX_ATTRIB_STACK_DEPTH)
@@ -84,17 +84,19 @@ pub fn replay(
     }
     let beside = tiles.columns > 1 || !tiles.grid.is_full();
     let own = tiles.own();
-    let tuned = Tuned::enter(
+    let pixel_sizes = PixelSizeGuard::enter(
         gl,
         state,
         &tiles.grid,
-        match again {
-            Again::Anything { .. } => Units::All,
+        match hazard {
+            ReplayHazard::Anything { .. } => Units::All,
             _ => Units::Enabled,
         },
     );
-    let current = match again {
-        Again::Current(e) | Again::Anything { current: e, .. } => Current::take(gl, e, saves != 0),
+    let current = match hazard {
+        ReplayHazard::Current(e) | ReplayHazard::Anything { current: e, .. } => {
+            Current::take(gl, e, saves != 0)
+        }
         _ => Current::default(),
     };
     let projection = Projection {
@@ -103,63 +105,63 @@ pub fn replay(
         shear,
         grid: tiles.grid,
     };
-    let raster = match again {
-        Again::Raster(Some(shear)) => Some(Raster::at(gl, state, shear)),
+    let raster = match hazard {
+        ReplayHazard::Raster(Some(shear)) => Some(Raster::at(gl, state, shear)),
         _ => None,
     };
     for view in tiles.order() {
         let x = surface.enter(gl, view);
-        let free = view == own && matches!(again, Again::Anything { rects: true, .. });
+        let free = view == own && matches!(hazard, ReplayHazard::Anything { rects: true, .. });
         if beside && !free {
-            place(gl, state, &tiles, view, x);
+            set_tile_viewport(gl, state, &tiles, view, x);
         } else if beside {
-            unplace(gl, state);
+            restore_viewport(gl, state);
         }
         // A list that changes the projection starts from the program's own, also where no view stands in the middle.
         let keeps = !matches!(
-            again,
-            Again::Anything {
+            hazard,
+            ReplayHazard::Anything {
                 projection: true,
                 ..
             }
         );
         if view == own && leaves {
             if keeps {
-                projection.load(rig.place(view));
+                projection.load(rig.position(view));
             } else {
                 projection.restore();
             }
             current.put(gl);
             match &raster {
-                Some(raster) => raster.own(gl, rig.place(own), &mut || call(view)),
+                Some(raster) => raster.own(gl, rig.position(own), &mut || call(view)),
                 None => call(view),
             }
             if beside && !free {
-                unplace(gl, state);
+                restore_viewport(gl, state);
             }
-            if keeps && (rig.place(own) != 0.0 || projection.leans()) {
+            if keeps && (rig.position(own) != 0.0 || projection.leans()) {
                 projection.restore();
             }
-            tuned.leave(gl);
+            pixel_sizes.leave(gl);
             break;
         }
         if saves != 0 {
             gl.push_attrib(saves);
         }
         if keeps || view != own {
-            projection.load(rig.place(view));
+            projection.load(rig.position(view));
         } else {
             projection.restore();
         }
-        match again {
-            Again::Raster(_) => {
-                let shift = raster.map_or(Some(0.0), |r| r.shift(rig.place(view)));
+        match hazard {
+            ReplayHazard::Raster(_) => {
+                let shift = raster.map_or(Some(0.0), |r| r.shift(rig.position(view)));
                 if let Some(shift) = shift {
                     gl.move_raster(x as f32 + shift, 0.0);
                     call(view);
                 }
             }
-            Again::Anything { .. } => {
+            ReplayHazard::Anything { .. } => {
                 let stack = Stack::take(gl, state.matrix_mode);
                 let attribs = gl.get_integer(c::ATTRIB_STACK_DEPTH);
                 current.put(gl);
@@ -180,11 +182,11 @@ pub fn replay(
         }
         if view == own {
             if beside && !free {
-                unplace(gl, state);
+                restore_viewport(gl, state);
             }
             projection.restore();
             current.put(gl);
-            tuned.leave(gl);
+            pixel_sizes.leave(gl);
             break;
         }
     }
@@ -202,7 +204,7 @@ pub fn enter_own(
     let tiles = surface.tiles();
     let x = surface.enter(gl, tiles.own());
     if tiles.columns > 1 || !tiles.grid.is_full() {
-        place(gl, state, &tiles, tiles.own(), x);
+        set_tile_viewport(gl, state, &tiles, tiles.own(), x);
     }
     let projection = Projection {
         gl,
@@ -210,8 +212,8 @@ pub fn enter_own(
         shear,
         grid: tiles.grid,
     };
-    if rig.place(tiles.own()) != 0.0 || projection.leans() {
-        projection.load(rig.place(tiles.own()));
+    if rig.position(tiles.own()) != 0.0 || projection.leans() {
+        projection.load(rig.position(tiles.own()));
     }
 }
 
@@ -236,20 +238,20 @@ pub fn others(
     for view in tiles.order().filter(|&v| wanted && v != own) {
         let x = surface.enter(gl, view);
         if beside {
-            place(gl, state, &tiles, view, x);
+            set_tile_viewport(gl, state, &tiles, view, x);
         }
-        projection.load(rig.place(view));
+        projection.load(rig.position(view));
         call(view);
     }
     surface.enter(gl, own);
     if beside {
-        unplace(gl, state);
+        restore_viewport(gl, state);
     }
     projection.restore();
 }
 
 /// Viewport and scissor of the program in the tile of a view, which begins at an offset in pixels, cut to the tile.
-pub fn place(gl: &Gl, state: &State, tiles: &Tiles, view: u32, offset: i32) {
+pub fn set_tile_viewport(gl: &Gl, state: &State, tiles: &Tiles, view: u32, offset: i32) {
     if tiles.grid.is_full() {
         let [x, y, w, h] = state.viewport;
         gl.viewport(x + offset, y, w, h);
@@ -283,7 +285,7 @@ pub fn cut(state: &State, tiles: &Tiles, view: u32, offset: i32) -> [i32; 4] {
 }
 
 /// The program's own viewport and scissor.
-pub fn unplace(gl: &Gl, state: &State) {
+pub fn restore_viewport(gl: &Gl, state: &State) {
     let [x, y, w, h] = state.viewport;
     gl.viewport(x, y, w, h);
     let [x, y, w, h] = state.scissor;
@@ -410,7 +412,7 @@ impl Projection<'_> {
         });
     }
 
-    /// The program's own again.
+    /// The program's own hazard.
     fn restore(&self) {
         if self.shear.is_some() || self.leans() {
             self.put(&self.state.projection);

@@ -130,7 +130,7 @@ fn output_components(key: &FixedKey) -> u32 {
     let layer = match key.target.tiles {
         Tiles::ClipLeftRight => 0,
         Tiles::Layer => 1,
-        Tiles::Bent => 2,
+        Tiles::DistortedRays => 2,
     };
     let primitive_id = u32::from(key.geometry());
     let limits = 2 * u32::from(key.target.discards());

@@ -9,7 +9,7 @@
 //! ```
 //! Sections are those of the OpenGL 4.6 compatibility specification.
 
-use super::bent::MOVED;
+use super::distortion::MOVED;
 use super::environment;
 use super::fragment_key::{FogMode, FragmentKey, FragmentUnit, TextureTarget};
 use super::key::Dialect;
@@ -60,7 +60,7 @@ pub fn generate_fragment(key: &FragmentKey, limits: &Limits) -> Result<String, U
             "flat in vec2 {LIMITS}; // left and right of the view in window coordinates"
         ));
     }
-    if key.bent {
+    if key.displaced {
         text.line(format!(
             "in vec2 {MOVED}; // pixels, times w; 1: all of it is moved"
         ));
@@ -92,7 +92,7 @@ pub fn generate_fragment(key: &FragmentKey, limits: &Limits) -> Result<String, U
         text.line("    discard;");
         text.line("}");
     }
-    if key.bent {
+    if key.displaced {
         text.line(format!("if ({MOVED}.y < 0.999) discard;"));
         text.line("gl_FragData[0] = color;");
         text.line(format!(

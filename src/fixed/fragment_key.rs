@@ -19,8 +19,8 @@ pub struct FragmentKey {
     pub grid: bool,
     /// Fragments outside the limits of their view are discarded: [`Clip`](super::Clip) of the vertex stage.
     pub discard: bool,
-    /// By how much a sample is moved is written as well: [`Tiles::Bent`](super::Tiles::Bent) of the vertex stage.
-    pub bent: bool,
+    /// By how much a sample is moved is written as well: [`Tiles::DistortedRays`](super::Tiles::DistortedRays) of the vertex stage.
+    pub displaced: bool,
     /// How the driver reads the specification where drivers differ.
     pub dialect: Dialect,
 }
@@ -221,7 +221,7 @@ impl FragmentKey {
             self.fog = FogMode::None;
         }
         self.discard = vertex.target.discards();
-        self.bent = vertex.target.tiles == Tiles::Bent;
+        self.displaced = vertex.target.tiles == Tiles::DistortedRays;
         self
     }
 

@@ -86,8 +86,8 @@ pub enum Tiles {
     ClipLeftRight,
     /// One layer of an array texture per view: `gl_Layer`, no clip distances, no map.
     Layer,
-    /// No views: the picture of an occlusion camera, whose rays are bent.
-    Bent,
+    /// No views: the picture of an occlusion camera, whose rays are distorted.
+    DistortedRays,
 }
 
 impl Target {

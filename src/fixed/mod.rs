@@ -8,10 +8,10 @@
 //! ```text
 //! FixedKey ── canonical ──► vertex ─┬─ lighting   section 12.2.1
 //!  (key)                            ├─ texgen     sections 12.1.1, 12.1.3
-//!                                   ├─ bent       the rays of an occlusion camera
+//!                                   ├─ distortion the rays of an occlusion camera
 //!                                   └─ view       shift, tile, clip distances, layer
 //!                           geometry ── view      one primitive per view
-//!                           tessellation ── bent  small ones for bent rays
+//!                           tessellation ── distortion  small ones for distorted rays
 //!
 //! FragmentKey ── canonical ──► fragment ── environment   sections 16.2 to 16.4
 //! ```
@@ -29,15 +29,15 @@
 //! | `vec4 mv_clip` | left, right, bottom, top of what may be drawn, in NDC of the program's viewport: −1, 1, −1, 1 if the viewport is inside the tile |
 //! | `int mv_first` | index in `mv_view` of the first view of this draw |
 //! | `vec4 mv_grid` | what one pixel of the window is in the tile, for textures: x and y of a step in x, then of a step in y, in tile pixels |
-//! | `sampler2DArray mv_bends`, `vec4 mv_window`, `vec4 mv_bend` | the map of an occlusion camera, where its texels lie, and heights: see `bent` |
+//! | `sampler2DArray mv_distortion_map`, `vec4 mv_window`, `vec4 mv_disparity` | the map of an occlusion camera, where its texels lie, and disparities: see `distortion` |
 //! | `float mv_levels` | the highest level of tessellation |
 //! | `mv_texture0` … `mv_texture7` | the index of its texture unit |
 //!
 //! A uniform that a key does not need is absent (location −1).
 #![forbid(unsafe_code)]
 
-mod bent;
 mod components;
+mod distortion;
 mod environment;
 mod fragment;
 mod fragment_key;
@@ -54,8 +54,8 @@ mod vertex;
 mod view;
 
 pub use crate::config::Clip;
-pub use bent::{UNIFORM_BEND, UNIFORM_BENDS, UNIFORM_WINDOW, bending};
 pub use components::batch;
+pub use distortion::{UNIFORM_DISPARITY, UNIFORM_DISTORTION_MAP, UNIFORM_WINDOW, ray_distortion};
 pub use fragment::{generate_fragment, sampler};
 pub use fragment_key::{
     Argument, BaseFormat, Combine, Combiner, Environment, FogMode, FragmentKey, FragmentUnit,

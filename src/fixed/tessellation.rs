@@ -4,8 +4,8 @@
 //! in between is linear in clip space, as it is over the whole triangle. No level is above [`LEVELS`]: longer edges stay
 //! coarser, and samples where they belong.
 
-use super::bent::UNIFORM_WINDOW;
 use super::components::varyings;
+use super::distortion::UNIFORM_WINDOW;
 use super::key::{FixedKey, Primitive, Provoking};
 use super::text::Text;
 use super::vertex;

@@ -33,7 +33,7 @@ pub(super) fn write(key: &FixedKey, limits: &Limits) -> Result<String, Unsupport
         view::write_uniforms(&mut text, key);
         view::write_outputs(&mut text, key);
         text.line("");
-        view::write_place(&mut text, key);
+        view::write_position(&mut text, key);
     }
     text.line("");
     lighting::write_functions(&mut text, key);
@@ -56,7 +56,7 @@ pub(super) fn write_last(text: &mut Text, key: &FixedKey) {
     view::write_uniforms(text, key);
     view::write_outputs(text, key);
     text.line("");
-    view::write_place(text, key);
+    view::write_position(text, key);
     text.line("");
 }
 
@@ -131,7 +131,7 @@ fn write_position(text: &mut Text, key: &FixedKey) {
         text.line("mv_out.vertex = gl_Vertex;");
     } else {
         text.line(match key.target.tiles {
-            Tiles::Bent => "mv_place(ftransform());".to_owned(),
+            Tiles::DistortedRays => "mv_place(ftransform());".to_owned(),
             _ => format!("mv_place({UNIFORM_FIRST} + gl_InstanceID, ftransform(), gl_Vertex);"),
         });
     }

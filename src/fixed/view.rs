@@ -11,7 +11,7 @@
 //! (x, y, w) is in clip space of the program's own viewport; (X, Y, w) in that of a viewport over the whole atlas. z and w
 //! do not change.
 
-use super::bent;
+use super::distortion;
 use super::key::{FixedKey, Tiles};
 use super::text::Text;
 use super::{
@@ -21,8 +21,8 @@ use crate::config::Clip;
 
 /// Uniforms of the view.
 pub(super) fn write_uniforms(text: &mut Text, key: &FixedKey) {
-    if key.target.tiles == Tiles::Bent {
-        return text.line(bent::UNIFORMS);
+    if key.target.tiles == Tiles::DistortedRays {
+        return text.line(distortion::UNIFORMS);
     }
     text.line(format!(
         "uniform vec4 {UNIFORM_VIEWS}[{VIEWS}]; // per view: row 0 of its projection times the modelview matrix"
@@ -63,8 +63,8 @@ pub(super) fn write_outputs(text: &mut Text, key: &FixedKey) {
     if key.target.discards() {
         text.line(format!("flat out vec2 {LIMITS};"));
     }
-    if key.target.tiles == Tiles::Bent {
-        text.line(format!("out vec2 {};", bent::MOVED));
+    if key.target.tiles == Tiles::DistortedRays {
+        text.line(format!("out vec2 {};", distortion::MOVED));
     }
 }
 
@@ -72,9 +72,9 @@ pub(super) fn write_outputs(text: &mut Text, key: &FixedKey) {
 ///
 /// x is summed as the driver sums the rows of `ftransform()`, so that a view has the very position that fixed function gives it
 /// with its own projection loaded (measured on llvmpipe 22.3: equal bits).
-pub(super) fn write_place(text: &mut Text, key: &FixedKey) {
-    if key.target.tiles == Tiles::Bent {
-        return bent::write_place(text);
+pub(super) fn write_position(text: &mut Text, key: &FixedKey) {
+    if key.target.tiles == Tiles::DistortedRays {
+        return distortion::write_position(text);
     }
     text.open("void mv_place(int view, vec4 p, vec4 vertex) {");
     text.line(format!("vec4 row = {UNIFORM_VIEWS}[view];"));
@@ -82,7 +82,7 @@ pub(super) fn write_place(text: &mut Text, key: &FixedKey) {
     text.line("p.x = row.x * vertex.x + row.y * vertex.y + row.z * vertex.z + row.w * vertex.w;");
     match key.target.tiles {
         Tiles::Layer => text.line("gl_Layer = int(tile.z);"),
-        Tiles::Bent => {}
+        Tiles::DistortedRays => {}
         Tiles::ClipLeftRight => {
             if key.target.discards() {
                 text.line(format!("{LIMITS} = tile.zw;"));

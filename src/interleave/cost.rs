@@ -2,7 +2,7 @@
 #![forbid(unsafe_code)]
 
 use super::shader::{Pass, VIEWS_UNIT};
-use super::{Glass, Interleaver, Program, Source};
+use super::{Interleaver, PanelPlacement, Program, Source};
 use crate::atlas::{Atlas, Grid, Limits, Names, Tiles};
 use crate::config::{Config, Output};
 use crate::display::Placement;
@@ -83,10 +83,10 @@ pub fn measure(gl: &Gl, glsl: u32, limits: Limits, case: &Case) -> Result<Cost, 
         texture: atlas.color,
         top_down: false,
         depth: None,
-        field: None,
+        pyramid: None,
         srgb: false,
     };
-    let glass = Glass {
+    let panel = PanelPlacement {
         display: &config.display,
         placement: Placement::full_screen(width, height),
     };
@@ -99,7 +99,7 @@ pub fn measure(gl: &Gl, glsl: u32, limits: Limits, case: &Case) -> Result<Cost, 
     };
     let mut weave = || {
         let none = &mut |_| Default::default();
-        interleaver.draw(gl, config, &views, none, Output::Panel, &glass)
+        interleaver.draw(gl, config, &views, none, Output::Panel, &panel)
     };
     // The mask is made, and the driver compiles.
     weave()?;

@@ -1,13 +1,13 @@
 //! The output passes in the program's context: on the GPU, or by the CPU reference where the context's GLSL is too old.
 
 use super::shader::{
-    BENT_UNITS, DEPTH_UNIT, Lenses, MASK_UNIT, PEAKS_UNIT, Pass, RANGE_UNIT, Synthesis, Texels,
-    Uniforms, VIEWS_UNIT,
+    BLOCK_BOUNDS_UNIT, DEPTH_UNIT, MASK_UNIT, Pass, RAY_RANGE_UNIT, REFERENCE_UNITS, SampleAligned,
+    Synthesis, Texels, Uniforms, VIEWS_UNIT,
 };
 use super::sheet::{self, Sheet};
-use super::{Depth, Form, Heights, Layout, Program, reference, rgbd};
-use crate::atlas::{BentTextures, FieldTextures, Names, Shown, Tiles};
-use crate::config::{Behind, Config, Filter, Output};
+use super::{Depth, Disparities, Form, Layout, Program, reference, rgbd};
+use crate::atlas::{Names, PyramidTextures, ReferenceTextures, Tiles, ViewSet};
+use crate::config::{Config, DisocclusionSource, Filter, Output};
 use crate::display::{Display, GUARD, Lens, Mask, Placement};
 use crate::gl::{Gl, consts as c};
 use image::RgbImage;
@@ -24,15 +24,15 @@ pub struct Source<'a> {
     /// The array texture of their depths, 0 where the window has none, and what is in it of the own view; only where the output
     /// shows it.
     pub depth: Option<(u32, &'a Depth)>,
-    /// The own view alone was drawn: the textures of its heights, measured, and what they are; only a panel's picture is made of it.
-    pub field: Option<(FieldTextures, Heights)>,
+    /// The own view alone was drawn: the textures of its disparities, measured, and what they are; only a panel's picture is made of it.
+    pub pyramid: Option<(PyramidTextures, Disparities)>,
     /// Its colours are stored as sRGB, and so are the window's.
     pub srgb: bool,
 }
 
 /// The panel that is in force.
 #[derive(Clone, Copy, Debug)]
-pub struct Glass<'a> {
+pub struct PanelPlacement<'a> {
     /// Its description.
     pub display: &'a Display,
     /// Where the picture lies on it.
@@ -51,7 +51,7 @@ pub struct Interleaver {
     /// Of an output whose picture lay there.
     mask: Option<(Of, Mask)>,
     /// The views in it.
-    shown: Shown,
+    shown: ViewSet,
     /// It has no black subpixels.
     lit: bool,
     mask_texture: u32,
@@ -84,7 +84,7 @@ fn column_bits(tiles: &Tiles) -> u32 {
 }
 
 /// Layer and column of a view's tile in one number, as the passes of texels take it; black where there is no such view.
-fn place(tiles: &Tiles, view: u32) -> u32 {
+fn tile_address(tiles: &Tiles, view: u32) -> u32 {
     if view >= tiles.views {
         return u32::from(GUARD);
     }
@@ -93,9 +93,9 @@ fn place(tiles: &Tiles, view: u32) -> u32 {
 }
 
 /// Binds a reference image.
-pub fn bind_bent(gl: &Gl, textures: Option<BentTextures>) {
-    let all = textures.map(|bent| [bent.map].into_iter().chain(bent.image));
-    for (texture, unit) in all.into_iter().flatten().zip(BENT_UNITS) {
+pub fn bind_reference(gl: &Gl, textures: Option<ReferenceTextures>) {
+    let all = textures.map(|reference| [reference.map].into_iter().chain(reference.image));
+    for (texture, unit) in all.into_iter().flatten().zip(REFERENCE_UNITS) {
         gl.active_texture(c::TEXTURE0 + unit);
         gl.bind_texture(c::TEXTURE_2D_ARRAY, texture);
     }
@@ -113,12 +113,17 @@ fn reserve(gl: &Gl, names: &mut Names) -> u32 {
 impl Interleaver {
     /// Compiles the passes, with `synthesis` also those that make a panel's picture of views that are drawn. Where that fails the CPU takes over and
     /// [`Interleaver::note`] says why.
-    pub fn new(gl: &Gl, names: &mut Names, glsl: u32, synthesis: Option<Behind>) -> Self {
+    pub fn new(
+        gl: &Gl,
+        names: &mut Names,
+        glsl: u32,
+        synthesis: Option<DisocclusionSource>,
+    ) -> Self {
         let mut i = Interleaver {
             vertex_array: 0,
             programs: Vec::new(),
             mask: None,
-            shown: Shown::ALL,
+            shown: ViewSet::ALL,
             lit: false,
             mask_texture: 0,
             uploaded: None,
@@ -128,7 +133,11 @@ impl Interleaver {
             // There is no reference image in the first frame.
             Synthesis::Panel { behind, .. } => {
                 synthesis == Some(*behind)
-                    || (synthesis, *behind) == (Some(Behind::Reference), Behind::Nothing)
+                    || (synthesis, *behind)
+                        == (
+                            Some(DisocclusionSource::Reference),
+                            DisocclusionSource::Nothing,
+                        )
             }
             _ => false,
         });
@@ -158,7 +167,7 @@ impl Interleaver {
     }
 
     /// The views that some subpixel of the last picture through a mask showed.
-    pub fn shown(&self) -> Shown {
+    pub fn shown(&self) -> ViewSet {
         self.shown
     }
 
@@ -190,7 +199,7 @@ impl Interleaver {
         }
     }
 
-    /// Draws the picture of an output over the whole framebuffer that is bound, which lies on `glass`; `tile` reads one view for the
+    /// Draws the picture of an output over the whole framebuffer that is bound, which lies on `panel`; `tile` reads one view for the
     /// CPU (and may change the read framebuffer). State must be as `present::Saved::take` leaves it.
     pub fn draw(
         &mut self,
@@ -199,11 +208,11 @@ impl Interleaver {
         source: &Source,
         tile: &mut dyn FnMut(u32) -> RgbImage,
         output: Output,
-        glass: &Glass,
+        panel: &PanelPlacement,
     ) -> Result<(), String> {
-        let placement = &glass.placement;
-        let form = Form::of(config, glass.display, output);
-        let of = (output, *placement, glass.display.lens());
+        let placement = &panel.placement;
+        let form = Form::of(config, panel.display, output);
+        let of = (output, *placement, panel.display.lens());
         if self.mask.as_ref().is_none_or(|(known, _)| *known != of)
             && let Some(mask) = form.mask(placement, config.views)
         {
@@ -223,16 +232,16 @@ impl Interleaver {
             gl.active_texture(c::TEXTURE0 + DEPTH_UNIT);
             gl.bind_texture(c::TEXTURE_2D_ARRAY, texture);
         }
-        if let Some((textures, _)) = source.field {
+        if let Some((textures, _)) = source.pyramid {
             for (unit, texture) in [
                 (DEPTH_UNIT, textures.depth),
-                (RANGE_UNIT, textures.range),
-                (PEAKS_UNIT, textures.peaks),
+                (RAY_RANGE_UNIT, textures.ray_range),
+                (BLOCK_BOUNDS_UNIT, textures.block_bounds),
             ] {
                 gl.active_texture(c::TEXTURE0 + unit);
                 gl.bind_texture(c::TEXTURE_2D_ARRAY, texture);
             }
-            bind_bent(gl, textures.bent);
+            bind_reference(gl, textures.reference);
         }
         gl.active_texture(c::TEXTURE0 + VIEWS_UNIT);
         gl.bind_texture(c::TEXTURE_2D_ARRAY, source.texture);
@@ -262,9 +271,9 @@ impl Interleaver {
             },
             grid: t.grid,
             depth: source.depth.map_or([0.0; 2], |(_, depth)| depth.ends),
-            heights: source
-                .field
-                .map_or(Heights::default(), |(_, heights)| heights),
+            disparities: source
+                .pyramid
+                .map_or(Disparities::default(), |(_, disparities)| disparities),
         };
         program.bind(gl, &uniforms.words());
         gl.bind_vertex_array(self.vertex_array);
@@ -282,10 +291,10 @@ impl Interleaver {
     /// The pass that makes a picture; where it needs the mask, that is bound.
     fn pass(&mut self, gl: &Gl, of: Of, form: &Form, source: &Source, size: [u32; 2]) -> Pass {
         let tiles = &source.tiles;
-        if let Some((textures, heights)) = source.field
+        if let Some((textures, disparities)) = source.pyramid
             && let Some(Uploaded { whole, .. }) = self.upload(gl, of, None, None)
         {
-            let behind = textures.behind(heights.sources.is_some());
+            let behind = textures.disocclusion_source(disparities.sources.is_some());
             return Pass::Synthesis(Synthesis::Panel { whole, behind });
         }
         let texels = tiles.grid.is_full() && [tiles.width, tiles.height] == size;
@@ -295,18 +304,20 @@ impl Interleaver {
             Form::Anaglyph(_) => return Pass::Anaglyph,
             Form::Rgbd => return Pass::Rgbd,
             Form::Panel(_, filter) => *filter,
-            Form::Eyes(_) => Filter::Nearest,
+            Form::Interlaced(_) => Filter::Nearest,
         };
         let lenses = !tiles.grid.is_full() && filter == Filter::Nearest;
         let fits = tiles.rows << column_bits(tiles) < u32::from(GUARD);
         let places = (texels && filter == Filter::Nearest && fits).then_some(*tiles);
-        let eyes = matches!(form, Form::Eyes(_));
+        let eyes = matches!(form, Form::Interlaced(_));
         let Some(known) = self.upload(gl, of, places, eyes.then_some(tiles.views)) else {
             return Pass::Interleave;
         };
         match places {
-            None if lenses && tiles.grid.exact && known.whole => Pass::Lenses(Lenses::Pixels),
-            None if lenses => Pass::Lenses(Lenses::Texels),
+            None if lenses && tiles.grid.exact && known.whole => {
+                Pass::SampleAligned(SampleAligned::Pixels)
+            }
+            None if lenses => Pass::SampleAligned(SampleAligned::Texels),
             None => Pass::Interleave,
             Some(_) if known.whole => Pass::Texels(Texels::Pixels),
             Some(tiles) if tiles.rows == 1 => Pass::Texels(Texels::SubpixelsOfOneLayer),
@@ -339,7 +350,7 @@ impl Interleaver {
                 Some(views) if view == 1 => views - 1,
                 _ => u32::from(view),
             };
-            places.map_or(view, |tiles| place(&tiles, view)) as u16
+            places.map_or(view, |tiles| tile_address(&tiles, view)) as u16
         });
         let [columns, rows] = sheet.period.map(|n| n as i32);
         match &sheet.texels {
@@ -382,10 +393,10 @@ impl Interleaver {
                 _ => return Ok(()),
             },
             (Form::Panel(_, filter), Some((_, mask))) => reference::filtered(&tiles, mask, *filter),
-            (Form::Eyes(_), Some((_, mask))) => {
+            (Form::Interlaced(_), Some((_, mask))) => {
                 reference::interleave(&reference::eyes(tiles), mask)
             }
-            (Form::Panel(..) | Form::Eyes(_), None) => return Ok(()),
+            (Form::Panel(..) | Form::Interlaced(_), None) => return Ok(()),
         };
         let mut picture = picture.map_err(|e| e.to_string())?;
         image::imageops::flip_vertical_in_place(&mut picture);

@@ -7,7 +7,7 @@
 mod anaglyph;
 pub mod cost;
 mod depth;
-mod field;
+mod disparities;
 mod gpu;
 mod layout;
 mod pass;
@@ -23,8 +23,8 @@ mod tests;
 
 pub use anaglyph::Matrix;
 pub use depth::{Depth, rgbd};
-pub use field::{Heights, Places};
-pub use gpu::{Glass, Interleaver, Source, bind_bent, glsl_version};
+pub use disparities::{Disparities, Places};
+pub use gpu::{Interleaver, PanelPlacement, Source, bind_reference, glsl_version};
 pub use layout::Layout;
 pub use program::Program;
 pub use sources::Sources;
@@ -39,7 +39,7 @@ pub enum Form<'a> {
     /// Each subpixel by the mask of a display; finely, where views are filtered.
     Panel(&'a Display, Filter),
     /// The first and the last view by pixels of the screen.
-    Eyes(Interlace),
+    Interlaced(Interlace),
     /// Whole views beside each other.
     Layout(Layout),
     /// The first and the last view through coloured glasses.
@@ -53,7 +53,7 @@ impl<'a> Form<'a> {
     pub fn of(config: &'a Config, display: &'a Display, output: Output) -> Self {
         match output {
             Output::Panel => Self::Panel(display, config.filter),
-            Output::Interlaced(interlace) => Self::Eyes(interlace),
+            Output::Interlaced(interlace) => Self::Interlaced(interlace),
             Output::SideBySide { half } => Self::Layout(Layout::SideBySide { half }),
             Output::TopBottom { half } => Self::Layout(Layout::TopBottom { half }),
             Output::Quilt => Self::Layout(Layout::quilt(config.views, config.display.facts.quilt)),
@@ -66,18 +66,18 @@ impl<'a> Form<'a> {
     }
 
     /// Tiles with a column, or a row, for each lens of a picture at a place; none where there are no lenses in rank and file.
-    pub fn lenses(&self, placement: &Placement, views: u32) -> Option<Grid> {
+    pub fn sample_aligned(&self, placement: &Placement, views: u32) -> Option<Grid> {
         let window = [placement.width, placement.height];
         match self {
             Self::Panel(display, Filter::Nearest) => {
-                let turns = display.turns(placement, views)?;
-                Grid::lenses(&turns, window, f64::from(views), 1.0)
+                let phase = display.lens_phase(placement, views)?;
+                Grid::sample_aligned(&phase, window, f64::from(views), 1.0)
             }
-            Self::Eyes(interlace) => {
+            Self::Interlaced(interlace) => {
                 let display = Display::named(interlace.display()).ok()?;
-                let turns = display.turns(placement, 2)?;
+                let phase = display.lens_phase(placement, 2)?;
                 // The right eye's is the last view.
-                Grid::lenses(&turns, window, 2.0, 1.0 / f64::from(views.max(2) - 1))
+                Grid::sample_aligned(&phase, window, 2.0, 1.0 / f64::from(views.max(2) - 1))
             }
             _ => None,
         }
@@ -89,14 +89,14 @@ impl<'a> Form<'a> {
         match self {
             Self::Panel(display, _) => {
                 let whole = Placement::full_screen(1, 1);
-                let turns = display.turns(&whole, views);
+                let phase = display.lens_phase(&whole, views);
                 // Each colour of a pixel may show another view.
-                let shown = turns.map_or(3.0, |turns| if turns.colour == 0.0 { 1.0 } else { 3.0 });
+                let shown = phase.map_or(3.0, |phase| if phase.colour == 0.0 { 1.0 } else { 3.0 });
                 [(shown / n).sqrt().min(1.0); 2]
             }
-            Self::Eyes(Interlace::Rows) => [1.0, 0.5],
-            Self::Eyes(Interlace::Columns) => [0.5, 1.0],
-            Self::Eyes(Interlace::Checkerboard) => [0.5_f64.sqrt(); 2],
+            Self::Interlaced(Interlace::Rows) => [1.0, 0.5],
+            Self::Interlaced(Interlace::Columns) => [0.5, 1.0],
+            Self::Interlaced(Interlace::Checkerboard) => [0.5_f64.sqrt(); 2],
             Self::Layout(layout) => {
                 let (columns, rows) = layout.grid(views);
                 [1.0 / f64::from(columns), 1.0 / f64::from(rows)]
@@ -110,7 +110,7 @@ impl<'a> Form<'a> {
         let made = match self {
             Self::Panel(display, Filter::Nearest) => display.mask(placement, views),
             Self::Panel(display, _) => display.fine_mask(placement, views),
-            Self::Eyes(interlace) => match Display::named(interlace.display()) {
+            Self::Interlaced(interlace) => match Display::named(interlace.display()) {
                 Ok(display) => display.mask(placement, 2),
                 Err(error) => return Some(Err(error)),
             },

@@ -1,7 +1,7 @@
 //! What the passes of `shaders/*.wgsl` make.
 #![forbid(unsafe_code)]
 
-use crate::config::Behind;
+use crate::config::DisocclusionSource;
 
 /// What a pass makes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -11,7 +11,7 @@ pub enum Pass {
     /// The same for views of the picture's size.
     Texels(Texels),
     /// The same for views that have fewer texels, lens by lens or evenly.
-    Lenses(Lenses),
+    SampleAligned(SampleAligned),
     /// Quilt, side by side or a single view.
     Layout,
     /// A single view of the picture's size.
@@ -39,38 +39,38 @@ pub enum Texels {
     Pixels,
 }
 
-/// How far the texels are from where the panel shows their view; see `shaders/lenses.wgsl`.
+/// How far the texels are from where the panel shows their view; see `shaders/sample_aligned.wgsl`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Lenses {
+pub enum SampleAligned {
     /// Nowhere: each pixel shows one view.
     Pixels,
     /// Between texels.
     Texels,
 }
 
-/// What is made of a picture with depths; see `shaders/field.wgsl`.
+/// What is made of a picture with depths; see `shaders/disparity.wgsl`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Synthesis {
     /// The greatest and the least height of each block of a row.
-    Peaks,
+    BlockBounds,
     /// The greatest of each row.
-    Tops,
+    RowMaxima,
     /// The greatest and the least of all that the rays of a block can meet.
-    Range,
-    /// Where heights step down or up.
+    RayRange,
+    /// Where disparities step down or up.
     Steps,
     /// Which blocks are near such steps.
     Splats,
     /// The distortion map of an occlusion camera.
-    Bends,
+    DistortionMap,
     /// One view, with depths, and what is known of what is hidden.
-    View(Behind),
+    View(DisocclusionSource),
     /// The panel's picture, through a mask of views; of one view for each pixel, where the mask is `whole`.
     Panel {
         /// Red, green and blue show the same view.
         whole: bool,
         /// As for a view.
-        behind: Behind,
+        behind: DisocclusionSource,
     },
 }
 
@@ -100,8 +100,8 @@ impl Pass {
         Self::Texels(Texels::Subpixels),
         Self::Texels(Texels::SubpixelsOfOneLayer),
         Self::Texels(Texels::Pixels),
-        Self::Lenses(Lenses::Pixels),
-        Self::Lenses(Lenses::Texels),
+        Self::SampleAligned(SampleAligned::Pixels),
+        Self::SampleAligned(SampleAligned::Texels),
         Self::Layout,
         Self::Whole,
         Self::Anaglyph,
@@ -112,24 +112,24 @@ impl Pass {
 impl Synthesis {
     /// All of them.
     pub const ALL: [Self; 15] = [
-        Self::Peaks,
-        Self::Tops,
-        Self::Range,
+        Self::BlockBounds,
+        Self::RowMaxima,
+        Self::RayRange,
         Self::Steps,
         Self::Splats,
-        Self::Bends,
-        Self::View(Behind::Nothing),
-        Self::View(Behind::Reference),
-        Self::View(Behind::Views),
-        Self::panel(false, Behind::Nothing),
-        Self::panel(false, Behind::Reference),
-        Self::panel(false, Behind::Views),
-        Self::panel(true, Behind::Nothing),
-        Self::panel(true, Behind::Reference),
-        Self::panel(true, Behind::Views),
+        Self::DistortionMap,
+        Self::View(DisocclusionSource::Nothing),
+        Self::View(DisocclusionSource::Reference),
+        Self::View(DisocclusionSource::Views),
+        Self::panel(false, DisocclusionSource::Nothing),
+        Self::panel(false, DisocclusionSource::Reference),
+        Self::panel(false, DisocclusionSource::Views),
+        Self::panel(true, DisocclusionSource::Nothing),
+        Self::panel(true, DisocclusionSource::Reference),
+        Self::panel(true, DisocclusionSource::Views),
     ];
 
-    pub(super) const fn panel(whole: bool, behind: Behind) -> Self {
+    pub(super) const fn panel(whole: bool, behind: DisocclusionSource) -> Self {
         Self::Panel { whole, behind }
     }
 }

@@ -7,10 +7,10 @@
 
 use super::Layout;
 use super::anaglyph::Matrix;
-use super::field::Heights;
-pub use super::pass::{Lenses, Pass, Step, Synthesis, Texels};
+use super::disparities::Disparities;
+pub use super::pass::{Pass, SampleAligned, Step, Synthesis, Texels};
 use crate::atlas::Grid;
-use crate::config::{Behind, Filter};
+use crate::config::{DisocclusionSource, Filter};
 use naga::back::glsl;
 use naga::valid::{Capabilities, ValidationFlags, Validator};
 
@@ -20,19 +20,19 @@ const ATLAS: &str = include_str!("../../shaders/atlas.wgsl");
 const MASK: &str = include_str!("../../shaders/mask.wgsl");
 const INTERLEAVE: &str = include_str!("../../shaders/interleave.wgsl");
 const TEXELS: &str = include_str!("../../shaders/texels.wgsl");
-const LENSES: &str = include_str!("../../shaders/lenses.wgsl");
+const SAMPLE_ALIGNED: &str = include_str!("../../shaders/sample_aligned.wgsl");
 const LAYOUT: &str = include_str!("../../shaders/layout.wgsl");
 const ANAGLYPH: &str = include_str!("../../shaders/anaglyph.wgsl");
 const RGBD: &str = include_str!("../../shaders/rgbd.wgsl");
-const FIELD: &str = include_str!("../../shaders/field.wgsl");
-const SYNTHESIS: &str = include_str!("../../shaders/synthesis.wgsl");
+const DISPARITY: &str = include_str!("../../shaders/disparity.wgsl");
+const PYRAMID: &str = include_str!("../../shaders/pyramid.wgsl");
 const VIEW: &str = include_str!("../../shaders/view.wgsl");
 const PLAIN: &str = include_str!("../../shaders/plain.wgsl");
 const BETWEEN: &str = include_str!("../../shaders/between.wgsl");
-const BENT: &str = include_str!("../../shaders/bent.wgsl");
-const BENDS: &str = include_str!("../../shaders/bends.wgsl");
+const REFERENCE: &str = include_str!("../../shaders/reference.wgsl");
+const DISTORTION: &str = include_str!("../../shaders/distortion.wgsl");
 const THROUGH: &str = include_str!("../../shaders/through.wgsl");
-const THROUGH_BENT: &str = include_str!("../../shaders/through_bent.wgsl");
+const THROUGH_REFERENCE: &str = include_str!("../../shaders/through_reference.wgsl");
 const COPY: &str = include_str!("../../shaders/copy.wgsl");
 const ACCUMULATE: &str = include_str!("../../shaders/accumulate.wgsl");
 
@@ -44,14 +44,14 @@ pub const MASK_UNIT: u32 = 1;
 /// Texture unit of the depths of the views: a 2D array texture.
 pub const DEPTH_UNIT: u32 = 2;
 
-/// Texture unit of the range of heights that rays meet: an array texture of one layer; see `shaders/field.wgsl`.
-pub const RANGE_UNIT: u32 = 3;
+/// Texture unit of the range of disparities that rays meet: an array texture of one layer; see `shaders/disparity.wgsl`.
+pub const RAY_RANGE_UNIT: u32 = 3;
 /// Texture unit of the same of blocks.
-pub const PEAKS_UNIT: u32 = 4;
-/// Texture units of the steps in depth of blocks, and of what is near them; see `shaders/bends.wgsl`.
+pub const BLOCK_BOUNDS_UNIT: u32 = 4;
+/// Texture units of the depth discontinuities of blocks, and of what is near them; see `shaders/distortion.wgsl`.
 pub const STEPS_UNITS: [u32; 2] = [5, 6];
 /// Texture units of the reference image of an occlusion camera: its map, colours, depths, and by how much samples are moved.
-pub const BENT_UNITS: [u32; 4] = [5, 6, 7, 8];
+pub const REFERENCE_UNITS: [u32; 4] = [5, 6, 7, 8];
 
 /// Which half of the program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -185,7 +185,7 @@ pub struct Uniforms {
     /// Where the picture's pixels lie in the tiles; only the passes of lenses read it.
     pub grid: Grid,
     /// What depths are; only the passes of synthesis read it.
-    pub heights: Heights,
+    pub disparities: Disparities,
 }
 
 impl Uniforms {
@@ -240,8 +240,8 @@ impl Uniforms {
         for (word, value) in words.iter_mut().skip(48).zip(lenses) {
             *word = (value as f32).to_bits();
         }
-        let heights = self.heights.rows(views);
-        for (word, value) in words.iter_mut().skip(56).zip(heights.as_flattened()) {
+        let disparities = self.disparities.rows(views);
+        for (word, value) in words.iter_mut().skip(56).zip(disparities.as_flattened()) {
             *word = value.to_bits();
         }
         words
@@ -359,8 +359,8 @@ fn entry(pass: Pass) -> &'static str {
         Pass::Texels(Texels::Subpixels) => "subpixels",
         Pass::Texels(Texels::SubpixelsOfOneLayer) => "subpixels_of_one_layer",
         Pass::Texels(Texels::Pixels) => "pixels",
-        Pass::Lenses(Lenses::Pixels) => "lens_pixels",
-        Pass::Lenses(Lenses::Texels) => "lens_texels",
+        Pass::SampleAligned(SampleAligned::Pixels) => "lens_pixels",
+        Pass::SampleAligned(SampleAligned::Texels) => "lens_texels",
         Pass::Layout => "arrange",
         Pass::Whole => "whole",
         Pass::Anaglyph => "anaglyph",
@@ -373,14 +373,14 @@ fn entry(pass: Pass) -> &'static str {
         Pass::Accumulate(Step::Multiply) => "multiply",
         Pass::Accumulate(Step::Add) => "add",
         Pass::Accumulate(Step::Return) => "give_back",
-        Pass::Synthesis(Synthesis::Peaks) => "peaks",
-        Pass::Synthesis(Synthesis::Tops) => "tops",
-        Pass::Synthesis(Synthesis::Range) => "range",
+        Pass::Synthesis(Synthesis::BlockBounds) => "block_bounds",
+        Pass::Synthesis(Synthesis::RowMaxima) => "row_maxima",
+        Pass::Synthesis(Synthesis::RayRange) => "ray_range",
         Pass::Synthesis(Synthesis::Steps) => "steps",
         Pass::Synthesis(Synthesis::Splats) => "splats",
-        Pass::Synthesis(Synthesis::Bends) => "bends",
+        Pass::Synthesis(Synthesis::DistortionMap) => "distortion_map",
         Pass::Synthesis(Synthesis::View(_)) => "view",
-        Pass::Synthesis(BENT_PANEL) => "panel_subpixels_bent",
+        Pass::Synthesis(REFERENCE_PANEL) => "panel_subpixels_reference",
         Pass::Synthesis(Synthesis::Panel { whole: false, .. }) => "panel_subpixels",
         Pass::Synthesis(Synthesis::Panel { whole: true, .. }) => "panel_pixels",
     }
@@ -391,38 +391,52 @@ fn source(pass: Pass) -> String {
     match pass {
         Pass::Interleave => [COVER, COMMON, ATLAS, MASK, INTERLEAVE].join("\n"),
         Pass::Texels(_) => [COVER, COMMON, ATLAS, MASK, TEXELS].join("\n"),
-        Pass::Lenses(_) => [COVER, COMMON, ATLAS, MASK, LENSES].join("\n"),
+        Pass::SampleAligned(_) => [COVER, COMMON, ATLAS, MASK, SAMPLE_ALIGNED].join("\n"),
         Pass::Layout | Pass::Whole => [COVER, COMMON, ATLAS, LAYOUT].join("\n"),
         Pass::Anaglyph => [COVER, COMMON, ATLAS, ANAGLYPH].join("\n"),
         Pass::Rgbd => [COVER, COMMON, ATLAS, RGBD].join("\n"),
         Pass::Copy => [COVER, COPY].join("\n"),
         Pass::Accumulate(_) => [COVER, ACCUMULATE].join("\n"),
-        Pass::Synthesis(Synthesis::Steps | Synthesis::Splats | Synthesis::Bends) => {
-            [COVER, COMMON, ATLAS, FIELD, PLAIN, BENDS].join("\n")
+        Pass::Synthesis(Synthesis::Steps | Synthesis::Splats | Synthesis::DistortionMap) => {
+            [COVER, COMMON, ATLAS, DISPARITY, PLAIN, DISTORTION].join("\n")
         }
-        Pass::Synthesis(BENT_PANEL) => {
-            [COVER, COMMON, ATLAS, MASK, FIELD, BENT, THROUGH_BENT].join("\n")
-        }
-        Pass::Synthesis(Synthesis::Panel { behind, .. }) => {
-            [COVER, COMMON, ATLAS, MASK, FIELD, hidden(behind), THROUGH].join("\n")
-        }
+        Pass::Synthesis(REFERENCE_PANEL) => [
+            COVER,
+            COMMON,
+            ATLAS,
+            MASK,
+            DISPARITY,
+            REFERENCE,
+            THROUGH_REFERENCE,
+        ]
+        .join("\n"),
+        Pass::Synthesis(Synthesis::Panel { behind, .. }) => [
+            COVER,
+            COMMON,
+            ATLAS,
+            MASK,
+            DISPARITY,
+            hidden(behind),
+            THROUGH,
+        ]
+        .join("\n"),
         Pass::Synthesis(Synthesis::View(behind)) => {
-            [COVER, COMMON, ATLAS, FIELD, hidden(behind), VIEW].join("\n")
+            [COVER, COMMON, ATLAS, DISPARITY, hidden(behind), VIEW].join("\n")
         }
-        Pass::Synthesis(Synthesis::Peaks | Synthesis::Tops | Synthesis::Range) => {
-            [COVER, COMMON, ATLAS, FIELD, PLAIN, SYNTHESIS].join("\n")
+        Pass::Synthesis(Synthesis::BlockBounds | Synthesis::RowMaxima | Synthesis::RayRange) => {
+            [COVER, COMMON, ATLAS, DISPARITY, PLAIN, PYRAMID].join("\n")
         }
     }
 }
 
 /// A panel's picture whose subpixels ask the reference image one after another.
-const BENT_PANEL: Synthesis = Synthesis::panel(false, Behind::Reference);
+const REFERENCE_PANEL: Synthesis = Synthesis::panel(false, DisocclusionSource::Reference);
 
 /// What is known of what is hidden.
-fn hidden(behind: Behind) -> &'static str {
+fn hidden(behind: DisocclusionSource) -> &'static str {
     match behind {
-        Behind::Nothing => PLAIN,
-        Behind::Reference => BENT,
-        Behind::Views => BETWEEN,
+        DisocclusionSource::Nothing => PLAIN,
+        DisocclusionSource::Reference => REFERENCE,
+        DisocclusionSource::Views => BETWEEN,
     }
 }

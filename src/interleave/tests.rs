@@ -4,7 +4,7 @@
 use super::reference::{ReferenceError, anaglyph, arrange, filtered, interleave};
 use super::shader::*;
 use super::*;
-use crate::config::{Behind, Filter, Glasses, Mixture};
+use crate::config::{DisocclusionSource, Filter, Glasses, Mixture};
 use crate::display::{Display, GUARD, Mask, Placement};
 use image::{GrayImage, Rgb, RgbImage, Rgba, RgbaImage};
 use proptest::prelude::*;
@@ -213,7 +213,9 @@ fn every_pass_translates_for_every_version() {
             assert!(fragment.source.starts_with(&line), "{}", fragment.source);
             let units: Vec<_> = fragment.textures.iter().map(|t| t.unit).collect();
             let expected: &[u32] = match pass {
-                Pass::Interleave | Pass::Texels(_) | Pass::Lenses(_) => &[VIEWS_UNIT, MASK_UNIT],
+                Pass::Interleave | Pass::Texels(_) | Pass::SampleAligned(_) => {
+                    &[VIEWS_UNIT, MASK_UNIT]
+                }
                 Pass::Rgbd => &[VIEWS_UNIT, DEPTH_UNIT],
                 _ => &[VIEWS_UNIT],
             };
@@ -263,13 +265,13 @@ fn uniforms_are_found_by_name() {
             step: [10.0, 11.0],
             exact: true,
         },
-        heights: Heights {
+        disparities: Disparities {
             scale: 21.0,
             offset: 22.0,
             far: 23.0,
             clear: 24.0,
             sky: true,
-            levers: [25.0, 26.0],
+            baselines: [25.0, 26.0],
             margin: 27.0,
             aim: (2, 28),
             marked: true,
@@ -331,10 +333,10 @@ fn uniforms_are_found_by_name() {
         [33.0, 34.0, 35.0, -1.0],
     ];
     let names = [
-        "field",
-        "lever",
+        "disparity",
+        "baseline",
         "aim",
-        "bend",
+        "occlusion",
         "sources_low",
         "sources_high",
         "before",
@@ -483,20 +485,22 @@ fn dubois_is_as_published() {
 fn every_pass_of_synthesis_translates_for_every_version() {
     for pass in Synthesis::ALL {
         let textures: &[u32] = match pass {
-            Synthesis::Peaks => &[DEPTH_UNIT],
-            Synthesis::Tops => &[PEAKS_UNIT],
-            Synthesis::Range => &[RANGE_UNIT, PEAKS_UNIT],
+            Synthesis::BlockBounds => &[DEPTH_UNIT],
+            Synthesis::RowMaxima => &[BLOCK_BOUNDS_UNIT],
+            Synthesis::RayRange => &[RAY_RANGE_UNIT, BLOCK_BOUNDS_UNIT],
             Synthesis::Steps => &[DEPTH_UNIT],
             Synthesis::Splats => &[5],
-            Synthesis::Bends => &[2, 5, 6],
-            Synthesis::View(Behind::Nothing | Behind::Views) => &[0, 2, 3, 4],
-            Synthesis::View(Behind::Reference) => &[0, 2, 3, 4, 5, 6, 7, 8],
+            Synthesis::DistortionMap => &[2, 5, 6],
+            Synthesis::View(DisocclusionSource::Nothing | DisocclusionSource::Views) => {
+                &[0, 2, 3, 4]
+            }
+            Synthesis::View(DisocclusionSource::Reference) => &[0, 2, 3, 4, 5, 6, 7, 8],
             Synthesis::Panel {
-                behind: Behind::Nothing | Behind::Views,
+                behind: DisocclusionSource::Nothing | DisocclusionSource::Views,
                 ..
             } => &[0, 1, 2, 3, 4],
             Synthesis::Panel {
-                behind: Behind::Reference,
+                behind: DisocclusionSource::Reference,
                 ..
             } => &[0, 1, 2, 3, 4, 5, 6, 7, 8],
         };

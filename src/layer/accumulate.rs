@@ -2,7 +2,7 @@
 
 use super::Layer;
 use crate::accumulation::{Accumulation, Operation, Region};
-use crate::atlas::Shown;
+use crate::atlas::ViewSet;
 use crate::gl::{Gl, consts as c};
 use crate::plan::Kind;
 use crate::present::Saved;
@@ -84,7 +84,7 @@ impl Layer {
 
     fn accumulate(&mut self, gl: &Gl, operation: Operation) {
         self.state.refresh(gl);
-        self.part(gl);
+        self.leave_mono(gl);
         if let (None, Operation::Clear(values)) = (&self.accumulated.buffer, operation)
             && !self.state.scissor_test
         {
@@ -95,7 +95,7 @@ impl Layer {
         self.queries.lift_condition(gl);
         let saved = Saved::take(gl, self.state.compatibility);
         if let Operation::Load(_) | Operation::Accumulate(_) = operation {
-            self.atlas.resolve(gl, &Shown::ALL, c::COLOR_BUFFER_BIT);
+            self.atlas.resolve(gl, &ViewSet::ALL, c::COLOR_BUFFER_BIT);
         }
         let regions = self.regions();
         if self.accumulated.buffer.is_none() && !self.accumulated.failed {

@@ -79,7 +79,7 @@ impl Layer {
         if self.accumulated.buffer.is_some() || self.atlas.has_front() {
             return;
         }
-        let alike = self.rests();
+        let mono = self.is_mono();
         let Some(auto) = &mut self.auto else { return };
         if auto.trial.measures() {
             gl.finish();
@@ -88,8 +88,8 @@ impl Layer {
         let Some(last) = auto.last.replace(now) else {
             return;
         };
-        // It is drawn alike by all of them.
-        if alike {
+        // It is drawn mono by all of them.
+        if mono {
             return;
         }
         let ms = now.duration_since(last).as_secs_f32() * 1e3;
@@ -100,8 +100,8 @@ impl Layer {
                 .note(format!("auto: {found} is the fastest here"));
         }
         let next = auto.trial.strategy();
-        if next != self.means.strategy && !self.proving.replays() {
-            self.means.strategy = next;
+        if next != self.capabilities.strategy && !self.proving.replays() {
+            self.capabilities.strategy = next;
             self.remake(gl);
         }
     }

@@ -20,7 +20,7 @@ impl Layer {
         }
         let split = self.offscreen.is_split(gl, read);
         if draw != 0 {
-            let differs = split || (read == 0 && self.config.views > 1 && !self.rests());
+            let differs = split || (read == 0 && self.config.views > 1 && !self.is_mono());
             return match differs && self.split(gl, draw) || self.offscreen.is_split(gl, draw) {
                 true => self.blit_aside(gl, blit),
                 false if read == 0 => self.read(gl, 0, 0, &mut || blit(0, 0)),

@@ -40,12 +40,12 @@ impl Layer {
         let projection = seen.unwrap_or_else(|| self.state.projection_kind());
         if shown {
             let needs = self.classifier.needs(kind, projection, first);
-            self.state.look(gl, needs);
-            let depth = self.state.look.depth;
-            let behind = self.state.look.range == DepthRange::Far;
+            self.state.read_classification(gl, needs);
+            let depth = self.state.classification.depth;
+            let behind = self.state.classification.range == DepthRange::Far;
             if !clear && projection == Projection::Perspective && first && !behind {
                 if self.classifier.needs_modelview(projection, first, depth) {
-                    self.state.look(gl, Touch::MODELVIEW);
+                    self.state.read_classification(gl, Touch::MODELVIEW);
                 }
                 self.frame.deep = depth == DepthState::On;
             }
@@ -73,7 +73,7 @@ impl Layer {
     /// The call once, in the program's own view only.
     pub(super) fn once(&mut self, gl: &Gl, call: &mut dyn FnMut()) {
         if self.has_copies() && (!self.sampled.is_empty() || self.state.transform_feedback) {
-            self.settle_textures(gl);
+            self.write_back_textures(gl);
         }
         // What is fed back or hit is not drawn, and is told in the program's own viewport.
         if self.state.draws_to_window() && self.state.render_mode == c::RENDER {

@@ -4,8 +4,8 @@ use super::{Layer, keep_bindings};
 use crate::config::{Camera, Class, Config, DepthState, Viewport};
 use crate::display::Budget;
 use crate::gl::{Gl, consts as c};
-use crate::plan::depths::{Distances, Way};
-use crate::plan::{Classed, Kind, Ramp, Ways, comfort, parallax};
+use crate::plan::depths::{DepthMapping, Distances};
+use crate::plan::{Classed, DepthMappings, Kind, Ramp, comfort, parallax};
 use crate::present::Saved;
 use crate::report::Disparity;
 use crate::state::Touch;
@@ -18,7 +18,7 @@ pub(super) struct Comfort {
     cameras: comfort::Comfort,
     /// Found, and in force from the next frame on.
     next: Option<(f64, f64)>,
-    ways: Ways,
+    mappings: DepthMappings,
     /// Something of the frame has been drawn.
     begun: bool,
     /// The scene has been drawn since the last picture was taken.
@@ -38,7 +38,7 @@ pub(super) struct Comfort {
 #[derive(Clone, Debug)]
 struct Taken {
     frame: u64,
-    ways: Ways,
+    mappings: DepthMappings,
     clear: f32,
     /// Separation and convergence that the frame is drawn with.
     cameras: Option<(f64, f64)>,
@@ -52,7 +52,7 @@ impl Comfort {
             on: false,
             cameras: comfort::Comfort::new(None),
             next: None,
-            ways: Ways::default(),
+            mappings: DepthMappings::default(),
             begun: false,
             pending: false,
             projection: None,
@@ -102,34 +102,37 @@ impl Layer {
                 self.save_depths(gl);
                 // A part of the window that is cleared has a picture of its own.
                 if !self.state.scissor_test {
-                    self.comfort.ways.clear();
+                    self.comfort.mappings.clear();
                     self.comfort.spoilt = false;
                 }
             }
-            (_, Class::Sky) => self.comfort.ways.sky = true,
+            (_, Class::Sky) => self.comfort.mappings.sky = true,
             (_, Class::Flat) => {
                 if self.comfort.pending {
-                    self.state.look(gl, Touch::DEPTH);
-                    if self.state.look.depth == DepthState::On {
+                    self.state.read_classification(gl, Touch::DEPTH);
+                    if self.state.classification.depth == DepthState::On {
                         self.save_depths(gl);
                         self.comfort.spoilt = true;
                     }
                 }
             }
             (_, Class::Scene) => {
-                self.state.look(gl, Touch::RANGE | Touch::DEPTH);
+                self.state
+                    .read_classification(gl, Touch::RANGE | Touch::DEPTH);
                 let viewport = self.state.viewport_kind();
                 let [matrix, p] = self.projections();
                 if viewport == Viewport::Main && kind != Kind::Pixels {
                     self.comfort.projection = Some(p);
                 }
-                if self.state.look.depth != DepthState::On {
+                if self.state.classification.depth != DepthState::On {
                     return;
                 }
-                let look = &self.state.look;
+                let look = &self.state.classification;
                 if let Some(ramp) = Ramp::of(&matrix, look.depths, look.zero_to_one) {
                     self.comfort.pending |= viewport == Viewport::Main;
-                    self.comfort.ways.drawn(ramp, &p, classed.focal, viewport);
+                    self.comfort
+                        .mappings
+                        .drawn(ramp, &p, classed.focal, viewport);
                 }
             }
         }
@@ -144,15 +147,15 @@ impl Layer {
         let pack = gl.get_integer(c::PIXEL_PACK_BUFFER_BINDING) as u32;
         self.read_depths(gl);
         gl.bind_buffer(c::PIXEL_PACK_BUFFER, pack);
-        self.place_cameras();
+        self.set_measured_cameras();
     }
 
-    fn place_cameras(&mut self) {
+    fn set_measured_cameras(&mut self) {
         if let Camera::Measured(_) = self.live.camera {
             let budget = self.budget().px / self.half_width();
             if let Some(cameras) = self.comfort.next {
                 let farthest = self.comfort.cameras.farthest(cameras, budget);
-                self.rig.place_by(cameras, farthest);
+                self.rig.set_measured(cameras, farthest);
             }
         }
     }
@@ -175,7 +178,7 @@ impl Layer {
     /// The state is as [`Saved::take`] leaves it.
     fn take_depths(&mut self, gl: &Gl) {
         self.comfort.pending = false;
-        if self.state.window.bits[4] == 0 || self.comfort.ways.is_empty() {
+        if self.state.window.bits[4] == 0 || self.comfort.mappings.is_empty() {
             return;
         }
         // The buffer holds the pictures of one frame.
@@ -188,15 +191,15 @@ impl Layer {
         }
         let clear = gl.get_floats::<1>(c::DEPTH_CLEAR_VALUE)[0];
         if self.atlas.take_depths(gl) {
-            let ways = self.comfort.ways.clone();
-            let way = ways.most().map(|way| way.projection);
+            let mappings = self.comfort.mappings.clone();
+            let way = mappings.most().map(|way| way.projection);
             self.comfort.taken.push(Taken {
                 frame: self.report.frames() + 1,
                 cameras: way.and_then(|p| self.cameras(&p)),
                 sky: way
                     .and_then(|p| self.rig.sky(&p))
                     .map_or(0.0, |shear| shear.separation(1.0) * self.half_width()),
-                ways,
+                mappings,
                 clear,
             });
         }
@@ -204,7 +207,7 @@ impl Layer {
 
     /// At the end of a frame: looks at the depths of the one before, and takes this one's. The state is as [`Saved::take`] leaves it;
     /// changes the framebuffer bindings.
-    pub(super) fn follow_depths(&mut self, gl: &Gl) {
+    pub(super) fn track_depths(&mut self, gl: &Gl) {
         if !self.comfort.on {
             return;
         }
@@ -230,9 +233,9 @@ impl Layer {
             let seen = comfort::Seen::by_planes(planes);
             self.find_cameras(&p, &seen);
         }
-        self.place_cameras();
+        self.set_measured_cameras();
         self.comfort.begun = false;
-        self.comfort.ways = Ways::default();
+        self.comfort.mappings = DepthMappings::default();
         self.comfort.projection = None;
         self.comfort.pending = false;
         self.comfort.spoilt = false;
@@ -251,11 +254,11 @@ impl Layer {
         }
         let mut all = Distances::default();
         for (picture, taken) in pictures.iter().zip(&sent) {
-            all.join(taken.ways.distances(picture, taken.clear));
+            all.join(taken.mappings.distances(picture, taken.clear));
         }
-        let most = |taken: &&Taken| taken.ways.most().map(Way::draws);
+        let most = |taken: &&Taken| taken.mappings.most().map(DepthMapping::draws);
         if let Some(taken) = sent.iter().max_by_key(most)
-            && let (Some(way), Some(scene)) = (taken.ways.most(), all.scene())
+            && let (Some(way), Some(scene)) = (taken.mappings.most(), all.scene())
         {
             self.judge(taken, &way.projection, scene, &all);
         }
@@ -294,7 +297,7 @@ impl Layer {
                 orthoscopic,
                 lens,
             };
-            self.comfort.next = self.comfort.cameras.follow(seen, &limits);
+            self.comfort.next = self.comfort.cameras.track(seen, &limits);
         }
     }
 

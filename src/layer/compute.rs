@@ -26,7 +26,7 @@ impl Layer {
         let reads = !sampled.is_empty() || images.iter().any(differs);
         let writes = |image: &&ImageUnit| image.is_written();
         if !reads || !images.iter().any(|image| writes(&image)) {
-            self.settle_textures(gl);
+            self.write_back_textures(gl);
             return call();
         }
         self.state.keep_errors(gl);

@@ -1,7 +1,7 @@
 //! Textures copied from the frame, or from a framebuffer that each view has its own of: each view has its own copy, and is drawn with
 //! it (see [`crate::offscreen`]).
 //!
-//! Motion blur, water, heat: the program copies what it has drawn into a texture and draws that over the scene again.
+//! Motion blur, water, heat: the program copies what it has drawn into a texture and draws that over the scene hazard.
 
 use super::{Layer, keep_bindings};
 use crate::gl::{Gl, Object, consts as c};
@@ -26,7 +26,7 @@ impl Layer {
         if self.compiles() || !differs || texture == 0 {
             return self.read(gl, x, width, call);
         }
-        self.part(gl);
+        self.leave_mono(gl);
         self.state.keep_errors(gl);
         let split = keep_bindings(gl, || {
             let names = &mut self.names;
@@ -97,25 +97,25 @@ impl Layer {
         self.drain_own_errors(gl);
     }
 
-    /// The program changes the image of the texture that is bound: all views see the same again.
+    /// The program changes the image of the texture that is bound: all views see the same hazard.
     pub fn texture_written(&mut self, gl: &Gl, target: u32) {
         if let Some(texture) = self.offscreen.bound_at(gl, target) {
             self.written(gl, Object::Texture(texture));
         }
     }
 
-    /// The program changes the image of a texture or renderbuffer: all views see the same again.
+    /// The program changes the image of a texture or renderbuffer: all views see the same hazard.
     pub fn written(&mut self, gl: &Gl, object: Object) {
         if self.offscreen.has(object) {
-            self.settle_textures(gl);
+            self.write_back_textures(gl);
             self.offscreen.forget(gl, [object]);
         }
     }
 
     /// The program's own textures are about to be read or written in another way than by drawing.
-    pub fn settle_textures(&mut self, gl: &Gl) {
+    pub fn write_back_textures(&mut self, gl: &Gl) {
         self.state.keep_errors(gl);
-        self.offscreen.settle(gl);
+        self.offscreen.write_back(gl);
         self.drain_own_errors(gl);
     }
 

@@ -2,11 +2,11 @@
 
 mod corners;
 
-use super::programs::{Entered, With};
+use super::programs::{Entered, VariantUse};
 use super::{Layer, Support};
 use crate::atlas::Surface;
 use crate::config::{Class, Output, Projection, Strategy, Word};
-use crate::draw::{Again, Amplified, Drawing, FixedState, Programs, replay};
+use crate::draw::{Amplified, Drawing, FixedState, Programs, ReplayHazard, replay};
 use crate::gl::{Gl, Indices, consts as c};
 use crate::offscreen::Target;
 use crate::plan::class::Why;
@@ -142,18 +142,18 @@ impl Layer {
         if plan.method == Method::Once {
             return self.once(gl, call);
         }
-        let again = match kind {
-            Kind::Clear { .. } => Again::Clear,
+        let hazard = match kind {
+            Kind::Clear { .. } => ReplayHazard::Clear,
             // The position moves, and the projection matters no more.
             Kind::Pixels if plan.class == Class::Scene => {
                 plan.shear = None;
-                Again::Raster(self.raster)
+                ReplayHazard::Raster(self.raster)
             }
-            Kind::Pixels => Again::Raster(plan.shear.take()),
-            _ => Again::Same,
+            Kind::Pixels => ReplayHazard::Raster(plan.shear.take()),
+            _ => ReplayHazard::None,
         };
-        self.draw_bent(gl, &plan, again, UNKNOWN, &mut |_| call());
-        self.replay(gl, &plan, again, &mut |_| call());
+        self.draw_to_reference(gl, &plan, hazard, UNKNOWN, &mut |_| call());
+        self.replay(gl, &plan, hazard, &mut |_| call());
     }
 
     /// A draw from arrays; `call` is the program's own.
@@ -171,15 +171,15 @@ impl Layer {
         match plan.method {
             Method::Once => self.once(gl, call),
             Method::Replay => {
-                if self.synthesis.bent.next.is_some() {
+                if self.synthesis.reference.next.is_some() {
                     let drawing = primitives.drawing(gl, &self.support);
-                    self.draw_bent(gl, &plan, Again::Same, drawing, &mut |mode| {
+                    self.draw_to_reference(gl, &plan, ReplayHazard::None, drawing, &mut |mode| {
                         primitives.send(gl, mode);
                     });
                 }
-                self.replay(gl, &plan, Again::Same, &mut |_| call());
+                self.replay(gl, &plan, ReplayHazard::None, &mut |_| call());
             }
-            Method::Instanced if plan.twin => {
+            Method::Instanced if plan.variant => {
                 let mut draw = |views: i32| match primitives {
                     Primitives::Arrays { mode, first, count } => {
                         gl.draw_arrays_instanced(mode, first, count, views)
@@ -195,9 +195,9 @@ impl Layer {
             }
             Method::Instanced | Method::Geometry => {
                 let Some(how) = self.amplify(gl, &plan, primitives.mode(), false) else {
-                    return self.replay(gl, &plan, Again::Same, &mut |_| call());
+                    return self.replay(gl, &plan, ReplayHazard::None, &mut |_| call());
                 };
-                self.prove(gl, plan.shear, Again::Same, &mut |_| call());
+                self.prove(gl, plan.shear, ReplayHazard::None, &mut |_| call());
                 let instanced = plan.method == Method::Instanced;
                 let mut draw = |views: u32| match primitives {
                     Primitives::Arrays { first, count, .. } if instanced => {
@@ -299,23 +299,23 @@ impl Layer {
         if classed.class == Class::Scene {
             self.rig.latch(&self.state.projection);
             if self.output() == Output::Rgbd && self.frame.nearer_is_larger.is_none() {
-                self.state.look(gl, Touch::RANGE);
-                let look = &self.state.look;
+                self.state.read_classification(gl, Touch::RANGE);
+                let look = &self.state.classification;
                 let ramp = Ramp::of(&self.projections()[0], look.depths, look.zero_to_one);
                 self.frame.nearer_is_larger = ramp.map(|ramp| ramp.nearer_is_larger());
             }
         }
         self.watch_depths(gl, kind, &classed);
-        self.keep_together(gl);
-        let plan = plan(kind, &self.state, &self.rig, &self.means, &classed);
+        self.watch_equal_depths(gl);
+        let plan = plan(kind, &self.state, &self.rig, &self.capabilities, &classed);
         let plan = self.plan_shaders(gl, kind, &classed, plan);
-        let plan = self.follow(gl, kind, self.uncounted(plan));
+        let plan = self.track_pass(gl, kind, self.uncounted(plan));
         let plan = self.by_instances(gl, kind, plan);
-        self.keep_own(gl, kind, &plan, &classed);
-        self.keep_alike(gl, kind, &plan);
+        self.watch_synthesis(gl, kind, &plan, &classed);
+        self.watch_mono(gl, kind, &plan);
         let told = match classed.why {
             Why::Rule(_) => classed,
-            _ if plan.twin => Classed {
+            _ if plan.variant => Classed {
                 class: plan.class,
                 why: Why::Shaders,
                 ..classed
@@ -342,9 +342,9 @@ impl Layer {
 
     /// Some draws of a program are always replayed, such as those of display lists. Instances in layers have the very depths that
     /// these have; views beside each other and what comes out of a geometry shader do not, so from the first draw with GL_EQUAL on
-    /// all draws go the same way. A pass before that one, in the program's first frame, is not made again.
-    fn keep_together(&mut self, gl: &Gl) {
-        let alike = match self.means.strategy {
+    /// all draws go the same way. A pass before that one, in the program's first frame, is not made hazard.
+    fn watch_equal_depths(&mut self, gl: &Gl) {
+        let same_depths = match self.capabilities.strategy {
             Strategy::Replay
             | Strategy::Auto
             | Strategy::DepthImage
@@ -353,41 +353,47 @@ impl Layer {
             Strategy::Instanced => self.config.clip.is_none() && self.support.layers(),
             Strategy::Geometry => false,
         };
-        if alike || self.means.together || !self.state.draws_to_window() {
+        if same_depths || self.capabilities.together || !self.state.draws_to_window() {
             return;
         }
-        self.state.look(gl, Touch::DEPTH);
-        self.means.together = self.state.look.equal;
+        self.state.read_classification(gl, Touch::DEPTH);
+        self.capabilities.together = self.state.classification.equal;
     }
 
-    pub(super) fn replay(&mut self, gl: &Gl, plan: &Plan, again: Again, call: &mut dyn FnMut(u32)) {
+    pub(super) fn replay(
+        &mut self,
+        gl: &Gl,
+        plan: &Plan,
+        hazard: ReplayHazard,
+        call: &mut dyn FnMut(u32),
+    ) {
         let (program, framebuffer) = (self.state.program, self.state.framebuffers.draw);
         if let Some(target) = self.offscreen.take(framebuffer, self.wanted_views()) {
-            return self.replay_aside(gl, target, plan, again, call);
+            return self.replay_aside(gl, target, plan, hazard, call);
         }
-        let mut twins = std::mem::take(&mut self.twins);
+        let mut variants = std::mem::take(&mut self.variants);
         match plan
-            .twin
-            .then(|| twins.enter(gl, program, With::Views))
+            .variant
+            .then(|| variants.enter(gl, program, VariantUse::Views))
             .flatten()
         {
-            Some(Entered { twin, .. }) => {
+            Some(Entered { variant, .. }) => {
                 let (rig, stride) = (self.rig, self.atlas.tiles.stride);
                 let unproject = self.unproject(plan);
-                self.replay_by(gl, None, None, again, &mut |view| {
+                self.replay_by(gl, None, None, hazard, &mut |view| {
                     let shifts = (plan.shear, plan.flat);
-                    twin.place(gl, shifts, &[rig.place(view)], stride);
-                    unproject(gl, twin, rig.place(view));
+                    variant.set_views(gl, shifts, &[rig.position(view)], stride);
+                    unproject(gl, variant, rig.position(view));
                     call(view);
                 });
                 gl.use_program(program);
             }
             None => {
-                let shear = plan.shear.filter(|_| !plan.twin);
-                self.replay_by(gl, None, shear, again, call);
+                let shear = plan.shear.filter(|_| !plan.variant);
+                self.replay_by(gl, None, shear, hazard, call);
             }
         }
-        self.twins = twins;
+        self.variants = variants;
     }
 
     /// To a target that each view has its own of, or the window, with this shift of the projection.
@@ -396,10 +402,10 @@ impl Layer {
         gl: &Gl,
         target: Option<&mut Target>,
         shear: Option<Shear>,
-        again: Again,
+        hazard: ReplayHazard,
         call: &mut dyn FnMut(u32),
     ) {
-        self.prove(gl, shear, again, call);
+        self.prove(gl, shear, hazard, call);
         // Of what queries count, only the own view is counted.
         let bound = std::mem::take(&mut self.sampled);
         let surface: &mut dyn Surface = match target {
@@ -415,7 +421,7 @@ impl Layer {
             &self.state,
             &self.rig,
             shear,
-            again,
+            hazard,
             true,
             &mut |view| {
                 if view == own && std::mem::take(&mut paused) {
@@ -429,7 +435,7 @@ impl Layer {
         self.offscreen.unbind(gl, &bound);
         self.sampled = bound;
         if !sent {
-            self.alike.lose();
+            self.mono.lose();
             self.report.note(
                 "the program's attribute stack was full: some draws are in its own view only"
                     .into(),

@@ -71,7 +71,7 @@ impl Layer {
             explained.last = None;
         }
         if let Some(class) = explained.last.take() {
-            explained.settle(class, self.own_view(gl));
+            explained.attribute(class, self.own_view(gl));
         }
         self.explained = Some(explained);
     }
@@ -180,7 +180,7 @@ fn replace(path: &Path, write: impl FnOnce(&Path) -> Result<(), String>) -> Resu
 
 impl Explained {
     /// What differs from the view before is the last draw's.
-    fn settle(&mut self, class: Option<Class>, now: RgbImage) {
+    fn attribute(&mut self, class: Option<Class>, now: RgbImage) {
         if now.dimensions() != self.view.dimensions() {
             self.owner = vec![None; now.width() as usize * now.height() as usize];
         } else {
@@ -393,9 +393,9 @@ mod tests {
             complete: true,
         };
         // Of the depth alone.
-        explained.settle(None, view(5));
+        explained.attribute(None, view(5));
         assert_eq!(explained.owner, [Some(Class::Scene); 2]);
-        explained.settle(None, view(0));
+        explained.attribute(None, view(0));
         assert_eq!(explained.owner, [None, Some(Class::Scene)]);
     }
 }

@@ -1,11 +1,11 @@
 //! The end of a frame: interleave, capture, report.
 
 use super::{Layer, OnScreen};
-use crate::atlas::Shown;
+use crate::atlas::ViewSet;
 use crate::config::{Capture, CaptureWhat, Output};
 use crate::display::{Placement, QuiltName};
 use crate::gl::{Gl, consts as c};
-use crate::interleave::{Depth, Form, Glass, Layout, Source, reference, rgbd};
+use crate::interleave::{Depth, Form, Layout, PanelPlacement, Source, reference, rgbd};
 use crate::present::{Saved, capture};
 use crate::state::{BACK, FRONT};
 use image::RgbImage;
@@ -24,10 +24,10 @@ impl Layer {
         }
         self.finish_explanation(gl);
         self.refit(gl);
-        if self.rests() {
-            self.rest(gl);
+        if self.is_mono() {
+            self.enter_mono(gl);
         }
-        super::left::sweep(gl, &self.group);
+        super::orphans::delete_orphans(gl, &self.group);
         self.queries.pause(gl);
         self.queries.lift_condition(gl);
         let saved = Saved::take(gl, self.state.compatibility);
@@ -55,13 +55,13 @@ impl Layer {
         self.queries.put_condition(gl);
         self.queries.resume(gl);
         if swap {
-            if self.rests() {
-                self.report.alike();
+            if self.is_mono() {
+                self.report.mono_frame();
             }
             self.time_frame(gl);
-            self.rest(gl);
+            self.enter_mono(gl);
         }
-        self.follow_lenses();
+        self.realign_tiles();
         self.drawn = false;
         self.frame = Default::default();
     }
@@ -69,10 +69,10 @@ impl Layer {
     /// Draws the picture into the true framebuffer 0 and captures what is wanted.
     fn present(&mut self, gl: &Gl, image: u32) {
         self.end_scene(gl);
-        if self.synthesis.field.is_none() {
-            let views = match self.rests() {
+        if self.synthesis.pyramid.is_none() {
+            let views = match self.is_mono() {
                 true => self.atlas.tiles.own_alone(),
-                false => Shown::ALL,
+                false => ViewSet::ALL,
             };
             self.atlas.resolve(gl, &views, c::COLOR_BUFFER_BIT);
         }
@@ -88,7 +88,7 @@ impl Layer {
         self.judge_proof(gl, exact);
         let source = self.source(image, depth.as_ref());
         self.capture(gl, &source);
-        self.follow_depths(gl);
+        self.track_depths(gl);
     }
 
     /// What pictures are made of.
@@ -97,7 +97,7 @@ impl Layer {
             tiles: self.atlas.tiles,
             texture: self.atlas.sampled(image),
             depth: depth.map(|depth| (self.atlas.depth, depth)),
-            field: self.synthesis.field,
+            pyramid: self.synthesis.pyramid,
             top_down: self.atlas.flipped,
             srgb: self.state.window.srgb,
         }
@@ -107,11 +107,11 @@ impl Layer {
     pub(super) fn draw_picture(&mut self, gl: &Gl, image: u32, depth: Option<&Depth>) {
         let output = self.output();
         let source = self.source(image, depth);
-        let pictures = match self.rests() {
+        let pictures = match self.is_mono() {
             true => vec![(None, Output::View(self.atlas.tiles.own()))],
             false => self.pictures(output, image),
         };
-        let glass = Glass {
+        let panel = PanelPlacement {
             display: self.fitted.as_ref().unwrap_or(&self.config.display),
             placement: self.placement(),
         };
@@ -125,7 +125,7 @@ impl Layer {
                 &source,
                 &mut |view| tile(gl, &self.atlas, view),
                 output,
-                &glass,
+                &panel,
             ) {
                 self.report.note(e);
             }
@@ -207,7 +207,7 @@ impl Layer {
             self.report.drew(ms, drawn.unwrap_or(self.config.views));
             // A menu, say, tells of nothing.
             if drawn.is_some() || number == self.config.views {
-                self.synthesis.follow(ms);
+                self.synthesis.adapt(ms);
             }
         }
         self.report.memory(self.atlas.bytes);

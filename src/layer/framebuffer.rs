@@ -246,7 +246,7 @@ impl Layer {
             && !self.atlas.has_front()
             && self.atlas.tiles.grid.is_full()
         {
-            self.part(gl);
+            self.leave_mono(gl);
             let (names, window) = (&mut self.names, &self.state.window);
             let swapped = self.report.frames() > 0;
             let make = || self.atlas.make_front(gl, names, window, swapped);
@@ -460,9 +460,9 @@ impl Layer {
         if self.atlas.tiles.columns == 1 && self.atlas.tiles.grid.is_full() {
             return call();
         }
-        crate::draw::place(gl, &self.state, &self.atlas.tiles, view, x);
+        crate::draw::set_tile_viewport(gl, &self.state, &self.atlas.tiles, view, x);
         call();
-        crate::draw::unplace(gl, &self.state);
+        crate::draw::restore_viewport(gl, &self.state);
     }
 
     pub(super) fn tile_size(&self) -> [i32; 2] {

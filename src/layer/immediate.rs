@@ -1,10 +1,10 @@
 //! Immediate mode: recorded between glBegin and glEnd, then drawn in all views.
 
 use super::Layer;
-use super::lists::settle;
-use crate::atlas::Shown;
-use crate::config::Saving;
-use crate::draw::{Again, Current, Drawing};
+use super::lists::touch_current_values;
+use crate::atlas::ViewSet;
+use crate::config::Optimisation;
+use crate::draw::{Current, Drawing, ReplayHazard};
 use crate::gl::consts as c;
 use crate::gl::{Ends, Gl, Recording};
 use crate::plan::{Bounds, Kind, Method, Plan};
@@ -61,9 +61,9 @@ impl Layer {
             return;
         };
         let plan = self.plan(gl, Kind::Begin(mode));
-        let again = match self.immediate.must_restore() {
-            Effect::NONE => Again::Same,
-            effects => Again::Current(effects),
+        let hazard = match self.immediate.must_restore() {
+            Effect::NONE => ReplayHazard::None,
+            effects => ReplayHazard::Current(effects),
         };
         let recording = std::mem::take(&mut self.recording);
         let amplified = match plan.method {
@@ -75,12 +75,12 @@ impl Layer {
         let ends = self.ends;
         match amplified {
             Some(how) => {
-                self.prove(gl, plan.shear, again, &mut |_| {
+                self.prove(gl, plan.shear, hazard, &mut |_| {
                     gl.replay(mode, &recording, ends);
                 });
                 // Several calls (many views, several layers) each start from the same current values.
-                let current = match again {
-                    Again::Current(e) => Current::take(gl, e, false),
+                let current = match hazard {
+                    ReplayHazard::Current(e) => Current::take(gl, e, false),
                     _ => Current::default(),
                 };
                 let mut first = true;
@@ -97,20 +97,20 @@ impl Layer {
             None => {
                 let all = self.atlas.tiles.shown;
                 self.atlas.tiles.shown = self.seeing(gl, mode, &plan, &recording);
-                let bent = Drawing {
+                let surface = Drawing {
                     mode: Some(mode),
                     vertices: recording.calls() as u64,
                     cuts: [c::TRIANGLES, c::QUADS].contains(&mode),
                     material: self.immediate.changes_material(),
                 };
-                self.draw_bent(gl, &plan, again, bent, &mut |mode| {
+                self.draw_to_reference(gl, &plan, hazard, surface, &mut |mode| {
                     gl.replay(mode, &recording, ends);
                 });
-                let streamed = self.stream(gl, mode, &recording, again);
+                let streamed = self.stream(gl, mode, &recording, hazard);
                 let sets = self.immediate.sets();
-                self.replay(gl, &plan, again, &mut |_| match streamed {
+                self.replay(gl, &plan, hazard, &mut |_| match streamed {
                     Some(list) => {
-                        settle(gl, sets);
+                        touch_current_values(gl, sets);
                         gl.call_list(list);
                     }
                     None => gl.replay(mode, &recording, ends),
@@ -129,11 +129,11 @@ impl Layer {
 
     /// The views of those that are drawn in whose frustum some of it may lie. Only of triangles: they are cut at its sides before they
     /// become outlines or corners (OpenGL 4.6, 13.7), while lines and points are as wide outside.
-    fn seeing(&self, gl: &Gl, mode: u32, plan: &Plan, recording: &Recording) -> Shown {
+    fn seeing(&self, gl: &Gl, mode: u32, plan: &Plan, recording: &Recording) -> ViewSet {
         let (all, tiles, state) = (self.atlas.tiles.shown, &self.atlas.tiles, &self.state);
         let unknown = self.immediate.sets().has(Effect::UNKNOWN | Effect::ATTRIB);
         let triangles = (c::TRIANGLES..=c::POLYGON).contains(&mode);
-        if self.config.without.has(Saving::Frustum)
+        if self.config.disabled.has(Optimisation::Frustum)
             || unknown
             || !triangles
             || !tiles.grid.is_full()
@@ -149,11 +149,11 @@ impl Layer {
         let modelview = gl.get_floats::<16>(c::MODELVIEW_MATRIX);
         let sees = |view: &u32| {
             let p = plan.shear.map_or(state.projection, |shear| {
-                shear.projection(&state.projection, self.rig.place(*view))
+                shear.projection(&state.projection, self.rig.position(*view))
             });
             !bounds.outside(&[0, 1, 3].map(|row| product_row(&p, &modelview, row)))
         };
-        let seeing: Shown = tiles.order().filter(sees).collect();
+        let seeing: ViewSet = tiles.order().filter(sees).collect();
         // A program of its own puts vertices elsewhere. Asked last, as it is rarely needed.
         let unseen = tiles.order().any(|view| !seeing.has(view));
         if unseen && self.driver.programs && gl.is_enabled(c::VERTEX_PROGRAM_ARB) {
@@ -163,12 +163,18 @@ impl Layer {
     }
 
     /// Many triangles for several views are copied by the driver once, into a display list; the list is to be dropped after the draw.
-    fn stream(&mut self, gl: &Gl, mode: u32, recording: &Recording, again: Again) -> Option<u32> {
+    fn stream(
+        &mut self,
+        gl: &Gl,
+        mode: u32,
+        recording: &Recording,
+        hazard: ReplayHazard,
+    ) -> Option<u32> {
         let sets = self.immediate.sets();
-        let pays = !self.config.without.has(Saving::Lists)
+        let pays = !self.config.disabled.has(Optimisation::Lists)
             && recording.calls() >= MANY
             && self.atlas.tiles.order().count() >= SEVERAL;
-        let as_it_is = again == Again::Same
+        let as_it_is = hazard == ReplayHazard::None
             && self.ends == Ends::default()
             && !sets.has(Effect::UNKNOWN | Effect::ATTRIB | Effect::MATERIAL);
         if !pays || !as_it_is || !(c::TRIANGLES..=c::TRIANGLE_FAN).contains(&mode) {

@@ -1,25 +1,25 @@
-//! Draws of a program with shaders of its own, all views at once: a twin with an instance for each view, which chooses its layer.
+//! Draws of a program with shaders of its own, all views at once: a variant with an instance for each view, which chooses its layer.
 
 use super::Layer;
 use super::drawing::method_name;
-use super::programs::{Entered, With};
+use super::programs::{Entered, VariantUse};
 use crate::atlas::Surface;
 use crate::config::{Strategy, Word};
-use crate::draw::Again;
+use crate::draw::ReplayHazard;
 use crate::gl::{Gl, consts as c};
 use crate::plan::{Kind, Method, Plan};
 
 impl Layer {
-    /// Whether a draw that goes by a twin takes all views by instances. Not where each view samples a texture of its own, or the program
+    /// Whether a draw that goes by a variant takes all views by instances. Not where each view samples a texture of its own, or the program
     /// counts what is drawn.
     pub(super) fn by_instances(&mut self, gl: &Gl, kind: Kind, plan: Plan) -> Plan {
-        let wanted = self.means.strategy == Strategy::Instanced
-            && plan.twin
+        let wanted = self.capabilities.strategy == Strategy::Instanced
+            && plan.variant
             && plan.method == Method::Replay
             && matches!(kind, Kind::Arrays(_) | Kind::Elements(_))
             && self.sampled.is_empty()
             && !self.queries.active()
-            && !self.means.together;
+            && !self.capabilities.together;
         if !wanted || !self.has_layers(gl) || (self.divides && gl.has_divisors()) {
             return plan;
         }
@@ -53,13 +53,13 @@ impl Layer {
         let (program, rig) = (self.state.program, self.rig);
         let framebuffer = self.state.framebuffers.draw;
         let shifts = (plan.shear, plan.flat);
-        let mut twins = std::mem::take(&mut self.twins);
+        let mut variants = std::mem::take(&mut self.variants);
         if self.proving.atlas().is_some()
-            && let Some(Entered { twin, .. }) = twins.enter(gl, program, With::Views)
+            && let Some(Entered { variant, .. }) = variants.enter(gl, program, VariantUse::Views)
         {
             let stride = self.atlas.tiles.stride;
-            self.prove(gl, None, Again::Same, &mut |view| {
-                twin.place(gl, shifts, &[rig.place(view)], stride);
+            self.prove(gl, None, ReplayHazard::None, &mut |view| {
+                variant.set_views(gl, shifts, &[rig.position(view)], stride);
                 call();
             });
         }
@@ -67,12 +67,12 @@ impl Layer {
         let tiles = target
             .as_ref()
             .map_or(self.atlas.tiles, |target| target.tiles());
-        if let Some(Entered { twin, .. }) = twins.enter(gl, program, With::Instances) {
+        if let Some(Entered { variant, .. }) = variants.enter(gl, program, VariantUse::Instances) {
             let views: Vec<u32> = tiles.order().collect();
-            let places: Vec<f64> = views.iter().map(|&view| rig.place(view)).collect();
+            let places: Vec<f64> = views.iter().map(|&view| rig.position(view)).collect();
             let layers: Vec<u32> = views.iter().map(|&view| tiles.slot(view)).collect();
-            twin.place(gl, shifts, &places, tiles.stride);
-            twin.choose(gl, &layers);
+            variant.set_views(gl, shifts, &places, tiles.stride);
+            variant.set_layers(gl, &layers);
             match target.as_ref().and_then(|target| target.layered()) {
                 Some(name) => gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, name),
                 None => self.atlas.bind_layered(gl),
@@ -82,7 +82,7 @@ impl Layer {
             call();
         }
         gl.use_program(program);
-        self.twins = twins;
+        self.variants = variants;
         match target {
             Some(target) => {
                 gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, framebuffer);

@@ -2,7 +2,7 @@
 
 use super::Layer;
 use super::drawing::UNKNOWN;
-use crate::draw::{Again, Drawing};
+use crate::draw::{Drawing, ReplayHazard};
 use crate::gl::{Gl, consts as c, slot};
 use crate::plan::{Kind, Method};
 use crate::state::{Begin, Body, Command, Compiling, Effect, Run, Segment, Start, Touch};
@@ -224,7 +224,7 @@ impl Layer {
             let material = segments().any(|s| s.immediate.changes_material());
             let drawing = (current, primitives, thin, material);
             return self.run(gl, run, touch, drawing, &mut || {
-                settle(gl, current);
+                touch_current_values(gl, current);
                 call();
             });
         }
@@ -317,7 +317,7 @@ impl Layer {
                         segment.immediate.changes_material(),
                     ),
                     &mut || {
-                        settle(gl, sets);
+                        touch_current_values(gl, sets);
                         gl.call_list(segment.name);
                     },
                 );
@@ -389,12 +389,12 @@ impl Layer {
         if plan.method == Method::Once {
             self.once(gl, call);
         } else {
-            let again = Again::Anything {
+            let hazard = ReplayHazard::Anything {
                 rects: true,
                 projection: true,
                 current: Effect::NONE,
             };
-            self.replay(gl, &plan, again, &mut |_| call());
+            self.replay(gl, &plan, hazard, &mut |_| call());
         }
         self.state.touched = Touch::ALL;
     }
@@ -438,10 +438,10 @@ impl Layer {
                     self.once(gl, call);
                     return self.state.touch(touch);
                 }
-                let again = match drawing {
-                    (Effect::NONE, true, ..) => Again::Same,
-                    (current, true, ..) => Again::Current(current),
-                    (current, false, ..) => Again::Anything {
+                let hazard = match drawing {
+                    (Effect::NONE, true, ..) => ReplayHazard::None,
+                    (current, true, ..) => ReplayHazard::Current(current),
+                    (current, false, ..) => ReplayHazard::Anything {
                         rects: touch.has(Touch::RECTS),
                         projection,
                         current,
@@ -449,13 +449,13 @@ impl Layer {
                 };
                 // What else changes the state is not in the generated shaders.
                 if let (_, true, false, material) = drawing {
-                    let bent = Drawing {
+                    let surface = Drawing {
                         material,
                         ..UNKNOWN
                     };
-                    self.draw_bent(gl, &plan, again, bent, &mut |_| call());
+                    self.draw_to_reference(gl, &plan, hazard, surface, &mut |_| call());
                 }
-                self.replay(gl, &plan, again, &mut |_| call());
+                self.replay(gl, &plan, hazard, &mut |_| call());
             }
             Run::Clear => self.draw(
                 gl,
@@ -481,7 +481,7 @@ impl Layer {
 
 /// Before the driver's call of a list that sets current values. One of them, whichever, has to have been set by a call since the last
 /// such list: else Mesa 22.3 sets those from before the list's vertices once more, at the next change of state.
-pub(super) fn settle(gl: &Gl, sets: Effect) {
+pub(super) fn touch_current_values(gl: &Gl, sets: Effect) {
     if sets != Effect::NONE {
         let [r, g, b, a] = gl.get_floats(c::CURRENT_COLOR);
         gl.color_4f(r, g, b, a);

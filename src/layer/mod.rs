@@ -2,7 +2,6 @@
 #![forbid(unsafe_code)]
 
 mod accumulate;
-mod alike;
 mod auto;
 mod blits;
 mod classing;
@@ -13,18 +12,19 @@ mod copies;
 mod drawing;
 mod executed;
 mod explain;
-mod eyes;
 mod frame;
 mod framebuffer;
 mod frames;
 mod immediate;
 mod instances;
-mod left;
 mod lists;
+mod mono;
 mod occlusion;
+mod orphans;
 mod passes;
 mod programs;
 mod prove;
+mod quad_buffer;
 mod queries;
 mod sampling;
 pub mod support;
@@ -37,13 +37,15 @@ pub use lists::is_scaled;
 pub use queries::Answer;
 
 use crate::atlas::{Atlas, AtlasError, Grid, Names, Tiles};
-use crate::config::{AtlasLayout, Config, Live, Projection, Saving, Strategy, ViewScale, profile};
+use crate::config::{
+    AtlasLayout, Config, Live, Optimisation, Projection, Strategy, ViewScale, profile,
+};
 use crate::display::{Display, Placement};
 use crate::draw::{Driver, FixedState, Programs};
 use crate::gl::{Count, Ends, Gl, Recording, consts as c};
 use crate::interleave::Interleaver;
 use crate::offscreen::{Bound, Images, Offscreen, SharedImages};
-use crate::plan::{Classifier, Means, Reason, Rig, Shear};
+use crate::plan::{Capabilities, Classifier, Reason, Rig, Shear};
 use crate::present::Saved;
 use crate::report::{Counts, Proof, Report};
 use crate::state::{BACK, Immediate, Lists, State, Window};
@@ -99,10 +101,10 @@ pub struct Layer {
     atlas: Atlas,
     names: Names,
     rig: Rig,
-    means: Means,
+    capabilities: Capabilities,
     interleaver: Interleaver,
     programs: Programs,
-    twins: programs::Twins,
+    variants: programs::Variants,
     fixed: Option<FixedState>,
     driver: Driver,
     group: Arc<Group>,
@@ -130,7 +132,7 @@ pub struct Layer {
     support: Support,
     classifier: Classifier,
     frame: classing::Frame,
-    alike: alike::Alike,
+    mono: mono::MonoFrames,
     explained: Option<explain::Explained>,
     live: Live,
     comfort: comfort::Comfort,
@@ -211,7 +213,7 @@ impl Layer {
             crate::draw::limits(gl, support.glsl),
             driver,
             config.clip.unwrap_or_default(),
-            config.without.has(Saving::Uniforms),
+            config.disabled.has(Optimisation::Uniforms),
         );
         let program = profile::this_program();
         let all: Vec<Strategy> = [
@@ -223,7 +225,7 @@ impl Layer {
         .filter_map(|(strategy, there)| there.then_some(strategy))
         .collect();
         let auto = auto::Auto::new(gl, config, program.as_deref(), &all);
-        let means = Means {
+        let capabilities = Capabilities {
             strategy: auto.as_ref().map_or(config.strategy, auto::Auto::strategy),
             instanced: support.instanced(),
             geometry: support.geometry(),
@@ -237,10 +239,10 @@ impl Layer {
             Some(note) => report.note(note),
             None => {}
         }
-        left::sweep(gl, &group);
+        orphans::delete_orphans(gl, &group);
         let live = Live::new(config);
         let detail = if support.viewports {
-            sampling::Detail::Lenses
+            sampling::Detail::SampleAligned
         } else {
             sampling::Detail::Full
         };
@@ -264,7 +266,7 @@ impl Layer {
             &state,
             &support,
             grid,
-            means.strategy,
+            capabilities.strategy,
         )?;
         let mut layer = Layer {
             config,
@@ -272,10 +274,10 @@ impl Layer {
             state,
             atlas,
             names,
-            means,
+            capabilities,
             interleaver,
             programs,
-            twins: programs::Twins::default(),
+            variants: programs::Variants::default(),
             fixed: None,
             driver,
             offscreen: Offscreen::new(
@@ -308,7 +310,7 @@ impl Layer {
                 config.explain.is_some(),
             ),
             frame: classing::Frame::default(),
-            alike: alike::Alike::default(),
+            mono: mono::MonoFrames::default(),
             explained: None,
             live,
             comfort: comfort::Comfort::new(config, live.camera),
@@ -337,13 +339,13 @@ impl Layer {
             return Ok(());
         }
         self.drop_proof(gl);
-        self.alike = alike::Alike::default();
+        self.mono = mono::MonoFrames::default();
         self.forget_scene();
         self.state.window.width = width;
         self.state.window.height = height;
         let grid = self.grid();
         let (names, config, state) = (&mut self.names, self.config, &self.state);
-        let strategy = self.means.strategy;
+        let strategy = self.capabilities.strategy;
         let atlas = make_atlas(gl, names, config, state, &self.support, grid, strategy)?;
         std::mem::replace(&mut self.atlas, atlas).delete(gl);
         if let Some(old) = std::mem::take(&mut self.accumulated).buffer {
@@ -455,10 +457,10 @@ impl Layer {
     /// Puts a new atlas with the same contents in the place of the old one.
     fn remake(&mut self, gl: &Gl) -> bool {
         self.state.refresh(gl);
-        self.part(gl);
+        self.leave_mono(gl);
         let grid = self.grid();
         let (names, config, state) = (&mut self.names, self.config, &self.state);
-        let strategy = self.means.strategy;
+        let strategy = self.capabilities.strategy;
         let Ok(mut atlas) = make_atlas(gl, names, config, state, &self.support, grid, strategy)
         else {
             return false;

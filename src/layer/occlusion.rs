@@ -1,18 +1,18 @@
-//! `--strategy occlusion`: what is hidden in the program's own view, for the views that are made of it.
+//! `--strategy occlusion`: what is hidden in the program's own view, for the views that are synthesised from it.
 //!
-//! Each draw of the scene goes to a reference image as well, by the bent rays of an occlusion camera, whose map is that of the depths of the
+//! Each draw of the scene goes to a reference image as well, by the distorted rays of an occlusion camera, whose map is that of the depths of the
 //! frame before: nothing has to be kept until the depths are known, and a sample's place is right whatever map it was moved by. What the
 //! map costs where things move is that it reaches behind where they were.
 //!
-//! Draws that cannot be bent are missing there: what they hide stays unknown, as it is without this strategy.
+//! Draws that cannot be distorted are missing there: what they hide stays unknown, as it is without this strategy.
 
-use super::programs::{Entered, With};
-use super::synthesis::Look;
+use super::programs::{Entered, VariantUse};
+use super::synthesis::DisparityMapping;
 use super::{Layer, keep_bindings};
 use crate::config::Word;
-use crate::draw::{Again, Drawing, Rays, draw_bent};
+use crate::draw::{Drawing, Rays, ReplayHazard, draw_to_reference};
 use crate::gl::{Gl, consts as c};
-use crate::interleave::Heights;
+use crate::interleave::Disparities;
 use crate::plan::{Flat, Kind, Plan, Reason};
 use crate::present::capture::read_rgb;
 use crate::synthesis::Passes;
@@ -23,7 +23,7 @@ pub(super) const REACH: f32 = 30.0;
 
 /// What is known of the reference image.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct Bent {
+pub(super) struct ReferenceImage {
     /// The driver makes no reference image.
     refused: bool,
     /// The map is that of the frame before.
@@ -44,11 +44,11 @@ pub(super) struct Next {
 
 impl Layer {
     /// A scene begins, with its depths cleared.
-    pub(super) fn begin_bent(&mut self, gl: &Gl) {
-        let framebuffer = self.atlas.bent_framebuffer();
-        let bent = &mut self.synthesis.bent;
-        bent.on = bent.mapped && framebuffer.is_some();
-        if let (true, Some(framebuffer)) = (bent.on, framebuffer) {
+    pub(super) fn begin_reference(&mut self, gl: &Gl) {
+        let framebuffer = self.atlas.reference_framebuffer();
+        let reference = &mut self.synthesis.reference;
+        reference.on = reference.mapped && framebuffer.is_some();
+        if let (true, Some(framebuffer)) = (reference.on, framebuffer) {
             gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, framebuffer);
             gl.clear(c::COLOR_BUFFER_BIT | c::DEPTH_BUFFER_BIT);
             let drawn = self.atlas.framebuffer();
@@ -57,8 +57,8 @@ impl Layer {
         }
     }
 
-    /// A draw of the scene is about to be made; those of surfaces by fixed function can be bent, and of programs with shaders all.
-    pub(super) fn expect_bent(&mut self, kind: Kind, look: &Look) {
+    /// A draw of the scene is about to be made; those of surfaces by fixed function can be distorted, and of programs with shaders all.
+    pub(super) fn expect_reference(&mut self, kind: Kind, mapping: &DisparityMapping) {
         let mode = match kind {
             Kind::Begin(mode) | Kind::Arrays(mode) | Kind::Elements(mode) => Some(mode),
             Kind::Other | Kind::List => None,
@@ -69,37 +69,37 @@ impl Layer {
             Some(mode) => (c::TRIANGLES..=c::POLYGON).contains(&mode),
             None => kind == Kind::List,
         };
-        let bends = self.synthesis.bent.on
+        let distorts = self.synthesis.reference.on
             && match (self.state.program, self.state.pipeline) {
                 (0, 0) => self.state.compatibility && surfaces(),
                 (program, _) => program != 0,
             };
-        let map = self.atlas.bent().map(|bent| bent.map);
-        if let (true, Some(map)) = (bends, map) {
-            let [near, far] = self.state.look.depths;
-            let (middle, half) = match self.state.look.zero_to_one {
+        let map = self.atlas.reference().map(|reference| reference.map);
+        if let (true, Some(map)) = (distorts, map) {
+            let [near, far] = self.state.classification.depths;
+            let (middle, half) = match self.state.classification.zero_to_one {
                 true => (near, far - near),
                 false => ((near + far) / 2.0, (far - near) / 2.0),
             };
-            let [scale, offset] = self.height_line(look).map(|v| v as f32);
+            let [scale, offset] = self.disparity_line(mapping).map(|v| v as f32);
             let rays = Rays {
                 map,
-                heights: [scale * half, scale * middle + offset],
+                disparities: [scale * half, scale * middle + offset],
             };
-            self.synthesis.bent.next = Some(Next { mode, rays });
+            self.synthesis.reference.next = Some(Next { mode, rays });
         }
     }
 
     /// Before such a draw, if it is one; `drawing` is without its mode. `call` makes it in a mode.
-    pub(super) fn draw_bent(
+    pub(super) fn draw_to_reference(
         &mut self,
         gl: &Gl,
         plan: &Plan,
-        again: Again,
+        hazard: ReplayHazard,
         drawing: Drawing,
         call: &mut dyn FnMut(u32),
     ) {
-        let Some(next) = self.synthesis.bent.next.take() else {
+        let Some(next) = self.synthesis.reference.next.take() else {
             return;
         };
         let drawing = Drawing {
@@ -107,13 +107,13 @@ impl Layer {
             ..drawing
         };
         if self.state.program != 0 {
-            return self.draw_bent_twin(gl, plan, again, &drawing, &next.rays, call);
+            return self.draw_variant_to_reference(gl, plan, hazard, &drawing, &next.rays, call);
         }
         self.read_fixed(gl);
         let Some(fixed) = self.fixed else { return };
         self.queries.pause(gl);
         let drawn = self.unblended(gl, |layer| {
-            layer.programs.draw_bent(
+            layer.programs.draw_to_reference(
                 gl,
                 &mut layer.atlas,
                 &layer.state,
@@ -121,7 +121,7 @@ impl Layer {
                 plan.shear,
                 &fixed,
                 &drawing,
-                again,
+                hazard,
                 &next.rays,
                 call,
             )
@@ -135,42 +135,42 @@ impl Layer {
     }
 
     /// Such a draw with the program's own shaders.
-    fn draw_bent_twin(
+    fn draw_variant_to_reference(
         &mut self,
         gl: &Gl,
         plan: &Plan,
-        again: Again,
+        hazard: ReplayHazard,
         drawing: &Drawing,
         rays: &Rays,
         call: &mut dyn FnMut(u32),
     ) {
         let (program, rig) = (self.state.program, self.rig);
-        if let Err(why) = self.know_bent(gl, program) {
-            return self.fallbacks.add(Reason::Unbent(why));
+        if let Err(why) = self.link_distorting(gl, program) {
+            return self.fallbacks.add(Reason::NoReference(why));
         }
         let units = self.units_of(gl, program);
         let units: Vec<u32> = units.into_iter().map(|(unit, _)| unit).collect();
-        let mut twins = std::mem::take(&mut self.twins);
-        if let Some(Entered { twin, .. }) = twins.enter(gl, program, With::Rays) {
+        let mut variants = std::mem::take(&mut self.variants);
+        if let Some(Entered { variant, .. }) = variants.enter(gl, program, VariantUse::Rays) {
             self.queries.pause(gl);
             // What the projection matrix places is shifted by that.
-            let (moved, shifts) = match plan.twin {
+            let (moved, shifts) = match plan.variant {
                 true => (None, (plan.shear, plan.flat)),
                 false => (plan.shear, (None, Flat::Still)),
             };
             let tiles = self.atlas.tiles;
-            twin.place(gl, shifts, &[rig.place(tiles.own())], tiles.stride);
+            variant.set_views(gl, shifts, &[rig.position(tiles.own())], tiles.stride);
             let mode = drawing.mode.unwrap_or(c::TRIANGLES);
             self.unblended(gl, |layer| {
-                draw_bent(
+                draw_to_reference(
                     gl,
                     &mut layer.atlas,
                     &layer.state,
                     &rig,
                     moved,
-                    (twin, &units),
+                    (variant, &units),
                     drawing.vertices,
-                    again,
+                    hazard,
                     rays,
                     &mut || call(mode),
                 );
@@ -179,12 +179,12 @@ impl Layer {
             self.report.draw("reference", plan.class.word());
             self.queries.resume(gl);
         }
-        self.twins = twins;
+        self.variants = variants;
     }
 
     /// By how much samples are moved is not blended, and written whatever colours the program leaves out.
     fn unblended<R>(&mut self, gl: &Gl, draw: impl FnOnce(&mut Self) -> R) -> R {
-        let blends = self.state.look.blends;
+        let blends = self.state.classification.blends;
         if blends {
             gl.disablei(c::BLEND, 1);
         }
@@ -205,8 +205,8 @@ impl Layer {
 
     /// The reference image, row 0 on top. Changes the read framebuffer.
     pub(super) fn reference_image(&self, gl: &Gl) -> Result<RgbImage, String> {
-        let framebuffer = self.atlas.bent_framebuffer();
-        let framebuffer = framebuffer.filter(|_| self.synthesis.bent.on).ok_or(
+        let framebuffer = self.atlas.reference_framebuffer();
+        let framebuffer = framebuffer.filter(|_| self.synthesis.reference.on).ok_or(
             "there is no reference image in this frame: `--strategy occlusion` draws one from the second frame of a scene on",
         )?;
         gl.bind_framebuffer(c::READ_FRAMEBUFFER, framebuffer);
@@ -215,23 +215,24 @@ impl Layer {
     }
 
     /// After the own view has been measured: its map, for the next frame. State as for the passes.
-    pub(super) fn map_bends(&mut self, gl: &Gl, heights: &Heights) {
+    pub(super) fn map_distortion(&mut self, gl: &Gl, disparities: &Disparities) {
         let passes = self.synthesis.passes.as_ref();
-        if !passes.is_some_and(Passes::bends) {
+        if !passes.is_some_and(Passes::distorts) {
             return;
         }
-        if self.atlas.bent().is_none() {
+        if self.atlas.reference().is_none() {
             let (names, window) = (&mut self.names, &self.state.window);
-            self.synthesis.bent.refused =
-                !keep_bindings(gl, || self.atlas.make_bent(gl, names, window));
-            if self.synthesis.bent.refused {
+            self.synthesis.reference.refused =
+                !keep_bindings(gl, || self.atlas.make_reference(gl, names, window));
+            if self.synthesis.reference.refused {
                 self.report.note(
                     "what is hidden stays unknown: the driver makes no reference image".into(),
                 );
             }
         }
-        if let (Some(passes), false) = (&self.synthesis.passes, self.synthesis.bent.refused) {
-            self.synthesis.bent.mapped = passes.bend(gl, &mut self.atlas, heights);
+        if let (Some(passes), false) = (&self.synthesis.passes, self.synthesis.reference.refused) {
+            self.synthesis.reference.mapped =
+                passes.map_distortion(gl, &mut self.atlas, disparities);
         }
     }
 }

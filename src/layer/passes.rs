@@ -5,11 +5,11 @@
 //! the window or the camera has. Shadow maps, cube faces, light maps have neither. Whatever samples, copies or blits from one that differs
 //! makes its own target differ.
 
-use super::programs::{Entered, With};
+use super::programs::{Entered, VariantUse};
 use super::{Layer, keep_bindings};
 use crate::atlas::Surface;
 use crate::config::Class;
-use crate::draw::{Again, Twin};
+use crate::draw::{ReplayHazard, Variant};
 use crate::gl::{Gl, consts as c};
 use crate::offscreen;
 use crate::plan::class::Target;
@@ -99,7 +99,7 @@ impl Layer {
 
     /// Where each view has its own images of what a draw samples or draws to, it is replayed; a target gets them when something that depends
     /// on the view is drawn to it.
-    pub(super) fn follow(&mut self, gl: &Gl, kind: Kind, plan: Plan) -> Plan {
+    pub(super) fn track_pass(&mut self, gl: &Gl, kind: Kind, plan: Plan) -> Plan {
         if self.config.views < 2 || !self.state.makes_pictures() {
             return plan;
         }
@@ -128,7 +128,7 @@ impl Layer {
             }
         }
         // Depths of a view are of its own camera.
-        self.unprojections = match plan.twin && !self.sampled.is_empty() {
+        self.unprojections = match plan.variant && !self.sampled.is_empty() {
             true => self.unprojections_of(gl, self.state.program),
             false => Vec::new(),
         };
@@ -141,7 +141,7 @@ impl Layer {
             true => self.split(gl, framebuffer),
             false => self.offscreen.is_split(gl, framebuffer) && self.split(gl, framebuffer),
         };
-        if split && plan.twin && self.offscreen.target(gl, framebuffer).layered().is_some() {
+        if split && plan.variant && self.offscreen.target(gl, framebuffer).layered().is_some() {
             self.know_layers(gl, self.state.program, false);
         }
         plan.method = if split { Method::Replay } else { Method::Once };
@@ -149,66 +149,67 @@ impl Layer {
         plan
     }
 
-    /// A draw to a framebuffer that each view has its own of: to the layers of one where a twin chooses among them.
+    /// A draw to a framebuffer that each view has its own of: to the layers of one where a variant chooses among them.
     pub(super) fn replay_aside(
         &mut self,
         gl: &Gl,
         mut target: offscreen::Target,
         plan: &Plan,
-        again: Again,
+        hazard: ReplayHazard,
         call: &mut dyn FnMut(u32),
     ) {
         let program = self.state.program;
-        let mut twins = std::mem::take(&mut self.twins);
+        let mut variants = std::mem::take(&mut self.variants);
         let layered = target.layered();
-        let with = layered.map_or(With::Views, |_| With::Layers);
-        let twin = match plan.twin {
-            true => twins.enter(gl, program, with),
+        let with = layered.map_or(VariantUse::Views, |_| VariantUse::Layers);
+        let variant = match plan.variant {
+            true => variants.enter(gl, program, with),
             false => None,
         };
-        let by_layers = twin.as_ref().is_some_and(|twin| twin.layers) || again == Again::Clear;
+        let by_layers =
+            variant.as_ref().is_some_and(|variant| variant.layers) || hazard == ReplayHazard::Clear;
         let layered = layered.filter(|_| by_layers);
         if let Some(name) = layered {
             gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, name);
         }
         target.take_layers(layered.is_some());
-        match &twin {
+        match &variant {
             // All layers at once.
             None if layered.is_some() => call(self.atlas.tiles.own()),
             None => {
-                let shear = plan.shear.filter(|_| !plan.twin);
-                self.replay_by(gl, Some(&mut target), shear, again, call);
+                let shear = plan.shear.filter(|_| !plan.variant);
+                self.replay_by(gl, Some(&mut target), shear, hazard, call);
             }
-            Some(Entered { twin, layers }) => {
+            Some(Entered { variant, layers }) => {
                 let (rig, tiles) = (self.rig, target.tiles());
                 let unproject = self.unproject(plan);
-                self.replay_by(gl, Some(&mut target), None, again, &mut |view| {
+                self.replay_by(gl, Some(&mut target), None, hazard, &mut |view| {
                     let shifts = (plan.shear, plan.flat);
-                    twin.place(gl, shifts, &[rig.place(view)], tiles.stride);
-                    unproject(gl, twin, rig.place(view));
+                    variant.set_views(gl, shifts, &[rig.position(view)], tiles.stride);
+                    unproject(gl, variant, rig.position(view));
                     if *layers {
-                        twin.choose(gl, &[tiles.slot(view)]);
+                        variant.set_layers(gl, &[tiles.slot(view)]);
                     }
                     call(view);
                 });
             }
         }
-        if twin.is_some() {
+        if variant.is_some() {
             gl.use_program(program);
         }
-        self.twins = twins;
+        self.variants = variants;
         gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, self.state.framebuffers.draw);
         self.offscreen.drawn_to(&target);
         self.offscreen.put(target);
     }
 
-    /// Gives a twin that is in use the unprojections of the view at a place.
-    pub(super) fn unproject(&mut self, plan: &Plan) -> impl Fn(&Gl, &Twin, f64) + use<> {
+    /// Gives a variant that is in use the unprojections of the view at a place.
+    pub(super) fn unproject(&mut self, plan: &Plan) -> impl Fn(&Gl, &Variant, f64) + use<> {
         let (matrices, shear) = (std::mem::take(&mut self.unprojections), plan.shear);
-        move |gl, twin, place| {
+        move |gl, variant, place| {
             for (location, m) in &matrices {
                 let m = shear.map_or(*m, |shear| camera::unprojection(m, &shear, place));
-                twin.set_matrix(gl, *location, &m);
+                variant.set_matrix(gl, *location, &m);
             }
         }
     }

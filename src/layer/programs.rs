@@ -1,8 +1,8 @@
-//! Programs with shaders of their own: their draws go by a twin that shifts the vertices of each view.
+//! Programs with shaders of their own: their draws go by a variant that shifts the vertices of each view.
 
 use super::Layer;
 use crate::config::{Class, DepthState, Projection};
-use crate::draw::{Drawn, NoTwin, Twin, Way, drawn};
+use crate::draw::{Drawn, NoVariant, Variant, VariantKind, drawn};
 use crate::gl::{Gl, Held, ImageUnit, consts as c};
 use crate::plan::class::Why;
 use crate::plan::{Classed, Flat, Kind, Method, Plan, camera};
@@ -13,17 +13,17 @@ use std::collections::HashMap;
 
 /// The programs that were drawn with, by name.
 #[derive(Debug, Default)]
-pub(super) struct Twins {
-    known: HashMap<u32, Known>,
+pub(super) struct Variants {
+    known: HashMap<u32, ProgramRecord>,
     /// The camera of the last program that had one, for those that have none.
     camera: Option<[f32; 16]>,
     /// Deleted while in use: such a program lives until another one is in use, and so it must when the layer uses one.
     doomed: Vec<u32>,
 }
 
-/// What a twin is wanted for.
+/// What a variant is wanted for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum With {
+pub(super) enum VariantUse {
     /// One view, wherever that is.
     Views,
     /// One view in its layer, if that can be.
@@ -34,10 +34,10 @@ pub(super) enum With {
     Rays,
 }
 
-/// A twin in use.
+/// A variant in use.
 #[derive(Debug)]
 pub(super) struct Entered<'a> {
-    pub(super) twin: &'a Twin,
+    pub(super) variant: &'a Variant,
     /// It chooses layers.
     pub(super) layers: bool,
 }
@@ -54,16 +54,16 @@ struct Camera {
 
 /// How the draws of one program go.
 #[derive(Debug)]
-struct Known {
+struct ProgramRecord {
     /// The link that it belongs to.
     link: u64,
     /// The changes of programs up to which it is the last one.
     checked: u64,
-    how: Result<Drawn, NoTwin>,
-    /// The twins that choose layers, once they have been wanted: for one view, and for all.
-    layered: [Option<Option<Twin>>; 2],
-    /// The twin that bends rays, once it has been wanted.
-    bent: Option<Result<Twin, NoTwin>>,
+    how: Result<Drawn, NoVariant>,
+    /// The variants that choose layers, once they have been wanted: for one view, and for all.
+    layered: [Option<Option<Variant>>; 2],
+    /// The variant that distorts rays, once it has been wanted.
+    distorting: Option<Result<Variant, NoVariant>>,
     matrices: Matrices,
     samplers: Samplers,
     /// Their units, and the changes of uniforms up to which they are known.
@@ -79,46 +79,55 @@ struct Known {
     followed: [u64; 4],
 }
 
-impl Known {
-    /// Its twins.
-    fn twins(&self) -> impl Iterator<Item = u32> {
+impl ProgramRecord {
+    /// Its variants.
+    fn variants(&self) -> impl Iterator<Item = u32> {
         let whole = match &self.how {
-            Ok(Drawn::ByTwin(twin)) => Some(twin),
+            Ok(Drawn::ByVariant(variant)) => Some(variant),
             _ => None,
         };
         let layered = self.layered.iter().flatten().flatten();
-        let bent = self.bent.iter().flatten();
-        whole.into_iter().chain(layered).chain(bent).map(Twin::name)
+        let distorting = self.distorting.iter().flatten();
+        whole
+            .into_iter()
+            .chain(layered)
+            .chain(distorting)
+            .map(Variant::name)
     }
 }
 
-impl Twins {
-    /// The twin of a program, in use, with the values of its uniforms; with layers only where one is there that chooses
+impl Variants {
+    /// The variant of a program, in use, with the values of its uniforms; with layers only where one is there that chooses
     /// them.
-    pub(super) fn enter(&mut self, gl: &Gl, program: u32, with: With) -> Option<Entered<'_>> {
+    pub(super) fn enter(&mut self, gl: &Gl, program: u32, with: VariantUse) -> Option<Entered<'_>> {
         let known = self.known.get_mut(&program)?;
         let [alone, layer, instances, rays] = &mut known.followed;
         let [by_layer, by_instances] = known.layered.each_ref().map(|t| t.as_ref()?.as_ref());
-        let bent = known.bent.as_ref().and_then(|bent| bent.as_ref().ok());
-        let (twin, followed, layers) = match (with, by_layer, by_instances, &known.how) {
-            (With::Rays, ..) => (bent?, rays, false),
-            (With::Instances, _, Some(twin), _) => (twin, instances, true),
-            (With::Layers, Some(twin), _, _) => (twin, layer, true),
-            (With::Layers | With::Views, _, _, Ok(Drawn::ByTwin(twin))) => (twin, alone, false),
+        let distorting = known
+            .distorting
+            .as_ref()
+            .and_then(|distorting| distorting.as_ref().ok());
+        let (variant, followed, layers) = match (with, by_layer, by_instances, &known.how) {
+            (VariantUse::Rays, ..) => (distorting?, rays, false),
+            (VariantUse::Instances, _, Some(variant), _) => (variant, instances, true),
+            (VariantUse::Layers, Some(variant), _, _) => (variant, layer, true),
+            (VariantUse::Layers | VariantUse::Views, _, _, Ok(Drawn::ByVariant(variant))) => {
+                (variant, alone, false)
+            }
             _ => return None,
         };
-        gl.use_program(twin.name());
+        gl.use_program(variant.name());
         let change = uniform_change();
         if std::mem::replace(followed, change) != change {
-            twin.follow(gl, program);
+            variant.copy_uniforms(gl, program);
         }
-        Some(Entered { twin, layers })
+        Some(Entered { variant, layers })
     }
 
-    /// The names of all twins, and of what waits to be deleted.
+    /// The names of all variants, and of what waits to be deleted.
     pub(super) fn names(&self) -> impl Iterator<Item = u32> {
         let doomed = self.doomed.iter().copied();
-        doomed.chain(self.known.values().flat_map(Known::twins))
+        doomed.chain(self.known.values().flat_map(ProgramRecord::variants))
     }
 }
 
@@ -145,30 +154,30 @@ impl Layer {
         let used = program != 0 && gl.get_integer(c::CURRENT_PROGRAM) as u32 == program;
         if used && !self.is_doomed(program) {
             Held::Shader.count(1);
-            self.twins.doomed.push(program);
+            self.variants.doomed.push(program);
         }
         used
     }
 
     /// Whether any program waits to be deleted.
     pub fn has_doomed(&self) -> bool {
-        !self.twins.doomed.is_empty()
+        !self.variants.doomed.is_empty()
     }
 
     /// Whether a program waits to be deleted.
     pub fn is_doomed(&self, program: u32) -> bool {
-        self.twins.doomed.contains(&program)
+        self.variants.doomed.contains(&program)
     }
 
     /// After glUseProgram.
     pub fn delete_doomed(&mut self, gl: &Gl) {
         let used = gl.get_integer(c::CURRENT_PROGRAM) as u32;
         let (kept, gone): (Vec<u32>, Vec<u32>) = self
-            .twins
+            .variants
             .doomed
             .iter()
             .partition(|&&program| program == used);
-        self.twins.doomed = kept;
+        self.variants.doomed = kept;
         for program in gone {
             gl.delete_program(program);
             self.deleted_program(gl, program);
@@ -181,8 +190,10 @@ impl Layer {
             return;
         }
         self.shaders(|shaders| shaders.forget(program));
-        if let Some(known) = self.twins.known.remove(&program) {
-            known.twins().for_each(|twin| gl.delete_program(twin));
+        if let Some(known) = self.variants.known.remove(&program) {
+            known
+                .variants()
+                .for_each(|variant| gl.delete_program(variant));
         }
     }
 
@@ -208,7 +219,7 @@ impl Layer {
         let Some(camera) = self.camera_of(gl, program) else {
             return plan;
         };
-        let camera = camera.or(self.twins.camera);
+        let camera = camera.or(self.variants.camera);
         let Some(camera) = camera else {
             // Menus and what else is flat needs none.
             if !gl.is_enabled(c::DEPTH_TEST) {
@@ -219,7 +230,7 @@ impl Layer {
             );
             return plan;
         };
-        self.twins.camera = Some(camera);
+        self.variants.camera = Some(camera);
         self.rig.latch(&camera);
         let ruled = matches!(classed.why, Why::Rule(_));
         let hud = plan.shear.map_or(Flat::Still, Flat::By);
@@ -243,7 +254,7 @@ impl Layer {
             method: Method::Replay,
             class,
             shear,
-            twin: true,
+            variant: true,
             flat,
             ..plan
         }
@@ -252,23 +263,23 @@ impl Layer {
     /// Whether the program in use has a perspective now, and what it draws gets depths: a scene's vertices, wherever they are. What fills
     /// the screen by such a program has none.
     fn fills_depths(&mut self, gl: &Gl) -> bool {
-        self.state.look(gl, Touch::DEPTH);
-        let known = self.twins.known.get(&self.state.program);
-        self.state.look.depth == DepthState::On && known.is_some_and(|known| !known.lost)
+        self.state.read_classification(gl, Touch::DEPTH);
+        let known = self.variants.known.get(&self.state.program);
+        self.state.classification.depth == DepthState::On && known.is_some_and(|known| !known.lost)
     }
 
-    /// The camera that a program with a twin has, where it has one; none for other programs.
-    #[allow(clippy::option_option, reason = "a twin, and a camera")]
+    /// The camera that a program with a variant has, where it has one; none for other programs.
+    #[allow(clippy::option_option, reason = "a variant, and a camera")]
     pub(super) fn camera_of(&mut self, gl: &Gl, program: u32) -> Option<Option<[f32; 16]>> {
         let aspect = self.aspect();
-        let Some(Known {
-            how: Ok(Drawn::ByTwin(_)),
+        let Some(ProgramRecord {
+            how: Ok(Drawn::ByVariant(_)),
             matrices,
             camera,
             lost,
             seen,
             ..
-        }) = self.twins.known.get_mut(&program)
+        }) = self.variants.known.get_mut(&program)
         else {
             return None;
         };
@@ -313,7 +324,7 @@ impl Layer {
 
     /// What the scene that is being drawn is projected by, as it is and as a projection alone.
     pub(super) fn projections(&self) -> [[f32; 16]; 2] {
-        let known = self.twins.known.get(&self.state.program);
+        let known = self.variants.known.get(&self.state.program);
         let camera = known.and_then(|known| known.camera);
         let fixed = || [self.state.projection; 2];
         camera.map_or_else(fixed, |camera| [camera.matrix, camera.projection])
@@ -328,7 +339,7 @@ impl Layer {
         self.know(gl, program);
         self.camera_of(gl, program)?;
         let lost = self
-            .twins
+            .variants
             .known
             .get(&program)
             .is_none_or(|known| known.lost);
@@ -341,7 +352,7 @@ impl Layer {
     /// The matrices by which a program computes positions from depths, with their locations.
     pub(super) fn unprojections_of(&mut self, gl: &Gl, program: u32) -> Vec<(i32, [f32; 16])> {
         let (change, aspect) = (uniform_change(), self.aspect());
-        let Some(known) = self.twins.known.get_mut(&program) else {
+        let Some(known) = self.variants.known.get_mut(&program) else {
             return Vec::new();
         };
         if (known.unprojections.0, known.unprojections.1) != (change, aspect) {
@@ -355,7 +366,7 @@ impl Layer {
     /// The texture units that a program samples, counted from 0, with the targets.
     pub(super) fn units_of(&mut self, gl: &Gl, program: u32) -> Vec<(u32, u32)> {
         self.know(gl, program);
-        let Some(known) = self.twins.known.get_mut(&program) else {
+        let Some(known) = self.variants.known.get_mut(&program) else {
             return Vec::new();
         };
         let change = uniform_change();
@@ -368,7 +379,7 @@ impl Layer {
     /// What is bound to the image units that a program loads and stores.
     pub(super) fn images_of(&mut self, gl: &Gl, program: u32) -> Vec<ImageUnit> {
         self.know(gl, program);
-        let known = self.twins.known.get(&program);
+        let known = self.variants.known.get(&program);
         let units = known.map_or_else(Vec::new, |known| known.samplers.image_units(gl, program));
         units
             .into_iter()
@@ -395,7 +406,7 @@ impl Layer {
     /// Learns how a program is drawn, once for each of its links.
     pub(super) fn know(&mut self, gl: &Gl, program: u32) {
         let checked = link_change();
-        let mut known = self.twins.known.get_mut(&program);
+        let mut known = self.variants.known.get_mut(&program);
         if known.as_ref().is_some_and(|known| known.checked == checked) {
             return;
         }
@@ -407,23 +418,23 @@ impl Layer {
         }
         self.state.keep_errors(gl);
         let how = match &linked {
-            Some(linked) => drawn(gl, program, &linked.texts, Way::Alone),
-            None => Err(NoTwin::NoText),
+            Some(linked) => drawn(gl, program, &linked.texts, VariantKind::Alone),
+            None => Err(NoVariant::NoText),
         };
         let matrices = Matrices::of(gl, program);
         let samplers = Samplers::of(gl, program);
         self.drain_own_errors(gl);
         match &how {
-            Ok(Drawn::ByTwin(_)) => {
+            Ok(Drawn::ByVariant(_)) => {
                 self.programs.compiled += 1;
                 self.report.shaders(self.programs.compiled);
             }
-            Ok(Drawn::ByMatrix) | Err(NoTwin::Computes) => {}
+            Ok(Drawn::ByMatrix) | Err(NoVariant::Computes) => {}
             Err(reason) => self.report.note(format!(
                 "what program {program} draws is the same in all views: {reason}"
             )),
         }
-        let new = Known {
+        let new = ProgramRecord {
             link,
             checked,
             how,
@@ -436,49 +447,50 @@ impl Layer {
             seen: 0,
             followed: [0; 4],
             layered: [None, None],
-            bent: None,
+            distorting: None,
         };
-        if let Some(old) = self.twins.known.insert(program, new) {
-            old.twins().for_each(|twin| gl.delete_program(twin));
+        if let Some(old) = self.variants.known.insert(program, new) {
+            old.variants()
+                .for_each(|variant| gl.delete_program(variant));
         }
     }
 
-    /// Makes the twin that bends rays, once for each link; or why there is none.
-    pub(super) fn know_bent(&mut self, gl: &Gl, program: u32) -> Result<(), String> {
-        let told = |made: &Result<Twin, NoTwin>| match made {
+    /// Makes the variant that distorts rays, once for each link; or why there is none.
+    pub(super) fn link_distorting(&mut self, gl: &Gl, program: u32) -> Result<(), String> {
+        let told = |made: &Result<Variant, NoVariant>| match made {
             Ok(_) => Ok(()),
             Err(reason) => Err(reason.to_string()),
         };
-        let known = self.twins.known.get(&program);
-        if let Some(made) = known.and_then(|known| known.bent.as_ref()) {
+        let known = self.variants.known.get(&program);
+        if let Some(made) = known.and_then(|known| known.distorting.as_ref()) {
             return told(made);
         }
         let linked = self.linked_from(program);
         self.state.keep_errors(gl);
         let made = match linked {
-            Some(linked) => drawn(gl, program, &linked.texts, Way::Bent),
-            None => Err(NoTwin::NoText),
+            Some(linked) => drawn(gl, program, &linked.texts, VariantKind::DistortedRays),
+            None => Err(NoVariant::NoText),
         };
         self.drain_own_errors(gl);
-        let twin = made.and_then(|made| match made {
-            Drawn::ByTwin(twin) => Ok(twin),
-            Drawn::ByMatrix => Err(NoTwin::NoVertex),
+        let variant = made.and_then(|made| match made {
+            Drawn::ByVariant(variant) => Ok(variant),
+            Drawn::ByMatrix => Err(NoVariant::NoVertex),
         });
-        let answer = told(&twin);
+        let answer = told(&variant);
         if answer.is_ok() {
             self.programs.compiled += 1;
             self.report.shaders(self.programs.compiled);
         }
-        if let Some(known) = self.twins.known.get_mut(&program) {
-            known.bent = Some(twin);
+        if let Some(known) = self.variants.known.get_mut(&program) {
+            known.distorting = Some(variant);
         }
         answer
     }
 
-    /// Makes the twin that chooses layers, for one view or for all, where the driver can and once for each link; whether it is there.
+    /// Makes the variant that chooses layers, for one view or for all, where the driver can and once for each link; whether it is there.
     pub(super) fn know_layers(&mut self, gl: &Gl, program: u32, all: bool) -> bool {
         let at = usize::from(all);
-        let known = self.twins.known.get(&program);
+        let known = self.variants.known.get(&program);
         match known.and_then(|known| known.layered.get(at)) {
             Some(None) => {}
             Some(Some(made)) => return made.is_some(),
@@ -486,8 +498,8 @@ impl Layer {
         }
         let linked = self.linked_from(program);
         let way = self.support.vertex_layer.map(|by| match all {
-            true => Way::Instances(by, self.config.views),
-            false => Way::Layer(by),
+            true => VariantKind::Instances(by, self.config.views),
+            false => VariantKind::Layer(by),
         });
         self.state.keep_errors(gl);
         let made = match (linked, way) {
@@ -495,18 +507,18 @@ impl Layer {
             _ => None,
         };
         self.drain_own_errors(gl);
-        let twin = match made {
-            Some(Drawn::ByTwin(twin)) => Some(twin),
+        let variant = match made {
+            Some(Drawn::ByVariant(variant)) => Some(variant),
             _ => None,
         };
-        let there = twin.is_some();
+        let there = variant.is_some();
         if there {
             self.programs.compiled += 1;
             self.report.shaders(self.programs.compiled);
         }
-        let known = self.twins.known.get_mut(&program);
+        let known = self.variants.known.get_mut(&program);
         if let Some(slot) = known.and_then(|known| known.layered.get_mut(at)) {
-            *slot = Some(twin);
+            *slot = Some(variant);
         }
         there
     }

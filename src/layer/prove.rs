@@ -6,9 +6,9 @@
 //! them: the same number by the strategy that was chosen and by nothing but replay, in turns.
 
 use super::{Layer, explain, frame::tile, keep_bindings, make_atlas};
-use crate::atlas::{Atlas, Grid, Shown};
+use crate::atlas::{Atlas, Grid, ViewSet};
 use crate::config::{Output, Strategy, Word};
-use crate::draw::{Again, replay};
+use crate::draw::{ReplayHazard, replay};
 use crate::gl::{Gl, consts as c};
 use crate::metric::triptych;
 use crate::plan::{Facts, Kind, Method, Plan, Shear};
@@ -88,7 +88,7 @@ struct Search {
 }
 
 impl Search {
-    fn settle(&mut self, [exact, shown]: &[RgbImage; 2]) {
+    fn attribute(&mut self, [exact, shown]: &[RgbImage; 2]) {
         self.pending = false;
         self.since.resize(exact.pixels().len(), 0);
         let pixels = exact.pixels().zip(shown.pixels());
@@ -187,7 +187,7 @@ impl Layer {
             _ if facts.kind == Kind::Accum => self.proving.refuse(ACCUM),
             _ => {}
         }
-        self.settle(gl);
+        self.attribute_last_draw(gl);
         if let Some(search) = &mut self.proving.search {
             search.draws.push(Drawn {
                 facts: *facts,
@@ -203,7 +203,7 @@ impl Layer {
         &mut self,
         gl: &Gl,
         shear: Option<Shear>,
-        again: Again,
+        hazard: ReplayHazard,
         call: &mut dyn FnMut(u32),
     ) {
         if !self.proving.proves() {
@@ -218,7 +218,7 @@ impl Layer {
         let mut sent = true;
         self.in_proof(gl, |layer| {
             let (atlas, state, rig) = (&mut layer.atlas, &layer.state, &layer.rig);
-            sent = replay(gl, atlas, state, rig, shear, again, false, call);
+            sent = replay(gl, atlas, state, rig, shear, hazard, false, call);
         });
         if !sent {
             self.proving.refuse(STACK);
@@ -258,7 +258,7 @@ impl Layer {
             return None;
         }
         self.change_places();
-        self.atlas.resolve(gl, &Shown::ALL, c::COLOR_BUFFER_BIT);
+        self.atlas.resolve(gl, &ViewSet::ALL, c::COLOR_BUFFER_BIT);
         gl.bind_framebuffer(c::FRAMEBUFFER, 0);
         self.draw_picture(gl, image, None);
         self.change_places();
@@ -319,7 +319,7 @@ impl Layer {
             };
             if let Some(search) = search.as_mut().filter(|search| search.view == view) {
                 if search.pending {
-                    search.settle(&pair);
+                    search.attribute(&pair);
                 }
                 culprit = search.culprit(frame, pair[0].width(), &difference);
             }
@@ -357,9 +357,9 @@ impl Layer {
     }
 
     fn resolve_both(&self, gl: &Gl) {
-        self.atlas.resolve(gl, &Shown::ALL, c::COLOR_BUFFER_BIT);
+        self.atlas.resolve(gl, &ViewSet::ALL, c::COLOR_BUFFER_BIT);
         if let Some(other) = &self.proving.atlas {
-            other.resolve(gl, &Shown::ALL, c::COLOR_BUFFER_BIT);
+            other.resolve(gl, &ViewSet::ALL, c::COLOR_BUFFER_BIT);
         }
     }
 
@@ -378,7 +378,7 @@ impl Layer {
     }
 
     /// Before a draw: what has the one before it changed?
-    fn settle(&mut self, gl: &Gl) {
+    fn attribute_last_draw(&mut self, gl: &Gl) {
         let Some(mut search) = self.proving.search.take() else {
             return;
         };
@@ -400,7 +400,7 @@ impl Layer {
             self.rebind(gl);
             self.queries.put_condition(gl);
             self.queries.resume(gl);
-            search.settle(&pair);
+            search.attribute(&pair);
         }
         self.proving.search = Some(search);
     }
@@ -438,7 +438,7 @@ impl Layer {
         }
         if self.proving.atlas.is_none() {
             let (names, config, state) = (&mut self.names, self.config, &self.state);
-            let strategy = self.means.strategy;
+            let strategy = self.capabilities.strategy;
             match make_atlas(
                 gl,
                 names,
@@ -502,7 +502,7 @@ impl Layer {
             if full {
                 self.hand_over(gl);
             }
-            self.means.strategy = Strategy::Replay;
+            self.capabilities.strategy = Strategy::Replay;
             self.put_other(gl);
         }
     }
@@ -510,7 +510,7 @@ impl Layer {
     /// After a frame by replay alone; `whole`: the frame is at its end.
     fn choose_again(&mut self, gl: &Gl, whole: bool) {
         self.proving.now = Now::Plain;
-        self.means.strategy = self.chosen();
+        self.capabilities.strategy = self.chosen();
         let full = |atlas: &Atlas| atlas.tiles.grid.is_full();
         if whole && self.proving.atlas.as_ref().is_some_and(full) {
             self.hand_over(gl);

@@ -2,8 +2,8 @@
 //! others cannot hold.
 
 use super::Layer;
-use crate::atlas::{Grid, Shown};
-use crate::config::{CaptureWhat, Config, Filter, Output, Saving, ViewScale};
+use crate::atlas::{Grid, ViewSet};
+use crate::config::{CaptureWhat, Config, Filter, Optimisation, Output, ViewScale};
 use crate::display::{Display, Placement};
 use crate::gl::{Gl, consts as c};
 use crate::interleave::Form;
@@ -14,7 +14,7 @@ use crate::plan::Kind;
 pub(super) enum Detail {
     /// Triangles over the whole window.
     #[default]
-    Lenses,
+    SampleAligned,
     /// Anything that has a size in the window's pixels.
     Scaled,
     /// Everything.
@@ -40,8 +40,8 @@ pub(super) fn grid(
         (ViewScale::Fixed(scale), _) => scaled([scale; 2]),
         (ViewScale::Auto, detail) => {
             let form = Form::of(config, display, output);
-            (detail == Detail::Lenses && shader)
-                .then(|| form.lenses(placement, config.views))
+            (detail == Detail::SampleAligned && shader)
+                .then(|| form.sample_aligned(placement, config.views))
                 .flatten()
                 .unwrap_or_else(|| scaled(form.share(config.views)))
         }
@@ -78,7 +78,7 @@ impl Layer {
         if gl.is_enabled(c::POLYGON_STIPPLE) {
             return self.hold_everything(gl, "draws stippled polygons");
         }
-        if grid.follows_lenses() {
+        if grid.is_sample_aligned() {
             let thin = match kind {
                 Kind::Begin(mode) | Kind::Arrays(mode) | Kind::Elements(mode) => {
                     mode <= c::LINE_STRIP
@@ -94,7 +94,7 @@ impl Layer {
 
     /// Before a run of a display list; `thin`: it may have lines or points.
     pub(super) fn hold_list(&mut self, gl: &Gl, thin: bool) {
-        if thin && self.atlas.tiles.grid.follows_lenses() {
+        if thin && self.atlas.tiles.grid.is_sample_aligned() {
             self.give_up(
                 gl,
                 Detail::Scaled,
@@ -140,14 +140,14 @@ impl Layer {
         let (grid, size) = self.wanted();
         let tiles = &self.atlas.tiles;
         if size != [tiles.width, tiles.height]
-            || grid.follows_lenses() != tiles.grid.follows_lenses()
+            || grid.is_sample_aligned() != tiles.grid.is_sample_aligned()
         {
             self.remake(gl);
         }
     }
 
     /// After it: the window may have moved, and the next frame is drawn where its lenses are now.
-    pub(super) fn follow_lenses(&mut self) {
+    pub(super) fn realign_tiles(&mut self) {
         if self.proving.replays() {
             return;
         }
@@ -160,8 +160,8 @@ impl Layer {
     }
 
     /// The views that the next frame is drawn in.
-    pub(super) fn shown(&self) -> Shown {
-        if self.rests() {
+    pub(super) fn shown(&self) -> ViewSet {
+        if self.is_mono() {
             return [].into_iter().collect();
         }
         if self.synthesis.is_on() {
@@ -171,21 +171,21 @@ impl Layer {
     }
 
     /// The views that have to be drawn where they are not all the same.
-    pub(super) fn wanted_views(&self) -> Shown {
+    pub(super) fn wanted_views(&self) -> ViewSet {
         let captured = self.config.capture.as_ref().map(|capture| capture.what);
         // What is proved is compared view by view.
         if self.undrawn
-            || self.config.without.has(Saving::Unseen)
+            || self.config.disabled.has(Optimisation::Unseen)
             || self.config.prove.is_some()
             || captured.is_some_and(|what| what != CaptureWhat::Output)
         {
-            return Shown::ALL;
+            return ViewSet::ALL;
         }
         self.seen()
     }
 
     /// The views that are in the picture.
-    fn seen(&self) -> Shown {
+    fn seen(&self) -> ViewSet {
         let last = self.config.views - 1;
         match self.output() {
             Output::Panel if self.config.filter == Filter::Nearest => self.interleaver.shown(),
@@ -194,7 +194,7 @@ impl Layer {
             }
             Output::View(view) => [view].into_iter().collect(),
             Output::Rgbd => [].into_iter().collect(),
-            _ => Shown::ALL,
+            _ => ViewSet::ALL,
         }
     }
 
@@ -206,7 +206,7 @@ impl Layer {
                 [].into_iter().collect()
             }
             CaptureWhat::View(view) => [view].into_iter().collect(),
-            CaptureWhat::Atlas => Shown::ALL,
+            CaptureWhat::Atlas => ViewSet::ALL,
         };
         let tiles = &self.atlas.tiles;
         self.undrawn = (0..tiles.views).any(|view| needed.has(view) && !tiles.draws(view));

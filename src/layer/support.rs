@@ -201,7 +201,7 @@ mod tests {
         };
         assert_eq!(es.strategies(), ["replay"]);
         assert!(es.notes()[0].contains("OpenGL ES"), "{:?}", es.notes());
-        // Programs have shaders of their own in a core profile, whose twins choose layers.
+        // Programs have shaders of their own in a core profile, whose variants choose layers.
         let core = Support {
             vertex_layer: Some(VertexLayer::ArbShaderViewportLayerArray),
             ..support(450, false, 0)

@@ -8,14 +8,14 @@
 mod samples;
 mod surface;
 
-use super::occlusion::{Bent, REACH};
+use super::occlusion::{REACH, ReferenceImage};
 use super::{Layer, keep_bindings};
-use crate::atlas::{FieldTextures, Shown};
+use crate::atlas::{PyramidTextures, ViewSet};
 use crate::config::{
-    Behind, CaptureWhat, Class, Config, DepthState, Filter, Output, TrueViews, Viewport,
+    CaptureWhat, Class, Config, DepthState, DisocclusionSource, Filter, Output, TrueViews, Viewport,
 };
 use crate::gl::{Gl, consts as c};
-use crate::interleave::{Heights, Places, Sources};
+use crate::interleave::{Disparities, Places, Sources};
 use crate::plan::{Classed, Governor, Kind, Method, Plan, Ramp, Reason, Shear};
 use crate::present::Saved;
 use crate::state::{BACK, Touch};
@@ -30,9 +30,9 @@ const MARGIN: f64 = 4.0;
 #[derive(Clone, Copy, Debug, Default)]
 struct Scene {
     /// What it is projected by.
-    look: Option<Look>,
+    mapping: Option<DisparityMapping>,
     /// What stands before everything, by the same projection in a part of the depth range, and up to which depth.
-    before: Option<(Look, f64)>,
+    before: Option<(DisparityMapping, f64)>,
     /// Something stands infinitely far behind it.
     sky: bool,
     /// Something else than a clear has been drawn.
@@ -45,14 +45,14 @@ struct Scene {
 
 /// How depths become disparities.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Look {
+pub(super) struct DisparityMapping {
     ramp: Ramp,
     shear: Shear,
     viewport: [i32; 4],
 }
 
-impl Look {
-    fn is_like(&self, other: &Look) -> bool {
+impl DisparityMapping {
+    fn is_like(&self, other: &DisparityMapping) -> bool {
         self.ramp.is_like(&other.ramp)
             && self.viewport == other.viewport
             && self.shear.conv == other.shear.conv
@@ -62,8 +62,8 @@ impl Look {
 
 impl Scene {
     /// Whether what is projected so belongs to it.
-    fn takes(&mut self, new: Look) -> bool {
-        let known = self.look.get_or_insert(new);
+    fn takes(&mut self, new: DisparityMapping) -> bool {
+        let known = self.mapping.get_or_insert(new);
         if known.is_like(&new) {
             return true;
         }
@@ -80,7 +80,7 @@ impl Scene {
         self.before = match (first.ramp.beyond(&new.ramp), new.ramp.beyond(&first.ramp)) {
             (Some(depth), _) => Some((new, depth)),
             (_, Some(depth)) => {
-                self.look = Some(new);
+                self.mapping = Some(new);
                 Some((first, depth))
             }
             _ => None,
@@ -89,7 +89,7 @@ impl Scene {
     }
 }
 
-/// Views that are made, not drawn.
+/// Synthesised views, not drawn.
 #[derive(Debug, Default)]
 pub(super) struct Synthesis {
     /// Made when the strategy is asked for; none where the driver cannot.
@@ -104,10 +104,10 @@ pub(super) struct Synthesis {
     drew: Option<u32>,
     /// The views of this frame are made.
     done: bool,
-    pub(super) bent: Bent,
+    pub(super) reference: ReferenceImage,
     pub(super) surfaces: Surfaces,
     /// While a panel's picture is made straight from the views that are drawn.
-    pub(super) field: Option<(FieldTextures, Heights)>,
+    pub(super) pyramid: Option<(PyramidTextures, Disparities)>,
     /// Of this frame's scene, where they are to be written.
     samples: Option<Samples>,
 }
@@ -128,11 +128,11 @@ impl Number {
     fn of(config: &Config) -> Number {
         match (config.synthesis(), config.true_views) {
             // More are no sources for others.
-            (Some(Behind::Views), TrueViews::Fixed(count)) if count > Sources::MOST => {
+            (Some(DisocclusionSource::Views), TrueViews::Fixed(count)) if count > Sources::MOST => {
                 Number::Fixed(config.views)
             }
-            (Some(Behind::Views), TrueViews::Fixed(count)) => Number::Fixed(count),
-            (Some(Behind::Views), TrueViews::Rate(rate)) => {
+            (Some(DisocclusionSource::Views), TrueViews::Fixed(count)) => Number::Fixed(count),
+            (Some(DisocclusionSource::Views), TrueViews::Rate(rate)) => {
                 Number::Governed(Governor::new(rate, config.views, Sources::MOST))
             }
             _ => Number::One,
@@ -179,7 +179,7 @@ impl Synthesis {
     }
 
     /// They, beside the own one.
-    pub(super) fn drawn(&self) -> Shown {
+    pub(super) fn drawn(&self) -> ViewSet {
         let sources = self.sources.iter();
         sources.flat_map(|sources| sources.iter()).collect()
     }
@@ -195,7 +195,7 @@ impl Synthesis {
     }
 
     /// A frame took so many milliseconds.
-    pub(super) fn follow(&mut self, ms: f32) {
+    pub(super) fn adapt(&mut self, ms: f32) {
         if let Number::Governed(governor) = &mut self.number {
             governor.frame(ms);
         }
@@ -204,8 +204,8 @@ impl Synthesis {
 
 impl Layer {
     /// Before a draw that is planned: it goes to the views that are drawn alone, or the others are made.
-    pub(super) fn keep_own(&mut self, gl: &Gl, kind: Kind, plan: &Plan, classed: &Classed) {
-        self.synthesis.bent.next = None;
+    pub(super) fn watch_synthesis(&mut self, gl: &Gl, kind: Kind, plan: &Plan, classed: &Classed) {
+        self.synthesis.reference.next = None;
         let drawn = plan.method != Method::Once && self.state.draws_to_window();
         if self.synthesis.passes.is_none() || !drawn {
             return;
@@ -221,10 +221,10 @@ impl Layer {
             return;
         };
         match self.stays(gl, kind, plan, classed, &mut scene) {
-            Ok(look) => {
+            Ok(mapping) => {
                 scene.begun = true;
-                if let Some(look) = look {
-                    self.expect_bent(kind, &look);
+                if let Some(mapping) = mapping {
+                    self.expect_reference(kind, &mapping);
                 }
                 self.synthesis.scene = Some(scene);
             }
@@ -269,7 +269,7 @@ impl Layer {
         }
         // What was shown last is no more.
         self.synthesis.scene = None;
-        self.part(gl);
+        self.leave_mono(gl);
         self.synthesis.surfaces.forget();
         self.synthesis.sources = sources;
         self.synthesis.scene = Some(Scene {
@@ -277,7 +277,7 @@ impl Layer {
             ..Scene::default()
         });
         self.atlas.tiles.shown = self.shown();
-        self.begin_bent(gl);
+        self.begin_reference(gl);
     }
 
     /// Whether the scissor leaves all of the window.
@@ -314,14 +314,14 @@ impl Layer {
         plan: &Plan,
         classed: &Classed,
         scene: &mut Scene,
-    ) -> Result<Option<Look>, &'static str> {
+    ) -> Result<Option<DisparityMapping>, &'static str> {
         let groups = Touch::RANGE | Touch::DEPTH | Touch::COVER;
-        self.state.look(gl, groups);
-        let depth = self.state.look.depth;
-        if self.state.look.stencil {
+        self.state.read_classification(gl, groups);
+        let depth = self.state.classification.depth;
+        if self.state.classification.stencil {
             return Err("draws with a stencil test");
         }
-        if self.state.look.stipple {
+        if self.state.classification.stipple {
             return Err("draws with a stipple of the screen's");
         }
         if matches!(kind, Kind::Accum | Kind::Pixels) || !self.sampled.is_empty() {
@@ -332,14 +332,14 @@ impl Layer {
         }
         match plan.class {
             Class::Sky if depth == DepthState::On => Err("a sky with depths"),
-            Class::Sky if depth == DepthState::Off && scene.look.is_some() => {
+            Class::Sky if depth == DepthState::Off && scene.mapping.is_some() => {
                 Err("a sky over the scene")
             }
             Class::Sky => {
                 scene.sky = true;
                 Ok(None)
             }
-            Class::Flat if scene.look.is_some() => Err("what is flat"),
+            Class::Flat if scene.mapping.is_some() => Err("what is flat"),
             Class::Flat if plan.shear.is_some() || depth == DepthState::On => {
                 Err("what is flat and stands elsewhere than on the panel")
             }
@@ -347,7 +347,7 @@ impl Layer {
             Class::Scene => {
                 let shear = plan.shear.ok_or("a scene without parallax")?;
                 let [matrix, _] = self.projections();
-                let look = &self.state.look;
+                let look = &self.state.classification;
                 let ramp = Ramp::of(&matrix, look.depths, look.zero_to_one);
                 let ramp = ramp.ok_or("a projection without depths")?;
                 // Another pass over what is there has its depths.
@@ -360,9 +360,9 @@ impl Layer {
                     });
                 }
                 if shown {
-                    self.keep_surface(gl);
+                    self.capture_surface(gl);
                 }
-                let new = Look {
+                let new = DisparityMapping {
                     ramp,
                     shear,
                     viewport: self.state.viewport,
@@ -388,8 +388,8 @@ impl Layer {
         self.queries.pause(gl);
         self.queries.lift_condition(gl);
         let saved = Saved::take(gl, self.state.compatibility);
-        self.reading(gl, BACK, |layer| match scene.look {
-            Some(look) if layer.has_field(gl) => layer.make_of(gl, &scene, &look),
+        self.reading(gl, BACK, |layer| match scene.mapping {
+            Some(mapping) if layer.has_pyramid(gl) => layer.make_of(gl, &scene, &mapping),
             _ => layer.atlas.share_own(gl),
         });
         saved.restore(gl);
@@ -399,16 +399,16 @@ impl Layer {
     }
 
     /// The state is as [`Saved::take`] leaves it; changes the framebuffers that are bound.
-    fn make_of(&mut self, gl: &Gl, scene: &Scene, look: &Look) {
-        let heights = self.heights(scene, look);
+    fn make_of(&mut self, gl: &Gl, scene: &Scene, mapping: &DisparityMapping) {
+        let disparities = self.disparities(scene, mapping);
         self.resolve_sources(gl);
-        self.take_samples(gl, scene, look);
+        self.take_samples(gl, scene, mapping);
         let (sources, own) = (self.synthesis.sources, self.atlas.tiles.own());
         match sources {
-            Some(sources) => self.atlas.take_field(gl, sources.iter()),
-            None => self.atlas.take_field(gl, [own].into_iter()),
+            Some(sources) => self.atlas.copy_to_pyramid(gl, sources.iter()),
+            None => self.atlas.copy_to_pyramid(gl, [own].into_iter()),
         }
-        let Some(textures) = self.measure(gl, &heights, true) else {
+        let Some(textures) = self.measure(gl, &disparities, true) else {
             return self.atlas.share_own(gl);
         };
         let Some(passes) = &self.synthesis.passes else {
@@ -425,7 +425,7 @@ impl Layer {
         if srgb {
             gl.enable_srgb(true);
         }
-        passes.views(gl, &mut self.atlas, &heights, &textures);
+        passes.views(gl, &mut self.atlas, &disparities, &textures);
         self.report.synthesised(false);
         if srgb {
             gl.enable_srgb(false);
@@ -436,8 +436,8 @@ impl Layer {
     }
 
     /// Makes the textures where they are not there.
-    fn has_field(&mut self, gl: &Gl) -> bool {
-        if self.synthesis.passes.is_none() || self.atlas.field(false).is_some() {
+    fn has_pyramid(&mut self, gl: &Gl) -> bool {
+        if self.synthesis.passes.is_none() || self.atlas.pyramid(false).is_some() {
             return self.synthesis.passes.is_some();
         }
         let (names, window) = (&mut self.names, &self.state.window);
@@ -446,7 +446,7 @@ impl Layer {
             Number::Fixed(count) => (*count).min(Sources::MOST),
             Number::Governed(_) => Sources::MOST.min(self.config.views),
         };
-        let made = keep_bindings(gl, || self.atlas.make_field(gl, names, window, layers));
+        let made = keep_bindings(gl, || self.atlas.make_pyramid(gl, names, window, layers));
         if !made {
             self.synthesis.passes = None;
             self.report
@@ -467,51 +467,59 @@ impl Layer {
     }
 
     /// Learns of the views that are drawn, or of their copies, what others need of them; and the map for the next frame.
-    fn measure(&mut self, gl: &Gl, heights: &Heights, copied: bool) -> Option<FieldTextures> {
-        self.synthesis.drew = heights.sources.map(|sources| sources.count());
-        let mut textures = self.atlas.field(copied)?;
+    fn measure(
+        &mut self,
+        gl: &Gl,
+        disparities: &Disparities,
+        copied: bool,
+    ) -> Option<PyramidTextures> {
+        self.synthesis.drew = disparities.sources.map(|sources| sources.count());
+        let mut textures = self.atlas.pyramid(copied)?;
         let passes = self.synthesis.passes.as_ref()?;
-        passes.measure(gl, &mut self.atlas, heights, &textures);
-        self.map_bends(gl, heights);
-        textures.bent = self.atlas.bent().filter(|_| self.synthesis.bent.on);
+        passes.measure(gl, &mut self.atlas, disparities, &textures);
+        self.map_distortion(gl, disparities);
+        textures.reference = self
+            .atlas
+            .reference()
+            .filter(|_| self.synthesis.reference.on);
         Some(textures)
     }
 
     /// Pixels by which a camera one place further sees what is infinitely far to the side.
-    fn far(look: &Look) -> f64 {
-        look.shear.separation(1.0) * f64::from(look.viewport[2]) / 2.0
+    fn far(mapping: &DisparityMapping) -> f64 {
+        mapping.shear.separation(1.0) * f64::from(mapping.viewport[2]) / 2.0
     }
 
-    /// Heights over depths: slope and offset.
-    pub(super) fn height_line(&self, look: &Look) -> [f64; 2] {
-        let size = Self::far(look).abs() * look.shear.conv;
-        look.ramp.line().map(|v| size * v)
+    /// Disparities over depths: slope and offset.
+    pub(super) fn disparity_line(&self, mapping: &DisparityMapping) -> [f64; 2] {
+        let size = Self::far(mapping).abs() * mapping.shear.conv;
+        mapping.ramp.line().map(|v| size * v)
     }
 
-    fn heights(&self, scene: &Scene, look: &Look) -> Heights {
-        let far = Self::far(look);
-        let [scale, offset] = self.height_line(look);
+    fn disparities(&self, scene: &Scene, mapping: &DisparityMapping) -> Disparities {
+        let far = Self::far(mapping);
+        let [scale, offset] = self.disparity_line(mapping);
         let tiles = &self.atlas.tiles;
-        let own = self.rig.place(tiles.own());
-        let levers = [self.rig.place(0) - own, 1.0].map(|place| place * far.signum());
+        let own = self.rig.position(tiles.own());
+        let baselines = [self.rig.position(0) - own, 1.0].map(|place| place * far.signum());
         let step = 0.5f64.powi(self.state.window.bits[4].min(24) as i32);
-        let before = scene.before.map(|(look, to)| {
-            let [scale, offset] = self.height_line(&look);
-            let side = if look.ramp.nearer_is_larger() {
+        let before = scene.before.map(|(mapping, to)| {
+            let [scale, offset] = self.disparity_line(&mapping);
+            let side = if mapping.ramp.nearer_is_larger() {
                 1.0
             } else {
                 -1.0
             };
             [scale, offset, to, side].map(|v| v as f32)
         });
-        Heights {
+        Disparities {
             before: before.unwrap_or_default(),
             scale: scale as f32,
             offset: offset as f32,
             far: far.abs() as f32,
             clear: scene.clear,
             sky: scene.sky,
-            levers: levers.map(|lever| lever as f32),
+            baselines: baselines.map(|baseline| baseline as f32),
             margin: (-scale.signum() * MARGIN * step) as f32,
             aim: (0, 0),
             sources: self.synthesis.sources,
@@ -532,12 +540,12 @@ impl Layer {
             && self.config.filter == Filter::Nearest
             && captured.is_none_or(|what| what == CaptureWhat::Output)
             && !self.undrawn;
-        match scene.look {
-            Some(look) if straight && self.has_field(gl) => {
-                let heights = self.heights(&scene, &look);
+        match scene.mapping {
+            Some(mapping) if straight && self.has_pyramid(gl) => {
+                let disparities = self.disparities(&scene, &mapping);
                 self.resolve_sources(gl);
-                if let Some(textures) = self.measure(gl, &heights, false) {
-                    self.synthesis.field = Some((textures, heights));
+                if let Some(textures) = self.measure(gl, &disparities, false) {
+                    self.synthesis.pyramid = Some((textures, disparities));
                     self.report.synthesised(true);
                 }
             }
@@ -547,7 +555,7 @@ impl Layer {
 
     /// After it. A scene that no other view has goes on until it is cleared.
     pub(super) fn leave_scene(&mut self) {
-        let straight = self.synthesis.field.take().is_some();
+        let straight = self.synthesis.pyramid.take().is_some();
         self.synthesis.scene = self.synthesis.scene.filter(|_| straight);
         if let Some(scene) = &mut self.synthesis.scene {
             scene.shown = true;
@@ -558,6 +566,6 @@ impl Layer {
     /// The tiles are others.
     pub(super) fn forget_scene(&mut self) {
         self.synthesis.scene = None;
-        self.synthesis.bent = Bent::default();
+        self.synthesis.reference = ReferenceImage::default();
     }
 }

@@ -34,7 +34,7 @@ pub(super) struct Array {
 
 /// What of the context decides how images are made.
 #[derive(Clone, Debug)]
-pub(super) struct Means {
+pub(super) struct ImageSupport {
     /// What a texture looks like beside its image.
     parameters: Vec<u32>,
     /// Layers of an array can be textures of their own.
@@ -145,7 +145,7 @@ impl Image {
     }
 
     /// Gives the program's own object what its view has.
-    pub(super) fn settle(&mut self, gl: &Gl, object: Object, own_layer: u32) {
+    pub(super) fn write_back(&mut self, gl: &Gl, object: Object, own_layer: u32) {
         let Some(array) = self.array.as_ref().filter(|_| self.stale) else {
             return;
         };
@@ -179,25 +179,31 @@ impl Image {
 
     /// Binds a view's texture at the active unit, where the program's own is bound or another view's.
     /// `looks`: changes of parameters so far.
-    pub(super) fn bind(&mut self, gl: &Gl, means: &Means, looks: u64, (own, view): (u32, u32)) {
+    pub(super) fn bind(
+        &mut self,
+        gl: &Gl,
+        support: &ImageSupport,
+        looks: u64,
+        (own, view): (u32, u32),
+    ) {
         let at = view as usize;
         let (Some(&name), Some(look)) = (self.views.get(at), self.looks.get_mut(at)) else {
             return;
         };
         if name != own && *look != looks && !is_multisampled(self.target) {
             gl.bind_texture(self.target, own);
-            let (values, border) = means.look(gl, self.target);
+            let (values, border) = support.look(gl, self.target);
             gl.bind_texture(self.target, name);
-            means.set_look(gl, self.target, &values, &border);
+            support.set_look(gl, self.target, &values, &border);
             *look = looks;
         }
         gl.bind_texture(self.target, name);
     }
 }
 
-impl Means {
+impl ImageSupport {
     /// Of the current context, with or without fixed function.
-    pub(super) fn of(gl: &Gl, compatibility: bool) -> Means {
+    pub(super) fn of(gl: &Gl, compatibility: bool) -> ImageSupport {
         let mut parameters = PARAMETERS.to_vec();
         if gl.since((3, 3), Some((3, 0))) {
             parameters.extend(SWIZZLES);
@@ -214,7 +220,7 @@ impl Means {
         if gl.has_extension("GL_EXT_texture_filter_anisotropic") || gl.since((4, 6), None) {
             parameters.push(c::TEXTURE_MAX_ANISOTROPY);
         }
-        Means {
+        ImageSupport {
             parameters,
             // In OpenGL ES no shader chooses a layer, so nothing is gained.
             arrays: gl.since((4, 3), None),

@@ -1,6 +1,6 @@
 //! The images of a share group's contexts: textures and renderbuffers are the same in all of them, framebuffers are not.
 
-use super::image::{Image, Means};
+use super::image::{Image, ImageSupport};
 use crate::atlas::{Names, Tiles};
 use crate::gl::{Gl, Object};
 use std::collections::{HashMap, HashSet};
@@ -52,7 +52,7 @@ impl Images {
     pub(super) fn split_texture(
         &mut self,
         gl: &Gl,
-        means: &Means,
+        support: &ImageSupport,
         names: &mut Names,
         (target, texture): (u32, u32),
         tiles: &Tiles,
@@ -60,7 +60,7 @@ impl Images {
         if self.has(Object::Texture(texture)) {
             return true;
         }
-        let Some(image) = means.texture(gl, names, (target, texture), tiles) else {
+        let Some(image) = support.texture(gl, names, (target, texture), tiles) else {
             return false;
         };
         self.insert(Object::Texture(texture), image);
@@ -81,9 +81,9 @@ impl Images {
     }
 
     /// What the program's own objects lack of their view.
-    pub(super) fn settle(&mut self, gl: &Gl, own_layer: u32) {
+    pub(super) fn write_back(&mut self, gl: &Gl, own_layer: u32) {
         for (object, image) in &mut self.all {
-            image.settle(gl, *object, own_layer);
+            image.write_back(gl, *object, own_layer);
         }
     }
 
@@ -95,10 +95,10 @@ impl Images {
     }
 
     /// Binds a view's texture at the active unit, where the program's own is bound or another view's.
-    pub(super) fn bind(&mut self, gl: &Gl, means: &Means, texture: u32, view: u32) {
+    pub(super) fn bind(&mut self, gl: &Gl, support: &ImageSupport, texture: u32, view: u32) {
         let looks = self.looks;
         if let Some(image) = self.all.get_mut(&Object::Texture(texture)) {
-            image.bind(gl, means, looks, (texture, view));
+            image.bind(gl, support, looks, (texture, view));
         }
     }
 

@@ -2,7 +2,7 @@
 //!
 //! The images of the views stand beside the program's own texture or renderbuffer, or, where they cannot be layers of an array, it is
 //! that of its own view. What the program reads back is its own view either way: its object gets that before (see
-//! [`Offscreen::settle`]). A framebuffer with such an image has one framebuffer per view as well, and one with all of them as layers; a
+//! [`Offscreen::write_back`]). A framebuffer with such an image has one framebuffer per view as well, and one with all of them as layers; a
 //! draw that samples such a texture has the texture of its view bound. Nothing is there until something drawn depends on the view:
 //! shadow maps, light maps and whatever else is the same in all views stays one image, drawn once.
 #![forbid(unsafe_code)]
@@ -15,7 +15,7 @@ mod target;
 pub use images::Images;
 pub use target::Target;
 
-use crate::atlas::{Grid, Names, Shown, Tiles};
+use crate::atlas::{Grid, Names, Tiles, ViewSet};
 use crate::gl::{Gl, Object, consts as c};
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -30,7 +30,7 @@ pub struct Offscreen {
     targets: HashMap<u32, Target>,
     /// Framebuffers so far.
     count: u32,
-    means: image::Means,
+    support: image::ImageSupport,
     /// Those of a framebuffer, one in a layer.
     tiles: Tiles,
     /// Texture units of the context that are looked at.
@@ -56,13 +56,13 @@ impl Offscreen {
             images,
             targets: HashMap::new(),
             count: 0,
-            means: image::Means::of(gl, compatibility),
+            support: image::ImageSupport::of(gl, compatibility),
             units: units.clamp(1, 32) as u32,
             tiles: Tiles {
                 views,
                 window: [0; 2],
                 grid: Grid::FULL,
-                shown: Shown::ALL,
+                shown: ViewSet::ALL,
                 width: 0,
                 height: 0,
                 stride: STRIDE,
@@ -139,7 +139,7 @@ impl Offscreen {
     ) -> bool {
         let at = (target, texture);
         self.images()
-            .split_texture(gl, &self.means, names, at, &self.tiles)
+            .split_texture(gl, &self.support, names, at, &self.tiles)
     }
 
     /// The same of a texture by its name, whatever its target.
@@ -149,9 +149,9 @@ impl Offscreen {
     }
 
     /// What the program's own objects lack of their view.
-    pub fn settle(&mut self, gl: &Gl) {
+    pub fn write_back(&mut self, gl: &Gl) {
         let layer = self.tiles.slot(self.tiles.own());
-        self.images().settle(gl, layer);
+        self.images().write_back(gl, layer);
     }
 
     /// Something is drawn or copied to a framebuffer that each view has its own of.
@@ -171,8 +171,8 @@ impl Offscreen {
     pub fn split(&mut self, gl: &Gl, names: &mut Names, framebuffer: u32) -> bool {
         let attachments = self.target(gl, framebuffer).attachments.clone();
         // A name that glGenTextures has not made is none that a layer can have.
-        let mut means = self.means.clone();
-        means.arrays &= !names.hidden();
+        let mut support = self.support.clone();
+        support.arrays &= !names.hidden();
         let (shared, tiles) = (self.images.clone(), self.tiles);
         let mut images = locked(&shared);
         for attachment in attachments {
@@ -182,17 +182,17 @@ impl Offscreen {
             let done = match attachment.object {
                 Object::Texture(name) => image::with_texture(gl, name, |target| {
                     let at = (target, name);
-                    match means.texture_layers(gl, at, &tiles) {
+                    match support.texture_layers(gl, at, &tiles) {
                         Some(image) => {
                             images.insert(attachment.object, image);
                             true
                         }
-                        None => images.split_texture(gl, &means, names, at, &tiles),
+                        None => images.split_texture(gl, &support, names, at, &tiles),
                     }
                 }),
                 Object::Renderbuffer(name) => {
-                    let image = means.renderbuffer_layers(gl, name, &tiles);
-                    let image = image.unwrap_or_else(|| means.renderbuffer(gl, name, &tiles));
+                    let image = support.renderbuffer_layers(gl, name, &tiles);
+                    let image = image.unwrap_or_else(|| support.renderbuffer(gl, name, &tiles));
                     images.insert(attachment.object, image);
                     Some(true)
                 }
@@ -223,7 +223,7 @@ impl Offscreen {
     pub fn target(&mut self, gl: &Gl, framebuffer: u32) -> &mut Target {
         let target = self.targets.entry(framebuffer);
         let target = target.or_insert_with(|| Target::new(framebuffer, self.tiles));
-        target.follow(gl, &locked(&self.images));
+        target.reattach(gl, &locked(&self.images));
         target
     }
 
@@ -250,7 +250,7 @@ impl Offscreen {
     }
 
     /// Takes the framebuffers of the views, where there are some, for as long as they are drawn to.
-    pub fn take(&mut self, framebuffer: u32, shown: Shown) -> Option<Target> {
+    pub fn take(&mut self, framebuffer: u32, shown: ViewSet) -> Option<Target> {
         self.targets.get(&framebuffer).filter(|t| t.is_made())?;
         let mut target = self.targets.remove(&framebuffer)?;
         target.show(shown);
@@ -314,7 +314,7 @@ impl Offscreen {
         let mut images = self.images();
         for b in bound {
             gl.active_texture(b.unit);
-            images.bind(gl, &self.means, b.texture, view);
+            images.bind(gl, &self.support, b.texture, view);
         }
         gl.active_texture(active);
     }
@@ -346,7 +346,7 @@ impl Offscreen {
 
     /// All images.
     pub fn clear(&mut self, gl: &Gl) {
-        self.settle(gl);
+        self.write_back(gl);
         self.images().clear(gl);
         for (_, target) in self.targets.drain() {
             target.delete(gl);

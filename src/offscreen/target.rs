@@ -2,7 +2,7 @@
 
 use super::image::Image;
 use super::images::Images;
-use crate::atlas::{Shown, Surface, Tiles};
+use crate::atlas::{Surface, Tiles, ViewSet};
 use crate::gl::{Attachment, Gl, Object, consts as c};
 
 /// One framebuffer of the program's.
@@ -95,7 +95,7 @@ impl Target {
     }
 
     /// Reads it again where something has changed since; changes nothing of the program's state. What no longer fits is dropped.
-    pub(super) fn follow(&mut self, gl: &Gl, images: &Images) {
+    pub(super) fn reattach(&mut self, gl: &Gl, images: &Images) {
         if std::mem::replace(&mut self.seen, images.changes) == images.changes {
             return;
         }
@@ -209,7 +209,7 @@ impl Target {
     }
 
     /// The views that are drawn from now on.
-    pub(super) fn show(&mut self, shown: Shown) {
+    pub(super) fn show(&mut self, shown: ViewSet) {
         self.tiles.shown = shown;
     }
 

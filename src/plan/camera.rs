@@ -87,7 +87,7 @@ pub fn unprojects(m: &[f32; 16], aspect: f64) -> bool {
     inverse.is_finite() && !fits(m) && fits(&inverse.as_mat4().to_cols_array())
 }
 
-/// Such an inverse for the camera of the view at a place (see [`super::Rig::place`]): row 0 of the camera gets what the one equation gives it.
+/// Such an inverse for the camera of the view at a place (see [`super::Rig::position`]): row 0 of the camera gets what the one equation gives it.
 pub fn unprojection(m: &[f32; 16], shear: &Shear, place: f64) -> [f32; 16] {
     let separation = shear.separation(place);
     let mut rows = matrix(m).inverse().transpose();

@@ -286,12 +286,12 @@ impl Facts {
             projection: state.projection_kind(),
             viewport: state.viewport_kind(),
             centred: [p[3], p[7], p[12], p[13], p[15]] == [0.0; 5],
-            depth_state: state.look.depth,
-            range: state.look.range,
-            texture: state.look.texture,
+            depth_state: state.classification.depth,
+            range: state.classification.range,
+            texture: state.classification.texture,
             program: 0,
             shader: 0,
-            turns: turns(&state.look.modelview),
+            turns: turns(&state.classification.modelview),
             first: false,
         }
     }

@@ -92,7 +92,7 @@ impl Comfort {
     }
 
     /// Separation and convergence after a frame of which this was seen; none as long as no scene was.
-    pub fn follow(&mut self, seen: &Seen, limits: &Limits) -> Option<(f64, f64)> {
+    pub fn track(&mut self, seen: &Seen, limits: &Limits) -> Option<(f64, f64)> {
         let Some(goal) = self.goal(seen, limits) else {
             return self.cameras;
         };
@@ -206,7 +206,7 @@ mod tests {
     #[test]
     fn near_and_far_have_their_parts_of_the_budget() {
         for (near, far) in [(1.0, 10.0), (4.0, 5000.0), (0.1, f64::INFINITY)] {
-            let cameras = Comfort::new(None).follow(&scene(near, far), &LIMITS);
+            let cameras = Comfort::new(None).track(&scene(near, far), &LIMITS);
             let cameras = cameras.expect("cameras");
             let (front, back) = (disparity(cameras, near), disparity(cameras, far));
             assert!((front + BEFORE * LIMITS.budget).abs() < 1e-12);
@@ -221,7 +221,7 @@ mod tests {
                 orthoscopic,
                 ..LIMITS
             };
-            let cameras = Comfort::new(None).follow(&scene(9.99, 10.01), &limits);
+            let cameras = Comfort::new(None).track(&scene(9.99, 10.01), &limits);
             cameras.map(|c| c.0)
         };
         assert_eq!(separation(0.012), Some(0.012));
@@ -231,11 +231,11 @@ mod tests {
     #[test]
     fn nothing_leaves_the_budget_when_something_comes_near() {
         let mut comfort = Comfort::new(None);
-        comfort.follow(&scene(5.0, 100.0), &LIMITS);
+        comfort.track(&scene(5.0, 100.0), &LIMITS);
         for step in 0..100 {
             let near = 5.0 - 0.049 * f64::from(step);
             let seen = scene(near, 100.0);
-            let cameras = comfort.follow(&seen, &LIMITS).expect("cameras");
+            let cameras = comfort.track(&seen, &LIMITS).expect("cameras");
             let [behind, before] = seen.reach(cameras.1).map(|r| cameras.0 * r / LIMITS.budget);
             assert!(behind <= LIMIT_BEHIND + 1e-9 && before <= LIMIT_BEFORE + 1e-9);
             // The scene keeps its depth.
@@ -248,16 +248,14 @@ mod tests {
             others: Some([0.5, 9.0]),
             ..scene(5.0, 100.0)
         };
-        let cameras = Comfort::new(None)
-            .follow(&weapon, &LIMITS)
-            .expect("cameras");
+        let cameras = Comfort::new(None).track(&weapon, &LIMITS).expect("cameras");
         assert!(cameras.0 * 8.0 <= LIMITS.budget);
     }
 
     #[test]
     fn a_sky_that_appears_is_in_the_budget_before_the_cameras_are() {
         let mut comfort = Comfort::new(None);
-        let before = comfort.follow(&scene(5.0, 8.0), &LIMITS).expect("cameras");
+        let before = comfort.track(&scene(5.0, 8.0), &LIMITS).expect("cameras");
         assert!(before.0 > LIMITS.budget);
         assert!(before.0 * comfort.farthest(before, LIMITS.budget) <= LIMITS.budget);
         let sky = Seen {
@@ -266,7 +264,7 @@ mod tests {
         };
         let mut now = before;
         for _ in 0..100 {
-            now = comfort.follow(&sky, &LIMITS).expect("cameras");
+            now = comfort.track(&sky, &LIMITS).expect("cameras");
         }
         assert_eq!(comfort.farthest(now, LIMITS.budget), 1.0);
         assert!(now.0 < LIMIT_BEHIND * LIMITS.budget);
@@ -275,21 +273,21 @@ mod tests {
     #[test]
     fn a_scene_that_trembles_does_not_move_the_cameras() {
         let mut comfort = Comfort::new(None);
-        let first = comfort.follow(&scene(5.0, 100.0), &LIMITS);
+        let first = comfort.track(&scene(5.0, 100.0), &LIMITS);
         for step in 0..200 {
             let near = 5.0 + 0.3 * (f64::from(step) * 0.7).sin();
-            assert_eq!(comfort.follow(&scene(near, 100.0), &LIMITS), first);
+            assert_eq!(comfort.track(&scene(near, 100.0), &LIMITS), first);
         }
     }
 
     #[test]
     fn another_scene_is_reached_in_small_steps() {
         let mut comfort = Comfort::new(None);
-        let mut before = comfort.follow(&scene(1.0, 10.0), &LIMITS).expect("cameras");
-        let goal = Comfort::new(None).follow(&scene(10.0, 1000.0), &LIMITS);
+        let mut before = comfort.track(&scene(1.0, 10.0), &LIMITS).expect("cameras");
+        let goal = Comfort::new(None).track(&scene(10.0, 1000.0), &LIMITS);
         for _ in 0..400 {
             let now = comfort
-                .follow(&scene(10.0, 1000.0), &LIMITS)
+                .track(&scene(10.0, 1000.0), &LIMITS)
                 .expect("cameras");
             assert!((now.1 / before.1).ln().abs() < 0.08, "{before:?} {now:?}");
             before = now;
@@ -303,7 +301,7 @@ mod tests {
         let seen = scene(2.0, 50.0);
         let at = |kept| {
             Comfort::new(Some(kept))
-                .follow(&seen, &LIMITS)
+                .track(&seen, &LIMITS)
                 .expect("cameras")
         };
         assert_eq!(at(Kept::Separation(0.7)).0, 0.7);
@@ -326,21 +324,21 @@ mod tests {
             ..LIMITS
         };
         for _ in 0..3 {
-            let cameras = comfort.follow(&scene(2.0, 50.0), &nothing);
+            let cameras = comfort.track(&scene(2.0, 50.0), &nothing);
             assert_eq!(cameras.map(|c| c.0), Some(0.0));
         }
-        let cameras = comfort.follow(&scene(2.0, 50.0), &LIMITS);
+        let cameras = comfort.track(&scene(2.0, 50.0), &LIMITS);
         assert_eq!(
             cameras,
-            Comfort::new(None).follow(&scene(2.0, 50.0), &LIMITS)
+            Comfort::new(None).track(&scene(2.0, 50.0), &LIMITS)
         );
     }
 
     #[test]
     fn without_a_scene_nothing_changes() {
         let mut comfort = Comfort::new(None);
-        assert_eq!(comfort.follow(&Seen::default(), &LIMITS), None);
-        let cameras = comfort.follow(&scene(2.0, 50.0), &LIMITS);
-        assert_eq!(comfort.follow(&Seen::default(), &LIMITS), cameras);
+        assert_eq!(comfort.track(&Seen::default(), &LIMITS), None);
+        let cameras = comfort.track(&scene(2.0, 50.0), &LIMITS);
+        assert_eq!(comfort.track(&Seen::default(), &LIMITS), cameras);
     }
 }

@@ -8,7 +8,7 @@ use crate::config::Viewport;
 /// One sample in so many, at the far and at the near end, does not count.
 pub const SPECKS: usize = 200;
 
-/// How many ways of drawing depth are told apart in one picture.
+/// How many mappings of drawing depth are told apart in one picture.
 const MOST: usize = 8;
 
 /// How one projection and depth range turn 1/w into depths: `1/w = slope·depth + offset`.
@@ -92,7 +92,7 @@ impl Ramp {
 
 /// What a scene has been drawn with.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Way {
+pub struct DepthMapping {
     ramp: Ramp,
     /// Its projection.
     pub projection: [f32; 16],
@@ -101,7 +101,7 @@ pub struct Way {
     draws: u32,
 }
 
-impl Way {
+impl DepthMapping {
     /// Draws that were made this way.
     pub fn draws(&self) -> u32 {
         self.draws
@@ -110,24 +110,24 @@ impl Way {
 
 /// What a picture's scene has been drawn with so far.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Ways {
-    ways: Vec<Way>,
+pub struct DepthMappings {
+    mappings: Vec<DepthMapping>,
     /// A sky has been drawn: what has no depth is infinitely far.
     pub sky: bool,
 }
 
-impl Ways {
+impl DepthMappings {
     /// A draw of the scene, in a viewport that is no picture in the picture.
     pub fn drawn(&mut self, ramp: Ramp, p: &[f32; 16], focal: Option<f64>, viewport: Viewport) {
         if viewport == Viewport::Inset {
             return;
         }
         // A camera that is multiplied into the projection leaves roundings.
-        let same = |w: &&mut Way| w.ramp.is_like(&ramp) && w.focal == focal;
-        if let Some(way) = self.ways.iter_mut().rev().find(same) {
+        let same = |w: &&mut DepthMapping| w.ramp.is_like(&ramp) && w.focal == focal;
+        if let Some(way) = self.mappings.iter_mut().rev().find(same) {
             way.draws = way.draws.saturating_add(1);
-        } else if self.ways.len() < MOST {
-            self.ways.push(Way {
+        } else if self.mappings.len() < MOST {
+            self.mappings.push(DepthMapping {
                 ramp,
                 projection: *p,
                 focal,
@@ -138,26 +138,26 @@ impl Ways {
 
     /// The depths are cleared; a sky stays.
     pub fn clear(&mut self) {
-        self.ways.clear();
+        self.mappings.clear();
     }
 
     /// Whether there is anything to measure.
     pub fn is_empty(&self) -> bool {
-        self.ways.is_empty()
+        self.mappings.is_empty()
     }
 
     /// What most of the scene has been drawn with.
-    pub fn most(&self) -> Option<&Way> {
-        self.ways
+    pub fn most(&self) -> Option<&DepthMapping> {
+        self.mappings
             .iter()
             .filter(|w| w.focal.is_none())
             .max_by_key(|w| w.draws)
     }
 
     /// What a depth was drawn with: a weapon in the hand has a narrow range to itself, which the scene's holds too.
-    fn way(&self, depth: f64) -> Option<&Way> {
-        let width = |w: &Way| w.ramp.range[1] - w.ramp.range[0];
-        let within = self.ways.iter().filter(|w| w.ramp.holds(depth));
+    fn mapping(&self, depth: f64) -> Option<&DepthMapping> {
+        let width = |w: &DepthMapping| w.ramp.range[1] - w.ramp.range[0];
+        let within = self.mappings.iter().filter(|w| w.ramp.holds(depth));
         within.min_by(|a, b| {
             width(a)
                 .total_cmp(&width(b))
@@ -172,7 +172,7 @@ impl Ways {
             // Depths of 24 bits come back with the error of one step.
             if (depth - clear).abs() < 1e-7 {
                 found.sky |= self.sky;
-            } else if let Some(way) = self.way(depth.into()) {
+            } else if let Some(way) = self.mapping(depth.into()) {
                 let inverse = way.ramp.inverse(depth.into());
                 match way.focal {
                     None => found.scene.push(inverse),
@@ -332,12 +332,12 @@ mod tests {
         let p = scene.to_cols_array();
         let whole = Ramp::of(&p, [0.0, 1.0], false).expect("a ramp");
         let narrow = Ramp::of(&p, [0.0, 0.3], false).expect("a ramp");
-        let mut ways = Ways::default();
+        let mut mappings = DepthMappings::default();
         for _ in 0..5 {
-            ways.drawn(whole, &p, None, Viewport::Main);
+            mappings.drawn(whole, &p, None, Viewport::Main);
         }
-        ways.drawn(narrow, &p, Some(2.0), Viewport::Main);
-        ways.drawn(narrow, &p, None, Viewport::Inset);
+        mappings.drawn(narrow, &p, Some(2.0), Viewport::Main);
+        mappings.drawn(narrow, &p, None, Viewport::Inset);
         let at = |z: f32, range| depth(scene, Vec4::new(0.0, 0.0, z, 1.0), range, false).0;
         let depths = [
             at(-50.0, [0.0, 1.0]),
@@ -345,12 +345,12 @@ mod tests {
             1.0,
             at(-2.5, [0.0, 0.3]),
         ];
-        let found = ways.distances(&depths, 1.0);
+        let found = mappings.distances(&depths, 1.0);
         let [far, middle, nearest] = found.scene().expect("a scene");
         assert!(near(far, 0.02) && near(nearest, 0.1) && middle == nearest);
         assert!(matches!(found.others[..], [(inverse, 2.0)] if near(inverse, 0.4)));
         assert!(!found.sky);
-        ways.sky = true;
-        assert!(ways.distances(&depths, 1.0).sky);
+        mappings.sky = true;
+        assert!(mappings.distances(&depths, 1.0).sky);
     }
 }

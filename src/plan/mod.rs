@@ -14,7 +14,7 @@ use crate::config::{Class, Strategy, Viewport};
 use crate::state::State;
 pub use class::{Classed, Classifier, Facts};
 pub use comfort::Comfort;
-pub use depths::{Ramp, Ways};
+pub use depths::{DepthMappings, Ramp};
 pub use frustum::Bounds;
 pub use governor::Governor;
 pub use parallax::{Rig, Shear};
@@ -60,7 +60,7 @@ pub enum Reason {
     /// The driver refused a generated shader.
     Compile,
     /// A draw that an occlusion camera's rays do not meet.
-    Unbent(String),
+    NoReference(String),
     /// Views were made of the scene before something that has to be drawn in each.
     Parted(&'static str),
 }
@@ -73,7 +73,9 @@ impl core::fmt::Display for Reason {
             Reason::Fixed(u) => write!(f, "{u}"),
             Reason::Driver(what) => write!(f, "the driver has no {what}"),
             Reason::Compile => f.write_str("the driver refused the generated shader"),
-            Reason::Unbent(why) => write!(f, "no rays are bent for a program: {why}"),
+            Reason::NoReference(why) => {
+                write!(f, "a program draws nothing to the reference image: {why}")
+            }
             Reason::Parted(what) => write!(f, "views are made before {what}"),
         }
     }
@@ -101,9 +103,9 @@ pub struct Plan {
     pub class: Class,
     /// The shift of the views; none for what is the same in all of them.
     pub shear: Option<Shear>,
-    /// It goes by a twin of the program's own shaders.
-    pub twin: bool,
-    /// Under a twin, what has a w of 1 in clip space.
+    /// It goes by a variant of the program's own shaders.
+    pub variant: bool,
+    /// Under a variant, what has a w of 1 in clip space.
     pub flat: Flat,
     /// Why not by the strategy asked for.
     pub reason: Option<Reason>,
@@ -122,7 +124,7 @@ pub enum Flat {
 
 /// What a plan needs to know beside the state.
 #[derive(Clone, Copy, Debug)]
-pub struct Means {
+pub struct Capabilities {
     /// What the user asked for, or `auto` has come to.
     pub strategy: Strategy,
     /// Instancing, clip distances and compatibility shaders are there.
@@ -134,14 +136,20 @@ pub struct Means {
 }
 
 /// Decides one draw.
-pub fn plan(kind: Kind, state: &State, rig: &Rig, means: &Means, classed: &Classed) -> Plan {
+pub fn plan(
+    kind: Kind,
+    state: &State,
+    rig: &Rig,
+    capabilities: &Capabilities,
+    classed: &Classed,
+) -> Plan {
     let class = classed.class;
     if class == Class::OffScreen {
         return Plan {
             method: Method::Once,
             class,
             shear: None,
-            twin: false,
+            variant: false,
             flat: Flat::Still,
             reason: None,
         };
@@ -160,7 +168,7 @@ pub fn plan(kind: Kind, state: &State, rig: &Rig, means: &Means, classed: &Class
             Class::OffScreen => None,
         }
     };
-    let (method, reason) = match method(kind, state, means) {
+    let (method, reason) = match method(kind, state, capabilities) {
         Ok(m) => (m, None),
         Err(r) => (Method::Replay, r),
     };
@@ -168,7 +176,7 @@ pub fn plan(kind: Kind, state: &State, rig: &Rig, means: &Means, classed: &Class
         method,
         class,
         shear,
-        twin: false,
+        variant: false,
         flat: Flat::Still,
         reason,
     }
@@ -182,8 +190,12 @@ fn magnified(state: &State) -> f64 {
     }
 }
 
-fn method(kind: Kind, state: &State, means: &Means) -> Result<Method, Option<Reason>> {
-    let wish = match means.strategy {
+fn method(
+    kind: Kind,
+    state: &State,
+    capabilities: &Capabilities,
+) -> Result<Method, Option<Reason>> {
+    let wish = match capabilities.strategy {
         // `auto` is in force as one of the others, and what no view is made of is drawn in each.
         Strategy::Replay
         | Strategy::Auto
@@ -197,7 +209,7 @@ fn method(kind: Kind, state: &State, means: &Means) -> Result<Method, Option<Rea
     };
     match kind {
         Kind::Clear { .. } | Kind::Pixels | Kind::Accum => return Err(None),
-        _ if means.together => {
+        _ if capabilities.together => {
             return Err(Some(Reason::Kind(
                 "draws of a program whose passes have to meet in every pixel (GL_EQUAL)",
             )));
@@ -217,10 +229,10 @@ fn method(kind: Kind, state: &State, means: &Means) -> Result<Method, Option<Rea
         return Err(Some(Reason::Program));
     }
     match wish {
-        Method::Instanced if !means.instanced => Err(Some(Reason::Driver(
+        Method::Instanced if !capabilities.instanced => Err(Some(Reason::Driver(
             "instancing with clip distances in compatibility shaders (GLSL 1.50)",
         ))),
-        Method::Geometry if !means.geometry => Err(Some(Reason::Driver(
+        Method::Geometry if !capabilities.geometry => Err(Some(Reason::Driver(
             "geometry shaders in compatibility contexts (GLSL 1.50)",
         ))),
         m => Ok(m),
@@ -254,7 +266,7 @@ mod tests {
         let mut state = State::new(window, true);
         state.projection[0] = 2.0;
         let rig = Rig::new(5, Camera::Auto, None);
-        let means = Means {
+        let capabilities = Capabilities {
             strategy: Strategy::Replay,
             instanced: false,
             geometry: false,
@@ -268,7 +280,7 @@ mod tests {
         };
         let mut pixels = |width: i32, height: i32| {
             state.viewport = [16, 16, width, height];
-            let plan = plan(Kind::Begin(7), &state, &rig, &means, &classed);
+            let plan = plan(Kind::Begin(7), &state, &rig, &capabilities, &classed);
             plan.shear.expect("a shift").separation(1.0) * f64::from(width) / 2.0
         };
         let whole = pixels(640, 480);

@@ -66,7 +66,7 @@ impl Rig {
 
     /// Separation and convergence for [`Camera::Measured`], as [`super::Comfort`] finds them; nothing is shifted before.
     /// `farthest` is where a sky stands, as for [`Rig::at_depth`].
-    pub fn place_by(&mut self, cameras: (f64, f64), farthest: f64) {
+    pub fn set_measured(&mut self, cameras: (f64, f64), farthest: f64) {
         self.latched = Some(cameras);
         self.farthest = farthest;
     }
@@ -77,7 +77,7 @@ impl Rig {
     }
 
     /// Position of a view in units of the spacing: −(N−1)/2 … (N−1)/2; 0 is the program's own camera.
-    pub fn place(&self, view: u32) -> f64 {
+    pub fn position(&self, view: u32) -> f64 {
         if self.flat {
             return 0.0;
         }
@@ -227,7 +227,7 @@ impl Shear {
         }
     }
 
-    /// sep of one view, which stands at `place` (see [`Rig::place`]). In the order of the equation: with round numbers another
+    /// sep of one view, which stands at `place` (see [`Rig::position`]). In the order of the equation: with round numbers another
     /// order ends on the other side of a tie when P_i is rounded to single precision.
     pub fn separation(&self, place: f64) -> f64 {
         self.a * (place * self.spacing) / self.focal
@@ -320,8 +320,8 @@ mod tests {
         let p = frustum(-1.0, 1.0, -1.0, 1.0, 1.0, 60.0).to_cols_array();
         let shear = rig().shear(&p).expect("a shear");
         let near = Vec4::new(0.0, 0.0, -2.0, 1.0);
-        let left = Mat4::from_cols_array(&shear.projection(&p, rig().place(0))) * near;
-        let right = Mat4::from_cols_array(&shear.projection(&p, rig().place(4))) * near;
+        let left = Mat4::from_cols_array(&shear.projection(&p, rig().position(0))) * near;
+        let right = Mat4::from_cols_array(&shear.projection(&p, rig().position(4))) * near;
         assert!(left.x / left.w > right.x / right.w);
     }
 
@@ -361,11 +361,11 @@ mod tests {
         };
         changed.change(eye, false);
         assert_eq!(changed.shear(&p), rig().shear(&p));
-        assert_eq!(changed.place(4), 2.0);
+        assert_eq!(changed.position(4), 2.0);
         changed.change(eye, true);
         let shear = changed.shear(&p).expect("a shear");
         for view in 0..5 {
-            assert_eq!(shear.projection(&p, changed.place(view)), p);
+            assert_eq!(shear.projection(&p, changed.position(view)), p);
         }
     }
 

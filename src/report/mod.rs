@@ -22,7 +22,7 @@ use walk::Walk;
 #[derive(Debug, Default)]
 pub struct Report {
     frames: u64,
-    alike: u64,
+    mono_frames: u64,
     synthesised: Synthesised,
     walk: Walk,
     frame_ms: Vec<f32>,
@@ -142,8 +142,8 @@ impl Report {
     }
 
     /// A frame is the same in all views, and was drawn in one.
-    pub fn alike(&mut self) {
-        self.alike += 1;
+    pub fn mono_frame(&mut self) {
+        self.mono_frames += 1;
     }
 
     /// Views were made of a frame's scene: as they are, or straight into the panel's picture.
@@ -238,7 +238,7 @@ impl Report {
         };
         let json = Json {
             frames: self.frames,
-            frames_drawn_once: self.alike,
+            frames_drawn_once: self.mono_frames,
             frames_synthesised: self.synthesised,
             true_views: self.walk.json(),
             frame_ms: FrameTimes {

@@ -46,7 +46,7 @@ pub(super) fn wrap(
         instance::declare(edits, names, facts.version, facts.instance);
     }
     let first = match options.target {
-        Target::Whole | Target::Bent => None,
+        Target::Whole | Target::DistortedRays => None,
         Target::Tiles => Some(target::grow(edits, scan, &outputs)?),
         Target::Layer(extension) => {
             target::layer(edits, scan, &outputs, extension);
@@ -62,7 +62,7 @@ pub(super) fn wrap(
         "0".to_owned()
     };
     position::shift(edits, names, facts.version, &view);
-    target::place(edits, names, options.target, &view, first.unwrap_or(0));
+    target::write_position(edits, names, options.target, &view, first.unwrap_or(0));
     edits.append("}");
     Ok(first)
 }

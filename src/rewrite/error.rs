@@ -25,7 +25,7 @@ pub enum Refusal {
     NoPlace,
     /// OpenGL ES has neither layers nor clip distances in the vertex shader without extensions: only whole tiles, by replay.
     #[error(
-        "layers, clip distances and bent rays need desktop OpenGL, and the shader is of OpenGL ES"
+        "layers, clip distances and distorted rays need desktop OpenGL, and the shader is of OpenGL ES"
     )]
     Es,
     /// `Target::Tiles` below GLSL 1.30.

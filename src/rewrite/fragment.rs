@@ -3,7 +3,7 @@
 //! ```text
 //! (X, Y) = (x − stride·⌊x/stride⌋)·across + y·up + origin        z and w as they are
 //! ```
-//! x and y are pixels of the atlas, X and Y of the window. By bent rays there are no strides, and a pixel shows what lies as much to the side as
+//! x and y are pixels of the atlas, X and Y of the window. By distorted rays there are no strides, and a pixel shows what lies as much to the side as
 //! it was moved. Written out where it is used, so that it is right in the values of globals
 //! and in helpers as well. The quotient is not negative, so its whole part is its floor, and no function of GLSL is called under a
 //! name that the program may have given to its own.
@@ -37,7 +37,7 @@ pub(super) fn rewrite(
 ) -> bool {
     let (across, up) = (names.uniform(Uniform::Across), names.uniform(Uniform::Up));
     let local = match target {
-        Target::Bent => moved::place(names),
+        Target::DistortedRays => moved::write_displacement(names),
         _ => format!("(gl_FragCoord.x - {across}.z * float(int(gl_FragCoord.x / {across}.z)))"),
     };
     let coord = format!(
@@ -61,7 +61,7 @@ pub(super) fn rewrite(
             uniforms("highp "),
             uniforms("mediump ")
         )
-    } else if target == Target::Bent {
+    } else if target == Target::DistortedRays {
         format!("{} {}", uniforms(""), moved::declaration(names, version))
     } else {
         uniforms(version.highp())

@@ -1,6 +1,6 @@
 //! A program's shader in, the shader of a view out. Text only: no GL, no files.
 //!
-//! The program's own shaders and programs stay as they are; draws that need views use a twin of the program, linked from rewritten
+//! The program's own shaders and programs stay as they are; draws that need views use a variant of the program, linked from rewritten
 //! texts, with the same attributes, uniforms and varyings and those of the view.
 //!
 //! ```text
@@ -10,7 +10,7 @@
 //!              names         │    └─ target     layer, or tile and clip distances
 //!                            ├─ emit       geometry: each vertex as it is emitted
 //!                            ├─ fragment   gl_FragCoord
-//!                            └─ moved      fragment: by how much bent rays have moved a sample
+//!                            └─ moved      fragment: by how much distorted rays have moved a sample
 //!                                 └──► edit ──► text
 //! ```
 //! Programs' GLSL is of many versions and dialects, and only what is edited is understood: names and a few patterns of tokens. What the
@@ -80,8 +80,8 @@ pub enum Target {
     Layer(VertexLayer),
     /// Tiles side by side under one viewport, kept apart by two clip distances. The program's draw has no clip plane of fixed function.
     Tiles,
-    /// Nothing: rays are bent, by a function of [`Names::bending`], and the fragment shader says by how much.
-    Bent,
+    /// Nothing: rays are distorted, by a function of [`Names::ray_distortion`], and the fragment shader says by how much.
+    DistortedRays,
 }
 
 /// What the rewritten shader is for.
@@ -142,7 +142,7 @@ pub fn rewrite<'a>(
         Stage::Fragment => {
             target::check_fragment(&facts, options.target)?;
             let declared = fragment::rewrite(&mut edits, &scan, &names, version, options.target);
-            if options.target == Target::Bent {
+            if options.target == Target::DistortedRays {
                 moved::wrap(&mut edits, &scan, &names, &facts, declared)?;
             }
         }

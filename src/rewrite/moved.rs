@@ -1,4 +1,4 @@
-//! By how much a sample lies beside its place, for the picture of bent rays: a second output of the fragment shader, at location 1.
+//! By how much a sample lies beside its place, for the picture of distorted rays: a second output of the fragment shader, at location 1.
 //!
 //! A program has either the outputs of GLSL's or its own (GLSL 1.30, 7.2), and so has what is added: `gl_FragData[1]`, which makes a
 //! `gl_FragColor` the first of them, or a name of its own, which the caller binds before it links. `gl_FragColor` is for all images, but
@@ -13,14 +13,14 @@ use super::scan::Scan;
 use super::version::Version;
 
 /// x of the pixel's place in the tile before it was moved.
-pub(super) fn place(names: &Names) -> String {
+pub(super) fn write_displacement(names: &Names) -> String {
     format!(
         "(gl_FragCoord.x - {}.x * gl_FragCoord.w)",
         names.other("moved")
     )
 }
 
-/// What comes from the vertex stage; see [`crate::fixed::bending`].
+/// What comes from the vertex stage; see [`crate::fixed::ray_distortion`].
 pub(super) fn declaration(names: &Names, version: Version) -> String {
     let direction = match version.desktop(130) {
         true => "in",

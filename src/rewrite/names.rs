@@ -1,7 +1,7 @@
 //! Names of ours that the program does not have.
 
 use super::scan::Scan;
-use crate::fixed::bending;
+use crate::fixed::ray_distortion;
 use std::collections::HashSet;
 
 /// A uniform of the rewritten shaders.
@@ -21,12 +21,12 @@ pub enum Uniform {
     Across,
     /// `vec4 mv_up`: x and y in the window of a step upwards in the tile; where the tile begins in the window, x and y.
     Up,
-    /// `sampler2DArray mv_bends`: the map of an occlusion camera; see [`crate::fixed::bending`].
-    Bends,
+    /// `sampler2DArray mv_distortion_map`: the map of an occlusion camera; see [`crate::fixed::ray_distortion`].
+    DistortionMap,
     /// `vec4 mv_window`: where its texels lie.
     Window,
-    /// `vec4 mv_bend`: its heights, and a pixel in NDC.
-    Bend,
+    /// `vec4 mv_disparity`: its disparities, and a pixel in NDC.
+    Disparity,
 }
 
 impl Uniform {
@@ -39,9 +39,9 @@ impl Uniform {
         Uniform::Views,
         Uniform::Across,
         Uniform::Up,
-        Uniform::Bends,
+        Uniform::DistortionMap,
         Uniform::Window,
-        Uniform::Bend,
+        Uniform::Disparity,
     ];
 
     const fn word(self) -> &'static str {
@@ -53,9 +53,9 @@ impl Uniform {
             Uniform::Views => "views",
             Uniform::Across => "across",
             Uniform::Up => "up",
-            Uniform::Bends => "bends",
+            Uniform::DistortionMap => "distortion_map",
             Uniform::Window => "window",
-            Uniform::Bend => "bend",
+            Uniform::Disparity => "disparity",
         }
     }
 }
@@ -67,8 +67,8 @@ const OTHERS: [&str; 9] = [
     "view",
     "by",
     "position",
-    "bent",
-    "bend_rays",
+    "distorted",
+    "distort_rays",
     "moved",
     "beside",
 ];
@@ -111,9 +111,9 @@ impl Names {
         self.other("beside")
     }
 
-    /// The text of the vertex shader object that bends rays for these names.
-    pub fn bending(&self) -> String {
-        bending(&self.prefix)
+    /// The text of the vertex shader object that distorts rays for these names.
+    pub fn ray_distortion(&self) -> String {
+        ray_distortion(&self.prefix)
     }
 
     pub(super) fn other(&self, word: &str) -> String {

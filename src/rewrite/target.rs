@@ -51,7 +51,7 @@ pub(super) fn check_fragment(facts: &Facts, target: Target) -> Result<(), Refusa
         Target::Layer(_) if facts.layer => Err(Refusal::Uses("gl_Layer")),
         // Its array has to be as long as that of the vertex shader.
         Target::Tiles if facts.clip_distance => Err(Refusal::Uses("gl_ClipDistance")),
-        Target::Bent if facts.version.es => Err(Refusal::Es),
+        Target::DistortedRays if facts.version.es => Err(Refusal::Es),
         _ => Ok(()),
     }
 }
@@ -133,9 +133,9 @@ pub(super) fn grow(edits: &mut Edits, scan: &Scan, outputs: &Outputs) -> Result<
 
 /// The uniforms of the place.
 pub(super) fn declare(edits: &mut Edits, names: &Names, target: Target, views: u32) {
-    if target == Target::Bent {
-        let bend = names.other("bend_rays");
-        return edits.append(format!("vec4 {bend}(vec4);"));
+    if target == Target::DistortedRays {
+        let distort = names.other("distort_rays");
+        return edits.append(format!("vec4 {distort}(vec4);"));
     }
     if target == Target::Whole {
         return;
@@ -150,13 +150,19 @@ pub(super) fn declare(edits: &mut Edits, names: &Names, target: Target, views: u
 }
 
 /// Puts `gl_Position` in its place, in the body of a function. `view` is an index into the uniforms, `first` one into `gl_ClipDistance`.
-pub(super) fn place(edits: &mut Edits, names: &Names, target: Target, view: &str, first: u32) {
+pub(super) fn write_position(
+    edits: &mut Edits,
+    names: &Names,
+    target: Target,
+    view: &str,
+    first: u32,
+) {
     let tile = names.uniform(Uniform::Tile);
     match target {
         Target::Whole => {}
-        Target::Bent => {
-            let bend = names.other("bend_rays");
-            edits.append(format!("    gl_Position = {bend}(gl_Position);"));
+        Target::DistortedRays => {
+            let distort = names.other("distort_rays");
+            edits.append(format!("    gl_Position = {distort}(gl_Position);"));
         }
         Target::Layer(_) => edits.append(format!("    gl_Layer = int({tile}[{view}].z);")),
         Target::Tiles => {

@@ -50,7 +50,7 @@ pub enum SimulateError {
     /// An option that is no number, or one out of its range.
     #[error("--{flag} is '{found}'; give {expected}")]
     Option {
-        /// Without dashes.
+        /// Disabled dashes.
         flag: &'static str,
         /// As written.
         found: String,

@@ -114,7 +114,7 @@ pub type Body = Arc<[Segment]>;
 
 /// What a context has made that its share group keeps when the context is destroyed: to be deleted by another one.
 #[derive(Debug, Default)]
-pub struct Left {
+pub struct Orphans {
     /// Framebuffer objects, which drivers share although they need not.
     pub framebuffers: Vec<u32>,
     /// Textures.
@@ -131,7 +131,7 @@ pub struct Left {
 #[derive(Debug)]
 pub struct Lists {
     /// Names of ours without a context.
-    pub left: Left,
+    pub orphans: Orphans,
     /// Its programs.
     pub shaders: Shaders,
     bodies: HashMap<u32, Body>,
@@ -146,7 +146,7 @@ const TOP: u32 = u32::MAX - 1;
 impl Default for Lists {
     fn default() -> Self {
         Lists {
-            left: Left::default(),
+            orphans: Orphans::default(),
             shaders: Shaders::default(),
             bodies: HashMap::new(),
             spare: Vec::new(),

@@ -2,16 +2,16 @@
 //! command has touched it.
 #![forbid(unsafe_code)]
 
+mod classification;
 mod effect;
 mod framebuffer;
 mod lists;
-mod look;
 mod shaders;
 
+pub use classification::ClassificationState;
 pub use effect::{Effect, Immediate};
 pub use framebuffer::{BACK, FRONT, Framebuffers, Window};
-pub use lists::{Body, Command, Compiling, Left, Lists, Run, Segment, Start};
-pub use look::Look;
+pub use lists::{Body, Command, Compiling, Lists, Orphans, Run, Segment, Start};
 pub use shaders::{
     Linked, Matrices, Samplers, Shaders, Text, link_change, texts, uniform_change, uniform_changes,
 };
@@ -106,7 +106,7 @@ pub struct State {
     /// GL_SCISSOR_TEST.
     pub scissor_test: bool,
     /// What else tells what a draw is; read only where that is asked.
-    pub look: Look,
+    pub classification: ClassificationState,
     /// Bound framebuffers, draw and read buffers.
     pub framebuffers: Framebuffers,
     /// The drawable behind framebuffer 0.
@@ -145,7 +145,7 @@ impl State {
             viewport: [0; 4],
             scissor: [0; 4],
             scissor_test: false,
-            look: Look::default(),
+            classification: ClassificationState::default(),
             framebuffers: Framebuffers::new(&window),
             window,
             list: None,

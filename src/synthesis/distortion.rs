@@ -1,4 +1,4 @@
-//! The distortion map of the depth-discontinuity occlusion camera: how rays are bent at each pixel.
+//! The distortion map of the depth-discontinuity occlusion camera: how rays are distorted at each pixel.
 //!
 //! Popescu et al., section IV.C: steps 3 to 5 and asymmetrical splats (Equation 1). What differs from the paper, because splats of scenes with
 //! edges everywhere take each other's place:
@@ -13,7 +13,7 @@
 //! - A conflict counts where the splat's own samples go, in front of the edge, not somewhere in its disc; and from 60° on.
 //! - α is the most, too: a splat has room before the background up to a conflict, and only where that is less than it reaches is it asymmetrical.
 //! - What a reduced splat gives up is taken by the next one that reaches there.
-//! - A place keeps the closest splat that bends another way, too. What the closest one leaves behind something, and this one brings out, it bends.
+//! - A place keeps the closest splat that distorts another way, too. What the closest one leaves behind something, and this one brings out, it bends.
 //!   Samples keep their vectors, so it need not be known later which one it was.
 
 use super::{Edge, Edges};
@@ -27,7 +27,7 @@ const ALIKE: f64 = 0.5;
 /// Parts of a step by which something may lie behind the drawn surface and still be of it.
 const SAME: f64 = 0.5;
 
-/// How the rays near a depth discontinuity are bent. Depths are 1/w.
+/// How the rays near a depth discontinuity are distorted. Depths are 1/w.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Distortion {
     /// (d_u, d_v), of length 1, away from what is in front.
@@ -242,7 +242,7 @@ impl Owners {
             .flatten()?
     }
 
-    /// Step 4: pixels before the background up to where a splat has the place that bends another way.
+    /// Step 4: pixels before the background up to where a splat has the place that distorts another way.
     fn room(&self, edges: &[Edge], edge: &Edge, most: f64) -> f64 {
         let place =
             |t: f64| [0, 1].map(|i| (edge.at[i] as f64 + t * edge.normal[i]).round() as i64);

@@ -1,33 +1,34 @@
 //! Views of a depth image by the driver: what [`super::warp`] says, pixel by pixel backwards.
 //!
-//! A ray of the other camera is a straight line over the heights of a row (see `shaders/field.wgsl`), so what it sees is the first sample that it
+//! A ray of the other camera is a straight line over the disparities of a row (see `shaders/disparity.wgsl`), so what it sees is the first sample that it
 //! meets. How high and how low blocks of a row are leads it over what it cannot meet, and
 //! straight to what is a plane. What is hidden it seeks in the reference image of an occlusion camera, where there is one (see
-//! `shaders/bent.wgsl`); that camera's map is made here as well, and has to be what [`super::Bending`] says.
+//! `shaders/reference.wgsl`); that camera's map is made here as well, and has to be what [`super::RowDistortionMap`] says.
 
-use crate::atlas::{Atlas, BendTarget, FieldTarget, FieldTextures, Tiles};
-use crate::config::{Behind, Filter};
+use crate::atlas::{Atlas, DistortionTarget, PyramidTarget, PyramidTextures, Tiles};
+use crate::config::{DisocclusionSource, Filter};
 use crate::gl::{Gl, consts as c};
 use crate::interleave::shader::{
-    DEPTH_UNIT, PEAKS_UNIT, Pass, RANGE_UNIT, STEPS_UNITS, Synthesis, Uniforms, VIEWS_UNIT,
+    BLOCK_BOUNDS_UNIT, DEPTH_UNIT, Pass, RAY_RANGE_UNIT, STEPS_UNITS, Synthesis, Uniforms,
+    VIEWS_UNIT,
 };
-use crate::interleave::{Heights, Layout, Places, Program, bind_bent};
+use crate::interleave::{Disparities, Layout, Places, Program, bind_reference};
 
 /// The passes of one context.
 #[derive(Debug)]
 pub struct Passes {
     vertex_array: u32,
-    peaks: Program,
-    tops: Program,
-    range: Program,
+    block_bounds: Program,
+    row_maxima: Program,
+    ray_range: Program,
     /// Where nothing else is known of what is hidden, or several views are drawn.
     view: Program,
-    bent: Option<Bent>,
+    reference: Option<Reference>,
 }
 
 /// Those of an occlusion camera.
 #[derive(Debug)]
-struct Bent {
+struct Reference {
     steps: Program,
     splats: Program,
     map: Program,
@@ -37,56 +38,69 @@ struct Bent {
 impl Passes {
     /// For a context whose shading language has this version × 100; `behind`: what is to be known of what is hidden. The error is naga's or
     /// the driver's.
-    pub fn new(gl: &Gl, glsl: u32, behind: Behind) -> Result<Passes, String> {
+    pub fn new(gl: &Gl, glsl: u32, behind: DisocclusionSource) -> Result<Passes, String> {
         let program = |pass| Program::new(gl, glsl, Pass::Synthesis(pass));
         let camera = || {
-            Ok::<_, String>(Bent {
+            Ok::<_, String>(Reference {
                 steps: program(Synthesis::Steps)?,
                 splats: program(Synthesis::Splats)?,
-                map: program(Synthesis::Bends)?,
-                view: program(Synthesis::View(Behind::Reference))?,
+                map: program(Synthesis::DistortionMap)?,
+                view: program(Synthesis::View(DisocclusionSource::Reference))?,
             })
         };
-        let bent = behind == Behind::Reference;
+        let reference = behind == DisocclusionSource::Reference;
         let plain = match behind {
-            Behind::Nothing | Behind::Reference => Behind::Nothing,
-            Behind::Views => Behind::Views,
+            DisocclusionSource::Nothing | DisocclusionSource::Reference => {
+                DisocclusionSource::Nothing
+            }
+            DisocclusionSource::Views => DisocclusionSource::Views,
         };
         Ok(Passes {
-            peaks: program(Synthesis::Peaks)?,
-            tops: program(Synthesis::Tops)?,
-            range: program(Synthesis::Range)?,
+            block_bounds: program(Synthesis::BlockBounds)?,
+            row_maxima: program(Synthesis::RowMaxima)?,
+            ray_range: program(Synthesis::RayRange)?,
             view: program(Synthesis::View(plain))?,
-            bent: bent.then(camera).transpose()?,
+            reference: reference.then(camera).transpose()?,
             vertex_array: gl.gen_vertex_array(),
         })
     }
 
     /// Whether an occlusion camera is among them.
-    pub fn bends(&self) -> bool {
-        self.bent.is_some()
+    pub fn distorts(&self) -> bool {
+        self.reference.is_some()
     }
 
     /// The names of its programs.
     pub fn programs(&self) -> impl Iterator<Item = u32> {
-        let bent = self
-            .bent
+        let reference = self
+            .reference
             .iter()
             .flat_map(|b| [&b.steps, &b.splats, &b.map, &b.view]);
-        [&self.peaks, &self.tops, &self.range, &self.view]
-            .into_iter()
-            .chain(bent)
-            .map(Program::name)
+        [
+            &self.block_bounds,
+            &self.row_maxima,
+            &self.ray_range,
+            &self.view,
+        ]
+        .into_iter()
+        .chain(reference)
+        .map(Program::name)
     }
 
     /// Learns how high the views are whose textures these are, the own one or all that are drawn. State must be as
     /// `present::Saved::take` leaves it; changes the framebuffers that are bound.
-    pub fn measure(&self, gl: &Gl, atlas: &mut Atlas, heights: &Heights, textures: &FieldTextures) {
+    pub fn measure(
+        &self,
+        gl: &Gl,
+        atlas: &mut Atlas,
+        disparities: &Disparities,
+        textures: &PyramidTextures,
+    ) {
         for (unit, texture) in [
             (VIEWS_UNIT, textures.colour),
             (DEPTH_UNIT, textures.depth),
-            (PEAKS_UNIT, textures.peaks),
-            (RANGE_UNIT, textures.tops),
+            (BLOCK_BOUNDS_UNIT, textures.block_bounds),
+            (RAY_RANGE_UNIT, textures.row_maxima),
         ] {
             gl.active_texture(c::TEXTURE0 + unit);
             gl.bind_texture(c::TEXTURE_2D_ARRAY, texture);
@@ -94,47 +108,52 @@ impl Passes {
         gl.bind_vertex_array(self.vertex_array);
         let height = atlas.tiles.height as i32;
         let own = atlas.tiles.own();
-        for layer in 0..heights.sources.map_or(1, |sources| sources.count()) {
-            let view = heights.sources.map_or(own, |sources| sources.view(layer));
+        for layer in 0..disparities.sources.map_or(1, |sources| sources.count()) {
+            let view = disparities
+                .sources
+                .map_or(own, |sources| sources.view(layer));
             let (row, left) = match textures.copied {
                 true => (layer, 0),
                 false => atlas.tiles.place(view),
             };
             let places = Places::One([left, row, layer]);
-            let heights = Heights { places, ..*heights };
-            let words = uniforms(&atlas.tiles, atlas.flipped, heights).words();
+            let disparities = Disparities {
+                places,
+                ..*disparities
+            };
+            let words = uniforms(&atlas.tiles, atlas.flipped, disparities).words();
             for (program, target) in [
-                (&self.peaks, FieldTarget::Peaks),
-                (&self.tops, FieldTarget::Tops),
-                (&self.range, FieldTarget::Range),
+                (&self.block_bounds, PyramidTarget::BlockBounds),
+                (&self.row_maxima, PyramidTarget::RowMaxima),
+                (&self.ray_range, PyramidTarget::RayRange),
             ] {
-                let width = atlas.enter_field(gl, target, layer);
+                let width = atlas.enter_pyramid(gl, target, layer);
                 gl.viewport(0, 0, width, height);
                 program.bind(gl, &words);
                 gl.draw_arrays(c::TRIANGLES, 0, 3);
             }
         }
-        gl.active_texture(c::TEXTURE0 + RANGE_UNIT);
-        gl.bind_texture(c::TEXTURE_2D_ARRAY, textures.range);
+        gl.active_texture(c::TEXTURE0 + RAY_RANGE_UNIT);
+        gl.bind_texture(c::TEXTURE_2D_ARRAY, textures.ray_range);
     }
 
     /// Makes the distortion map of the own view, which has been measured, for the next frame; false where there is none.
-    pub fn bend(&self, gl: &Gl, atlas: &mut Atlas, heights: &Heights) -> bool {
-        let (Some(bent), Some(textures)) = (&self.bent, atlas.bent()) else {
+    pub fn map_distortion(&self, gl: &Gl, atlas: &mut Atlas, disparities: &Disparities) -> bool {
+        let (Some(reference), Some(textures)) = (&self.reference, atlas.reference()) else {
             return false;
         };
-        let words = uniforms(&atlas.tiles, atlas.flipped, *heights).words();
+        let words = uniforms(&atlas.tiles, atlas.flipped, *disparities).words();
         for (unit, texture) in STEPS_UNITS.into_iter().zip(textures.steps) {
             gl.active_texture(c::TEXTURE0 + unit);
             gl.bind_texture(c::TEXTURE_2D_ARRAY, texture);
         }
         let height = atlas.tiles.height as i32;
         for (program, target) in [
-            (&bent.steps, BendTarget::Steps),
-            (&bent.splats, BendTarget::Splats),
-            (&bent.map, BendTarget::Map),
+            (&reference.steps, DistortionTarget::Steps),
+            (&reference.splats, DistortionTarget::Splats),
+            (&reference.map, DistortionTarget::Map),
         ] {
-            let width = atlas.enter_bends(gl, target);
+            let width = atlas.enter_distortion(gl, target);
             gl.viewport(0, 0, width, height);
             program.bind(gl, &words);
             gl.draw_arrays(c::TRIANGLES, 0, 3);
@@ -144,12 +163,21 @@ impl Passes {
 
     /// Makes the views that are shown, and not drawn, of copies of those that are, which have been measured: colours, and depths for what is drawn
     /// after them. The depth test must pass and write everything; changes the framebuffers that are bound.
-    pub fn views(&self, gl: &Gl, atlas: &mut Atlas, heights: &Heights, textures: &FieldTextures) {
+    pub fn views(
+        &self,
+        gl: &Gl,
+        atlas: &mut Atlas,
+        disparities: &Disparities,
+        textures: &PyramidTextures,
+    ) {
         let (tiles, own) = (atlas.tiles, atlas.tiles.own());
-        bind_bent(gl, textures.bent);
-        let bent = self.bent.as_ref().filter(|_| textures.bent.is_some());
-        let program = bent.map_or(&self.view, |bent| &bent.view);
-        let drawn = |view: u32| match &heights.sources {
+        bind_reference(gl, textures.reference);
+        let reference = self
+            .reference
+            .as_ref()
+            .filter(|_| textures.reference.is_some());
+        let program = reference.map_or(&self.view, |reference| &reference.view);
+        let drawn = |view: u32| match &disparities.sources {
             Some(sources) => sources.has(view),
             None => view == own,
         };
@@ -160,19 +188,19 @@ impl Passes {
         for view in tiles.order().filter(|&view| !drawn(view)) {
             let left = atlas.enter(gl, view);
             gl.viewport(left, 0, tiles.width as i32, tiles.height as i32);
-            let heights = Heights {
+            let disparities = Disparities {
                 aim: (view, left as u32),
                 places,
-                ..*heights
+                ..*disparities
             };
-            let words = uniforms(&tiles, atlas.flipped, heights).words();
+            let words = uniforms(&tiles, atlas.flipped, disparities).words();
             program.bind(gl, &words);
             gl.draw_arrays(c::TRIANGLES, 0, 3);
         }
     }
 }
 
-fn uniforms(tiles: &Tiles, top_down: bool, heights: Heights) -> Uniforms {
+fn uniforms(tiles: &Tiles, top_down: bool, disparities: Disparities) -> Uniforms {
     let tile = [tiles.width, tiles.height];
     Uniforms {
         tile,
@@ -190,6 +218,6 @@ fn uniforms(tiles: &Tiles, top_down: bool, heights: Heights) -> Uniforms {
         matrices: Default::default(),
         depth: [0.0; 2],
         grid: tiles.grid,
-        heights,
+        disparities,
     }
 }

@@ -1,6 +1,6 @@
 //! The mesh of a picture's samples, and what other cameras see of it.
 //!
-//! Popescu et al., section VI: samples are joined to their neighbours; each is where it was before its ray was bent. A depth image is a reference
+//! Popescu et al., section VI: samples are joined to their neighbours; each is where it was before its ray was distorted. A depth image is a reference
 //! image whose rays are straight.
 
 use super::occlusion::Sample;

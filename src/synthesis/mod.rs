@@ -1,7 +1,7 @@
 //! Views that are not drawn but made of pictures with depth: what each step has to come to, on the CPU and exactly, and the passes
 //! by which the driver makes them (`gpu`).
 //!
-//! `depth_image` is the plain picture with depths, `warp` makes a view of it. `discontinuity` finds where it would tear, `distortion` bends
+//! `depth_image` is the plain picture with depths, `warp` makes a view of it. `discontinuity` finds where it would tear, `distortion` distorts
 //! the rays of the camera there so that they reach behind what is in front, and `occlusion` projects with such rays, builds the reference image and
 //! draws views of it. After: Popescu, Rosen and Aliaga, "3D Display Rendering Acceleration Using Occlusion Camera Reference Images".
 //!
@@ -28,5 +28,5 @@ pub use distortion::{Distortion, Distortions, Splats};
 pub use gpu::Passes;
 pub use occlusion::{Reference, Triangle, Vertex};
 pub use pinhole::{Motion, Pinhole};
-pub use rows::{Bend, Bending};
+pub use rows::{RowDistortion, RowDistortionMap};
 pub use warp::{View, warp};

@@ -1,4 +1,4 @@
-//! The occlusion camera: projection by bent rays, its reference image, and views of that.
+//! The occlusion camera: projection by distorted rays, its reference image, and views of that.
 //!
 //! Popescu et al., section V (Equation 2) and VI: the distortion of each sample is kept beside it, since it cannot be told from where the sample
 //! has come to lie.
@@ -58,7 +58,7 @@ impl Reference {
         }
     }
 
-    /// Draws triangles through the bent rays, whose map may be of a picture of another size. They are cut until no edge is longer than `longest`
+    /// Draws triangles through the distorted rays, whose map may be of a picture of another size. They are cut until no edge is longer than `longest`
     /// pixels, which has to be above 0.
     pub fn draw(
         &mut self,

@@ -231,7 +231,7 @@ fn magnitudes_are_those_of_equation_1() {
 }
 
 /// An edge at 50 whose background lies to the right.
-fn bent(radius: f64, room: f64) -> Distortion {
+fn distorted(radius: f64, room: f64) -> Distortion {
     Distortion {
         direction: [1.0, 0.0],
         edge: [50.0, 0.0],
@@ -245,26 +245,29 @@ fn bent(radius: f64, room: f64) -> Distortion {
 
 #[test]
 fn rays_bend_between_near_and_far_only() {
-    let bent = bent(16.0, 8.0);
+    let distorted = distorted(16.0, 8.0);
     // In front, where the splat ends and behind what it reaches.
-    assert_eq!(bent.at([45.0, 0.0], NEAR), 0.0);
-    assert_eq!(bent.at([45.0, 0.0], 2.0 * NEAR), 0.0);
-    assert!(bent.at([58.0, 0.0], FAR).abs() < 1e-12);
-    assert_eq!(bent.at([33.9, 0.0], FAR), 0.0);
+    assert_eq!(distorted.at([45.0, 0.0], NEAR), 0.0);
+    assert_eq!(distorted.at([45.0, 0.0], 2.0 * NEAR), 0.0);
+    assert!(distorted.at([58.0, 0.0], FAR).abs() < 1e-12);
+    assert_eq!(distorted.at([33.9, 0.0], FAR), 0.0);
     // Beyond z_f as at z_f: Equation 1 with α = 2.
-    assert!((bent.at([50.0, 0.0], FAR) - 16.0 / 3.0).abs() < 1e-12);
-    assert_eq!(bent.at([50.0, 0.0], 0.0), bent.at([50.0, 0.0], FAR));
+    assert!((distorted.at([50.0, 0.0], FAR) - 16.0 / 3.0).abs() < 1e-12);
+    assert_eq!(
+        distorted.at([50.0, 0.0], 0.0),
+        distorted.at([50.0, 0.0], FAR)
+    );
 }
 
 #[test]
 fn what_is_seen_of_each_depth_comes_out_from_behind_the_edge() {
     for (radius, room) in [(16.0, 16.0), (16.0, 5.0), (9.0, 4.0)] {
-        let bent = bent(radius, room);
+        let distorted = distorted(radius, room);
         for part in 1..=8 {
             let depth = f64::from(part) / 8.0;
             let inverse = NEAR + (FAR - NEAR) * depth;
             let reach = (16.0 * depth).min(radius);
-            let lands = |x: f64| 50.0 + x + bent.at([50.0 + x, 0.0], inverse);
+            let lands = |x: f64| 50.0 + x + distorted.at([50.0 + x, 0.0], inverse);
             assert!((lands(-reach) - 50.0).abs() < 1e-9, "{depth}");
             // What is not seen stays behind it, and the rest in its order.
             assert!((-30..0).all(|x| lands(f64::from(x) / 2.0 - reach - 1e-9) <= 50.0 + 1e-9));

@@ -30,7 +30,7 @@ pub struct Difference {
 }
 
 impl Difference {
-    /// Between the whole geometry and a part of it that is meant for eyes at these places, in display space and inches. Without eyes all its voxels count as seen.
+    /// Between the whole geometry and a part of it that is meant for eyes at these places, in display space and inches. Disabled eyes all its voxels count as seen.
     pub fn between(
         geometry: &Volume,
         other: &Volume,

@@ -170,7 +170,7 @@ impl Cells {
         place.out * place.out + up * up <= rim * rim
     }
 
-    /// Half plane and voxel of a place within the sphere; of another one any. Without branches.
+    /// Half plane and voxel of a place within the sphere; of another one any. Disabled branches.
     #[inline(always)]
     pub(super) fn voxel(&self, place: Place) -> (u32, u32) {
         let column = whole(place.out).min(self.columns - 1);
@@ -199,7 +199,7 @@ fn whole(value: f32) -> u32 {
     rounded(value).wrapping_sub(u32::from(up))
 }
 
-/// The angle from x towards z, 0 to 2π, to 1e-6. Without branches, so that loops of it become vectors.
+/// The angle from x towards z, 0 to 2π, to 1e-6. Disabled branches, so that loops of it become vectors.
 ///
 /// From: Abramowitz and Stegun, "Handbook of Mathematical Functions", 4.4.49.
 #[inline(always)]

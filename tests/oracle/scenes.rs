@@ -13,7 +13,7 @@ pub(crate) struct Scene {
 }
 
 impl Scene {
-    /// Its programs place vertices themselves: a twin shifts them after the program's own product, the oracle before it.
+    /// Its programs place vertices themselves: a variant shifts them after the program's own product, the oracle before it.
     pub(crate) fn has_shaders(&self) -> bool {
         ["shade", "passes", "crowd", "relief"].contains(&self.demo)
     }
@@ -60,7 +60,7 @@ pub(crate) fn scene(name: &str) -> Scene {
         "arrays" => scene("arrays", &[], 1),
         "immediate" => scene("immediate", &[], 1),
         "sky" => scene("sky", &[], 1),
-        "field" => scene("field", &[], 1),
+        "field" => scene("disparity", &[], 1),
         "shade" => scene("shade", &[], 1),
         "shade_toon" => scene("shade", &["--toon"], 1),
         "shade_combined" => scene("shade", &["--combined"], 1),

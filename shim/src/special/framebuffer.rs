@@ -1,7 +1,7 @@
 //! Framebuffer objects and the program's framebuffer 0.
 
 use crate::context::{enter, real};
-use crate::hooks::{Object, ask, compile, copied, named, settle};
+use crate::hooks::{Object, ask, compile, copied, named, write_back};
 use core::slice::from_raw_parts;
 use manyview_core::gl::{Gl, Ptr, consts as c};
 use manyview_core::layer::{Layer, is_scaled};
@@ -68,7 +68,7 @@ pub(crate) unsafe fn glCopyImageSubData(
     srcHeight: i32,
     srcDepth: i32,
 ) {
-    settle();
+    write_back();
     named(match dstTarget {
         c::RENDERBUFFER => Object::Renderbuffer(dstName),
         _ => Object::Texture(dstName),

@@ -1,6 +1,6 @@
 //! State that the layer follows call by call, and what the program asks about.
 
-use crate::context::{check_size, draws_to_memory, enter, frame, peek, real, settle_shared};
+use crate::context::{check_size, draws_to_memory, enter, frame, peek, real, write_back_shared};
 use crate::hooks::{ask, compile, touch};
 use core::sync::atomic::{AtomicI64, Ordering::Relaxed};
 use manyview_core::gl::{Ptr, consts::PROGRAM_BINARY_FORMATS};
@@ -188,7 +188,7 @@ pub(crate) unsafe fn glGetError() -> u32 {
 
 pub(crate) unsafe fn glFlush() {
     ask();
-    settle_shared();
+    write_back_shared();
     // SAFETY: the program's own call.
     let flush = || unsafe { real().glFlush() };
     if !draws_to_memory() && enter(|_, l| l.shows_on_flush()) == Some(true) {
@@ -200,7 +200,7 @@ pub(crate) unsafe fn glFlush() {
 
 pub(crate) unsafe fn glFinish() {
     ask();
-    settle_shared();
+    write_back_shared();
     // SAFETY: the program's own call.
     let finish = || unsafe { real().glFinish() };
     let memory = draws_to_memory();

@@ -46,7 +46,7 @@ const ASYMMETRY: f64 = 4.0;
 const MORE: f64 = 1.1;
 /// A step in depth is one that opens a hole wider than this at the farthest viewpoint, pixels. Less is joined.
 const STEP: f64 = 4.0;
-/// Rays are bent where one of this opens.
+/// Rays are distorted where one of this opens.
 const EDGE: f64 = 3.5;
 /// A sample is another one if it parts from it by more than this on the way to the farthest viewpoint, pixels.
 const TOLERANCE: f64 = 1.0;

@@ -133,7 +133,7 @@ impl Scene {
             let of = views.iter().filter(|view| view.image == image);
             of.map(|view| view.missing).sum::<usize>()
         };
-        let [straight, bent @ ..] = IMAGES;
+        let [straight, distorted @ ..] = IMAGES;
         let depth = missing(straight);
         let made = |(image, time): (&'static str, &Duration)| Made {
             image,
@@ -146,7 +146,7 @@ impl Scene {
             width: experiment.size[0],
             height: experiment.size[1],
             single_ms: 1e3 * images.single.as_secs_f64(),
-            references: bent
+            references: distorted
                 .into_iter()
                 .zip(&images.construction)
                 .map(made)

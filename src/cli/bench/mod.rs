@@ -15,7 +15,7 @@ use manyview::bench::{
     BenchError, CONFIGURATIONS, DEFAULT_CONFIGURATIONS, DEFAULT_SCENES, PRESETS, Preset, SCENES,
     Scene, Variant, chart, find, table,
 };
-use manyview::config::{Config, Saving};
+use manyview::config::{Config, Optimisation};
 use manyview::launch::{LaunchError, writable};
 use measure::Group;
 use std::ffi::OsString;
@@ -229,7 +229,7 @@ fn groups(
     let sizes = sizes(arguments, preset)?;
     let mut savings = Vec::new();
     for name in &arguments.without {
-        savings.push(find(&Saving::ALL, |saving| saving.0, "--without", name)?.0);
+        savings.push(find(&Optimisation::ALL, |saving| saving.0, "--without", name)?.0);
     }
     let mut variants = Vec::new();
     for name in names(

@@ -79,7 +79,7 @@ fn every_subpixel_shows_the_view_whose_line_is_next_to_it() {
     };
     for (display, views) in panels() {
         let mask = display.mask(&placement, views).unwrap();
-        let turns = display.turns(&placement, views).unwrap();
+        let turns = display.lens_phase(&placement, views).unwrap();
         let n = f64::from(views);
         let mut farthest = 0f64;
         for (row, pixels) in (0..).zip(mask.rows()) {
@@ -111,6 +111,6 @@ fn panels_without_one_function_have_no_lenses() {
     let hand = Display::new("hand", 2, Kind::Pattern(pattern));
     let cells = r#","CellPatternMode":{"value":0},"subpixelCells":[{"ROffsetX":0,"ROffsetY":0,"GOffsetX":0.3,"GOffsetY":0,"BOffsetX":0.6,"BOffsetY":0}]"#;
     for display in [turned, hand, device(&calibration(cells))] {
-        assert_eq!(display.turns(&placement, 2), None, "{}", display.name);
+        assert_eq!(display.lens_phase(&placement, 2), None, "{}", display.name);
     }
 }

@@ -4,7 +4,7 @@
 
 use super::super::Layer;
 use super::super::frame::tile;
-use super::{Look, Scene};
+use super::{DisparityMapping, Scene};
 use crate::config::CaptureWhat;
 use crate::gl::{Gl, consts as c};
 use crate::present::capture::read_rgb;
@@ -20,11 +20,11 @@ impl Layer {
     }
 
     /// The state is as [`crate::present::Saved::take`] leaves it; changes the read framebuffer.
-    pub(super) fn take_samples(&mut self, gl: &Gl, scene: &Scene, look: &Look) {
+    pub(super) fn take_samples(&mut self, gl: &Gl, scene: &Scene, mapping: &DisparityMapping) {
         self.synthesis.samples = None;
-        let bent = self.atlas.bent_framebuffer();
-        let (Some(bent), true) = (
-            bent.filter(|_| self.synthesis.bent.on),
+        let reference = self.atlas.reference_framebuffer();
+        let (Some(reference), true) = (
+            reference.filter(|_| self.synthesis.reference.on),
             self.wants_samples(),
         ) else {
             return;
@@ -38,23 +38,23 @@ impl Layer {
         let own = tile(gl, &self.atlas, tiles.own()).into_raw();
         let (_, x) = self.atlas.readable(tiles.own());
         let own = (own, depths(x));
-        gl.bind_framebuffer(c::READ_FRAMEBUFFER, bent);
+        gl.bind_framebuffer(c::READ_FRAMEBUFFER, reference);
         let reference = (read_rgb(gl, 0, 0, width, height).into_raw(), depths(0));
         gl.read_buffer(c::COLOR_ATTACHMENT0 + 1);
         let moved = upright(&gl.read_red(0, 0, width, height), width, |m| *m);
         gl.read_buffer(c::COLOR_ATTACHMENT0);
-        let before = scene.before.map(|(look, to)| Before {
-            line: look.ramp.line(),
+        let before = scene.before.map(|(mapping, to)| Before {
+            line: mapping.ramp.line(),
             to,
         });
         self.synthesis.samples = Some(Samples {
             head: Head {
                 size: [width, height],
-                viewport: look.viewport,
-                line: look.ramp.line(),
+                viewport: mapping.viewport,
+                line: mapping.ramp.line(),
                 before,
                 clear: scene.clear,
-                focal: look.shear.conv,
+                focal: mapping.shear.conv,
             },
             own,
             reference,

@@ -61,8 +61,9 @@ impl Layer {
                 gl.positions_sum(indices)?
             }
         };
-        self.state.look(gl, Touch::MODELVIEW | Touch::RANGE);
-        let look = &self.state.look;
+        self.state
+            .read_classification(gl, Touch::MODELVIEW | Touch::RANGE);
+        let look = &self.state.classification;
         let sides = [c::CULL_FACE_MODE, c::FRONT_FACE].map(|name| gl.get_integer(name));
         Some(Surface {
             mode,
@@ -87,7 +88,7 @@ impl Layer {
     }
 
     /// A draw with depths of its own goes to the scene.
-    pub(super) fn keep_surface(&mut self, gl: &Gl) {
+    pub(super) fn capture_surface(&mut self, gl: &Gl) {
         let whole = self.state.compatibility && !gl.is_enabled(c::ALPHA_TEST);
         self.synthesis.surfaces.last = if whole { self.surface(gl) } else { None };
     }

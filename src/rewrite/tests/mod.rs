@@ -23,8 +23,8 @@ const TILES: Options = Options {
     target: Target::Tiles,
     ..LAYERS
 };
-const BENT: Options = Options {
-    target: Target::Bent,
+const DISTORTED: Options = Options {
+    target: Target::DistortedRays,
     ..REPLAY
 };
 const ES: Options = Options { es: true, ..REPLAY };
@@ -64,7 +64,11 @@ fn real_shaders() {
         ("sized-150.vert", &[("layers", LAYERS), ("tiles", TILES)]),
         (
             "toon-120.vert",
-            &[("replay", REPLAY), ("layers", LAYERS), ("bent", BENT)],
+            &[
+                ("replay", REPLAY),
+                ("layers", LAYERS),
+                ("distorted", DISTORTED),
+            ],
         ),
         ("water-130.vert", &[("replay", REPLAY), ("tiles", TILES)]),
         ("wave-150.vert", &[("layers", LAYERS)]),
@@ -75,9 +79,18 @@ fn real_shaders() {
         ("fur-150.geom", &[("replay", REPLAY)]),
         ("streams-400.geom", &[("replay", REPLAY)]),
         ("edges-150.frag", &[("replay", REPLAY)]),
-        ("haze-110.frag", &[("replay", REPLAY), ("bent", BENT)]),
-        ("help-110.frag", &[("replay", REPLAY), ("bent", BENT)]),
-        ("shared-330.frag", &[("replay", REPLAY), ("bent", BENT)]),
+        (
+            "haze-110.frag",
+            &[("replay", REPLAY), ("distorted", DISTORTED)],
+        ),
+        (
+            "help-110.frag",
+            &[("replay", REPLAY), ("distorted", DISTORTED)],
+        ),
+        (
+            "shared-330.frag",
+            &[("replay", REPLAY), ("distorted", DISTORTED)],
+        ),
         ("web-100.vert", &[("es", ES)]),
         ("web-100.frag", &[("es", ES)]),
         ("phone-300.vert", &[("es", ES)]),
@@ -161,9 +174,9 @@ fn refusals_are_sentences() {
         (Stage::Geometry, Options { target: Target::Tiles, ..REPLAY }, main.to_owned()),
         (Stage::Geometry, REPLAY, with("void f() { EmitStreamVertex(1); }")),
         (Stage::Fragment, TILES, with("float f() { return gl_ClipDistance[0]; }")),
-        (Stage::Fragment, BENT, with("void f() { gl_FragData[1] = vec4(1.); }")),
-        (Stage::Fragment, BENT, with("layout(early_fragment_tests) in;")),
-        (Stage::Fragment, BENT, format!("#version 300 es\n{main}")),
+        (Stage::Fragment, DISTORTED, with("void f() { gl_FragData[1] = vec4(1.); }")),
+        (Stage::Fragment, DISTORTED, with("layout(early_fragment_tests) in;")),
+        (Stage::Fragment, DISTORTED, format!("#version 300 es\n{main}")),
         (
             Stage::Fragment,
             REPLAY,

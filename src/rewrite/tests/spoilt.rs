@@ -17,7 +17,7 @@ const STAGES: [Stage; 6] = [
     Stage::Fragment,
     Stage::Compute,
 ];
-const WAYS: [Options; 5] = [REPLAY, LAYERS, TILES, ES, BENT];
+const WAYS: [Options; 5] = [REPLAY, LAYERS, TILES, ES, DISTORTED];
 
 /// What the rewriter looks for, to be put together.
 const WORDS: [&str; 49] = [

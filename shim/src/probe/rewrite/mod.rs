@@ -208,13 +208,13 @@ fn link(driver: &Driver, case: &Case, before: &[&Shader], ways: &[Vec<Outcome>])
         let mut names = Vec::new();
         let mut refused = false;
         for (((stage, _), &before), outcome) in case.shaders.iter().zip(before).zip(outcomes) {
-            let twin = Some(*stage) == last || *stage == Stage::Fragment;
+            let variant = Some(*stage) == last || *stage == Stage::Fragment;
             match outcome {
-                Outcome::Compiled(shader, rewritten) if twin => {
+                Outcome::Compiled(shader, rewritten) if variant => {
                     shaders.push(shader);
                     names.push(&rewritten.names);
                 }
-                Outcome::Refused(_) | Outcome::Failed(_) if twin => refused = true,
+                Outcome::Refused(_) | Outcome::Failed(_) if variant => refused = true,
                 _ => shaders.push(before),
             }
         }

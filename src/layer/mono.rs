@@ -2,7 +2,7 @@
 //! what the panel shows. The others get what it has as soon as something is drawn that depends on the view.
 
 use super::{Layer, as_they_are};
-use crate::config::{CaptureWhat, Filter, Output, Saving};
+use crate::config::{CaptureWhat, Filter, Optimisation, Output};
 use crate::gl::{Gl, consts as c};
 use crate::plan::{Kind, Method, Plan};
 use crate::state::BACK;
@@ -12,27 +12,27 @@ const EVERYTHING: u32 = COLOURS_AND_DEPTHS | c::STENCIL_BUFFER_BIT;
 
 /// What the views have in common.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Alike {
+pub(super) struct MonoFrames {
     /// The buffers, as bits of glClear, that are the same in all views.
     same: u32,
     /// Only the program's own view is drawn.
-    rests: bool,
+    active: bool,
 }
 
-impl Default for Alike {
+impl Default for MonoFrames {
     /// A new window's contents are undefined, so they may well be the same.
     fn default() -> Self {
-        Alike {
+        MonoFrames {
             same: EVERYTHING,
-            rests: false,
+            active: false,
         }
     }
 }
 
-impl Alike {
+impl MonoFrames {
     /// A draw went to the program's own view only.
     pub(super) fn lose(&mut self) {
-        if !self.rests {
+        if !self.active {
             self.same = 0;
         }
     }
@@ -40,12 +40,12 @@ impl Alike {
 
 impl Layer {
     /// Whether the frame is drawn in the program's own view only.
-    pub(super) fn rests(&self) -> bool {
-        self.alike.rests
+    pub(super) fn is_mono(&self) -> bool {
+        self.mono.active
     }
 
     /// Before a draw that is planned.
-    pub(super) fn keep_alike(&mut self, gl: &Gl, kind: Kind, plan: &Plan) {
+    pub(super) fn watch_mono(&mut self, gl: &Gl, kind: Kind, plan: &Plan) {
         if plan.method == Method::Once || self.synthesis.is_on() || !self.state.draws_to_window() {
             return;
         }
@@ -66,8 +66,8 @@ impl Layer {
 
     /// What is drawn next depends on the view. `list`: it may change the state of the stencil test itself.
     pub(super) fn differ(&mut self, gl: &Gl, list: bool) {
-        self.part(gl);
-        let same = &mut self.alike.same;
+        self.leave_mono(gl);
+        let same = &mut self.mono.same;
         *same &= !COLOURS_AND_DEPTHS;
         if *same != 0 && (list || gl.is_enabled(c::STENCIL_TEST)) {
             *same = 0;
@@ -76,7 +76,7 @@ impl Layer {
 
     /// A clear, of these buffers for certain.
     fn cleared(&mut self, gl: &Gl, buffers: u32) {
-        let new = buffers & EVERYTHING & !self.alike.same;
+        let new = buffers & EVERYTHING & !self.mono.same;
         if new == 0 || self.state.scissor_test || self.atlas.has_front() {
             return;
         }
@@ -92,18 +92,18 @@ impl Layer {
             ),
         ];
         for (bit, _) in written.iter().filter(|(bit, all)| new & bit != 0 && *all) {
-            self.alike.same |= bit;
+            self.mono.same |= bit;
         }
     }
 
-    /// The other views get what the program's own one has, and are drawn again.
-    pub(super) fn part(&mut self, gl: &Gl) {
+    /// The other views get what the program's own one has, and are drawn hazard.
+    pub(super) fn leave_mono(&mut self, gl: &Gl) {
         self.make_views(gl);
-        self.wake(gl);
+        self.draw_all_views(gl);
     }
 
-    fn wake(&mut self, gl: &Gl) {
-        if !std::mem::take(&mut self.alike.rests) {
+    fn draw_all_views(&mut self, gl: &Gl) {
+        if !std::mem::take(&mut self.mono.active) {
             return;
         }
         self.atlas.tiles.shown = self.shown();
@@ -118,21 +118,21 @@ impl Layer {
     }
 
     /// After a frame: whether the next one is drawn in the program's own view only, for as long as nothing depends on the view.
-    pub(super) fn rest(&mut self, gl: &Gl) {
-        let rests = self.may_rest();
-        if rests {
-            self.alike.rests = true;
+    pub(super) fn enter_mono(&mut self, gl: &Gl) {
+        let mono = self.may_enter_mono();
+        if mono {
+            self.mono.active = true;
         } else {
-            self.wake(gl);
+            self.draw_all_views(gl);
         }
     }
 
-    fn may_rest(&self) -> bool {
+    fn may_enter_mono(&self) -> bool {
         let captured = self.config.capture.as_ref().map(|capture| capture.what);
-        self.alike.same == EVERYTHING
+        self.mono.same == EVERYTHING
             && self.config.views > 1
-            && self.config.strategy.behind().is_none()
-            && !self.config.without.has(Saving::Alike)
+            && self.config.strategy.disocclusion_source().is_none()
+            && !self.config.disabled.has(Optimisation::MonoFrames)
             && self.support.shares
             && self.atlas.tiles.grid.is_full()
             && !self.atlas.has_front()

@@ -1,21 +1,21 @@
 // A picture with depths, and what another camera beside its own sees of it: its rows are walked along the ray of a pixel, from near to
 // far, until the ray meets the surface. What src/synthesis/warp.rs makes by drawing the surface.
 //
-// Heights are pixels by which a sample stands before what is infinitely far, for a camera one place further: they go with 1/w, and so
-// with the depths of the depth buffer. With the lever t, in places, a sample at x of height h is seen at x + t · (u.field.z − h).
+// Disparities are pixels by which a sample stands before what is infinitely far, for a camera one place further: they go with 1/w, and so
+// with the depths of the depth buffer. With the baseline t, in places, a sample at x of disparity h is seen at x + t · (u.disparity.z − h).
 
 @group(0) @binding(2) var depth_texture: texture_2d_array<f32>;
-// The greatest and the least height of all that the rays of a block of a row can meet. (Where that is found out: the greatest of each
+// The greatest and the least disparity of all that the rays of a block of a row can meet. (Where that is found out: the greatest of each
 // row.)
-@group(0) @binding(3) var range_texture: texture_2d_array<f32>;
+@group(0) @binding(3) var ray_range_texture: texture_2d_array<f32>;
 // The same of the blocks themselves.
-@group(0) @binding(4) var peaks_texture: texture_2d_array<f32>;
+@group(0) @binding(4) var block_bounds_texture: texture_2d_array<f32>;
 
 // Where the picture lies that is looked at: pixels from the left and the layer of its texture, and its layer of the two above.
 struct Place {
     left: i32,
     layer: i32,
-    field: i32,
+    layer_of_pyramid: i32,
 }
 
 // The view that lies at the origin, unless another one is entered.
@@ -40,31 +40,31 @@ fn depth_at(x: i32, row: i32) -> f32 {
 
 // Whether nothing was drawn there. Depths of 24 bits come back with the error of one step.
 fn is_clear(depth: f32) -> bool {
-    return abs(depth - u.field.w) < 1e-7;
+    return abs(depth - u.disparity.w) < 1e-7;
 }
 
-fn height_of(depth: f32) -> f32 {
+fn disparity_of(depth: f32) -> f32 {
     if is_clear(depth) {
-        return u.lever.z;
+        return u.baseline.z;
     }
-    let line = select(u.field.xy, u.before.xy, (depth - u.before.z) * u.before.w > 0.0);
+    let line = select(u.disparity.xy, u.before.xy, (depth - u.before.z) * u.before.w > 0.0);
     return max(line.x * depth + line.y, 0.0);
 }
 
-fn height(x: i32, row: i32) -> f32 {
-    return height_of(depth_at(x, row));
+fn disparity(x: i32, row: i32) -> f32 {
+    return disparity_of(depth_at(x, row));
 }
 
-// What a ray meets: between two samples, or nothing, and then what lies behind what hides it.
+// What a ray meets: between two samples, or nothing, and then what lies behind its occluder.
 struct Seen {
     low: i32,
     high: i32,
     weight: f32,
     // Nothing is known of what is there.
     hole: bool,
-    // It is of what is hidden in the picture: see plain.wgsl and bent.wgsl.
+    // It is of what is hidden in the picture: see plain.wgsl and reference.wgsl.
     behind: bool,
-    // Of a hole: the last sample before what hides the rest; below 0 where the picture ends.
+    // Of a hole: the last sample before the occluder; below 0 where the picture ends.
     last: i32,
 }
 
@@ -74,18 +74,18 @@ fn first_beyond(place: f32, along: i32) -> i32 {
     return i32(select(ceil(middle), floor(middle), along < 0));
 }
 
-// The greatest and the least height of all that can be seen in a column.
+// The greatest and the least disparity of all that can be seen in a column.
 fn range_of(x: u32, row: i32) -> vec2<f32> {
-    return textureLoad(range_texture, vec2<i32>(i32(x) / BLOCK, row), picture.field, 0).rg;
+    return textureLoad(ray_range_texture, vec2<i32>(i32(x) / BLOCK, row), picture.layer_of_pyramid, 0).rg;
 }
 
-// What a camera with a lever sees at x, in pixels from the left of its picture, in a row of the textures. There is one way out, and little
+// What a camera with a baseline sees at x, in pixels from the left of its picture, in a row of the textures. There is one way out, and little
 // that is fetched in branches: llvmpipe takes all of them. Loops are left at their ends: it goes through one once more to see at its
 // beginning that it is over.
 fn seek(x: f32, row: i32, t: f32, range: vec2<f32>) -> Seen {
     let width = i32(u.tile.x);
     let own = clamp(i32(floor(x)), 0, width - 1);
-    let far = u.field.z;
+    let far = u.disparity.z;
     var seen = Seen(own, own, 0.0, false, false, -1);
     // All that can be seen is nothing, or the camera is the picture's own.
     if range.x < 0.0 || abs(t) < 1e-6 {
@@ -113,7 +113,7 @@ fn seek(x: f32, row: i32, t: f32, range: vec2<f32>) -> Seen {
             // Over what lies below the ray, block by block.
             let start = k;
             loop {
-                let peak = textureLoad(peaks_texture, vec2<i32>(k / BLOCK, row), picture.field, 0).r;
+                let peak = textureLoad(block_bounds_texture, vec2<i32>(k / BLOCK, row), picture.layer_of_pyramid, 0).r;
                 let in_block = k & (BLOCK - 1);
                 let next = select(k - in_block + BLOCK, k - in_block - 1, along < 0);
                 let low = first_beyond(x + t * (peak + edge - far), along);
@@ -124,8 +124,8 @@ fn seek(x: f32, row: i32, t: f32, range: vec2<f32>) -> Seen {
                     break;
                 }
             }
-            let one = height(clamp(k - along, 0, width - 1), row);
-            let two = height(clamp(k - 2 * along, 0, width - 1), row);
+            let one = disparity(clamp(k - along, 0, width - 1), row);
+            let two = disparity(clamp(k - 2 * along, 0, width - 1), row);
             if fresh || k != start {
                 before = select(one, OUTSIDE, k == first);
                 slope = select(one - two, 0.0, k == first);
@@ -135,7 +135,7 @@ fn seek(x: f32, row: i32, t: f32, range: vec2<f32>) -> Seen {
             open = (last - k) * along >= 0;
             if open {
                 loop {
-                    let here = height(k, row);
+                    let here = disparity(k, row);
                     let ray = (f32(k) + 0.5 - x) / t + far;
                     let above = ray + 2.0 * edge - before;
                     let below = ray - here;
@@ -179,7 +179,7 @@ fn seek(x: f32, row: i32, t: f32, range: vec2<f32>) -> Seen {
     let ends = (k < 0 || k >= width) && before >= 0.0 && above >= 0.0 && above <= edge;
     if !found {
         // Nothing behind is farther than everything, and the same in all views.
-        let nothing = u.lever.z < 0.0 && height(own, row) < 0.0;
+        let nothing = u.baseline.z < 0.0 && disparity(own, row) < 0.0;
         let last_one = ends || behind_away == OUTSIDE;
         let at = select(select(behind, clamp(end, 0, width - 1), last_one), own, nothing);
         seen = Seen(at, at, 0.0, !ends && !nothing, false, select(behind, -1, last_one));

@@ -1,19 +1,19 @@
-// How high the rows of a picture with depths are, for field.wgsl.
+// How high the rows of a picture with depths are, for disparity.wgsl.
 
 fn enter_told() {
-    picture = Place(i32(u.bend.y), i32(u.bend.z), i32(u.bend.w));
+    picture = Place(i32(u.occlusion.y), i32(u.occlusion.z), i32(u.occlusion.w));
 }
 
-// Of a block: the greatest and the least height.
+// Of a block: the greatest and the least disparity.
 @fragment
-fn peaks(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
+fn block_bounds(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
     enter_told();
     let block = texel_at(position);
     let end = min((block.x + 1) * BLOCK, i32(u.tile.x));
     var peak = NOTHING;
     var least = -NOTHING;
     for (var x = block.x * BLOCK; x < end; x++) {
-        let here = height(x, block.y);
+        let here = disparity(x, block.y);
         peak = max(peak, here);
         least = min(least, here);
     }
@@ -21,12 +21,12 @@ fn peaks(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
 }
 
 fn block(x: i32, row: i32) -> vec2<f32> {
-    return textureLoad(peaks_texture, vec2<i32>(x, row), picture.field, 0).rg;
+    return textureLoad(block_bounds_texture, vec2<i32>(x, row), picture.layer_of_pyramid, 0).rg;
 }
 
-// Of a row: the greatest height.
+// Of a row: the greatest disparity.
 @fragment
-fn tops(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
+fn row_maxima(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
     enter_told();
     let row = texel_at(position).y;
     let last = (i32(u.tile.x) - 1) / BLOCK;
@@ -37,19 +37,19 @@ fn tops(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
     return vec4<f32>(top, 0.0, 0.0, 0.0);
 }
 
-// Blocks that lie wholly between this one and what a camera with the longest lever sees beside it at a height: the higher of what is
+// Blocks that lie wholly between this one and what a camera with the longest baseline sees beside it at a disparity: the higher of what is
 // infinitely far and this moves farther.
-fn reach(height: f32) -> f32 {
-    return u.aim.w * max(u.field.z, height - u.field.z) / f32(BLOCK) + 1.0;
+fn reach(disparity: f32) -> f32 {
+    return u.aim.w * max(u.disparity.z, disparity - u.disparity.z) / f32(BLOCK) + 1.0;
 }
 
-// Of all that the rays of a block can meet: the greatest and the least height.
+// Of all that the rays of a block can meet: the greatest and the least disparity.
 @fragment
-fn range(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
+fn ray_range(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
     enter_told();
     let at = texel_at(position);
     let last = (i32(u.tile.x) - 1) / BLOCK;
-    let top = textureLoad(range_texture, vec2<i32>(0, at.y), picture.field, 0).r;
+    let top = textureLoad(ray_range_texture, vec2<i32>(0, at.y), picture.layer_of_pyramid, 0).r;
     let farthest = i32(ceil(min(reach(top), 1.0e4)));
     var both = block(at.x, at.y);
     for (var x = max(at.x - farthest, 0); x <= min(at.x + farthest, last); x++) {

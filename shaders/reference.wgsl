@@ -1,43 +1,43 @@
-// What is hidden in a picture with depths is looked for in the reference image of an occlusion camera, whose rays reach behind what hides it.
+// What is hidden in a picture with depths is looked for in the reference image of an occlusion camera, whose rays reach behind its occluder.
 
-@group(0) @binding(6) var bent_texture: texture_2d_array<f32>;
-@group(0) @binding(7) var bent_depth_texture: texture_2d_array<f32>;
-// The distortion map, of bends.wgsl.
+@group(0) @binding(6) var reference_texture: texture_2d_array<f32>;
+@group(0) @binding(7) var reference_depth_texture: texture_2d_array<f32>;
+// The distortion map, of distortion.wgsl.
 @group(0) @binding(5) var map_texture: texture_2d_array<f32>;
 // Pixels to the right by which each sample lies beside its place.
 @group(0) @binding(8) var moved_texture: texture_2d_array<f32>;
 
 // What stands before the logarithm of a splat's asymmetry there.
 const LEVEL = 128.0;
-// Pixels by which what hides may have moved since the frame by whose depths the rays are bent.
+// Pixels by which what hides may have moved since the frame by whose depths the rays are distorted.
 const SLACK = 4;
 
 fn sample_at(x: i32, row: i32, behind: bool) -> vec3<f32> {
     var colour = textureLoad(views_texture, vec2<i32>(x, row), 0, 0).rgb;
     if behind {
-        colour = textureLoad(bent_texture, vec2<i32>(x, row), 0, 0).rgb;
+        colour = textureLoad(reference_texture, vec2<i32>(x, row), 0, 0).rgb;
     }
     return colour;
 }
 
-fn bent_depth(x: i32, row: i32) -> f32 {
-    return textureLoad(bent_depth_texture, vec2<i32>(x, row), 0, 0).r;
+fn reference_depth(x: i32, row: i32) -> f32 {
+    return textureLoad(reference_depth_texture, vec2<i32>(x, row), 0, 0).r;
 }
 
 fn sample_depth(x: i32, row: i32, behind: bool) -> f32 {
     var depth = depth_at(x, row);
     if behind {
-        depth = bent_depth(x, row);
+        depth = reference_depth(x, row);
     }
     return depth;
 }
 
 fn see(view: f32, x: f32, row: i32, range: vec2<f32>) -> Seen {
-    let lever = u.lever.x + view * u.lever.y;
-    return look_behind(seek(x, row, lever, range), x, row, lever);
+    let baseline = u.baseline.x + view * u.baseline.y;
+    return look_behind(seek(x, row, baseline, range), x, row, baseline);
 }
 
-// From what hides the rest outwards, where hidden samples lie side by side up to it: the farthest behind it is the closest to it. The
+// From the occluder outwards, where hidden samples lie side by side up to it: the farthest behind it is the closest to it. The
 // outermost place where the ray meets their surface is what it meets first.
 fn look_behind(seen: Seen, x: f32, row: i32, t: f32) -> Seen {
     let width = i32(u.tile.x);
@@ -58,24 +58,24 @@ fn look_behind(seen: Seen, x: f32, row: i32, t: f32) -> Seen {
     if open {
         loop {
             let at = clamp(k, 0, width - 1);
-            let depth = bent_depth(at, row);
+            let depth = reference_depth(at, row);
             let moved = textureLoad(moved_texture, vec2<i32>(at, row), 0, 0).r;
             let there = f32(at) + 0.5 - moved;
-            let height = height_of(depth);
-            let above = (there - x) / t + u.field.z - height;
+            let disparity = disparity_of(depth);
+            let above = (there - x) / t + u.disparity.z - disparity;
             let drawn = !is_clear(depth);
             // Samples lie closer to each other than the places they are of.
-            let step = height - before.y;
+            let step = disparity - before.y;
             let apart = edge * max(abs(there - before.x), 1.0);
             let joined = drawn && known && min(abs(step), abs(step - slope)) <= apart;
             if joined && above > 0.0 && before.z <= 0.0 {
                 best = Seen(at, at + along, above / (above - before.z), false, true, -1);
-            } else if !best.behind && drawn && moved != 0.0 && above > 0.0 && height < low {
+            } else if !best.behind && drawn && moved != 0.0 && above > 0.0 && disparity < low {
                 // As far as is known; the rest lies deeper.
                 best = Seen(at, at, 0.0, true, true, -1);
             }
             slope = select(0.0, step, known);
-            before = vec3<f32>(there, height, above);
+            before = vec3<f32>(there, disparity, above);
             known = drawn;
             left -= 1;
             if left <= 0 || at != k {

@@ -4,9 +4,9 @@ use super::{State, Touch};
 use crate::config::{DepthRange, DepthState, Projection, Viewport};
 use crate::gl::{Gl, consts as c};
 
-/// Valid in the groups that [`State::look`] was last asked for, until a command touches them.
+/// Valid in the groups that [`State::read_classification`] was last asked for, until a command touches them.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Look {
+pub struct ClassificationState {
     /// Depth test and mask.
     pub depth: DepthState,
     /// Fragments have to have the very depth that is there already: GL_EQUAL.
@@ -29,9 +29,9 @@ pub struct Look {
     pub modelview: [f32; 16],
 }
 
-impl Default for Look {
+impl Default for ClassificationState {
     fn default() -> Self {
-        Look {
+        ClassificationState {
             depth: DepthState::Off,
             equal: false,
             range: DepthRange::Whole,
@@ -48,42 +48,42 @@ impl Default for Look {
 
 impl State {
     /// Reads again what of some groups a command has touched; after [`State::refresh`].
-    pub fn look(&mut self, gl: &Gl, groups: Touch) {
+    pub fn read_classification(&mut self, gl: &Gl, groups: Touch) {
         let stale = |group: Touch| groups.has(group) && self.touched.has(group);
         if stale(Touch::DEPTH) {
             let buffer = self.framebuffers.draw != 0 || self.window.bits[4] > 0;
-            self.look.depth = if !buffer || !gl.is_enabled(c::DEPTH_TEST) {
+            self.classification.depth = if !buffer || !gl.is_enabled(c::DEPTH_TEST) {
                 DepthState::Off
             } else if gl.get_integer(c::DEPTH_WRITEMASK) == 0 {
                 DepthState::TestOnly
             } else {
                 DepthState::On
             };
-            self.look.equal = self.look.depth != DepthState::Off
+            self.classification.equal = self.classification.depth != DepthState::Off
                 && gl.get_integer(c::DEPTH_FUNC) as u32 == c::EQUAL;
         }
         if stale(Touch::RANGE) {
-            self.look.depths = gl.get_floats(c::DEPTH_RANGE);
-            self.look.range = depth_range(self.look.depths);
-            self.look.zero_to_one =
+            self.classification.depths = gl.get_floats(c::DEPTH_RANGE);
+            self.classification.range = depth_range(self.classification.depths);
+            self.classification.zero_to_one =
                 self.clip_control && gl.get_integer(c::CLIP_DEPTH_MODE) as u32 == c::ZERO_TO_ONE;
         }
         if stale(Touch::COVER) {
-            self.look.blends = gl.is_enabled(c::BLEND);
-            self.look.stencil = gl.is_enabled(c::STENCIL_TEST);
-            self.look.stipple = self.compatibility && gl.is_enabled(c::POLYGON_STIPPLE);
+            self.classification.blends = gl.is_enabled(c::BLEND);
+            self.classification.stencil = gl.is_enabled(c::STENCIL_TEST);
+            self.classification.stipple = self.compatibility && gl.is_enabled(c::POLYGON_STIPPLE);
         }
         if stale(Touch::TEXTURE) {
             // Programs sample without it being enabled.
             let sampled = self.program != 0 || !self.compatibility || gl.is_enabled(c::TEXTURE_2D);
-            self.look.texture = if sampled {
+            self.classification.texture = if sampled {
                 gl.get_integer(c::TEXTURE_BINDING_2D) as u32
             } else {
                 0
             };
         }
         if stale(Touch::MODELVIEW) && self.compatibility {
-            self.look.modelview = gl.get_floats(c::MODELVIEW_MATRIX);
+            self.classification.modelview = gl.get_floats(c::MODELVIEW_MATRIX);
         }
         self.touched = self.touched.without(groups);
     }

@@ -9,7 +9,7 @@ use super::{Display, Kind, Number, Placement, Rotation, Slanted};
 /// φ, in turns (one turn is one lens, and all views), at the middle of a pixel: `start + x · right + row · down`, for a picture at its
 /// place on the screen, `row` from its top.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Turns {
+pub struct LensPhase {
     /// At the pixel in the left top corner.
     pub start: f64,
     /// What a pixel to the right adds.
@@ -28,7 +28,7 @@ impl Display {
     /// None where the views do not follow one such function: tables, hand patterns, pictures, pixels with cells, what was measured
     /// beyond a sheet's numbers, panels that are mounted turned.
     #[must_use]
-    pub fn turns(&self, placement: &Placement, views: u32) -> Option<Turns> {
+    pub fn lens_phase(&self, placement: &Placement, views: u32) -> Option<LensPhase> {
         if self.rotation != Rotation::None {
             return None;
         }
@@ -39,7 +39,7 @@ impl Display {
             colour,
         } = self.phase(views)?;
         let (x, y) = (f64::from(placement.x), f64::from(placement.y));
-        let turns = Turns {
+        let phase = LensPhase {
             start: start + right * x + down * y,
             right,
             down,
@@ -47,11 +47,11 @@ impl Display {
             colour,
             exact: false,
         };
-        let (within, concentrated) = turns.mean_within(views);
-        Some(Turns {
+        let (within, concentrated) = phase.mean_within(views);
+        Some(LensPhase {
             within,
             exact: concentrated && colour == 0.0,
-            ..turns
+            ..phase
         })
     }
 
@@ -79,7 +79,7 @@ impl Display {
     }
 }
 
-/// As [`Turns`], of the whole screen.
+/// As [`LensPhase`], of the whole screen.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Phase {
     pub(super) start: f64,
@@ -92,7 +92,7 @@ pub(super) struct Phase {
 /// Pixels of a row, and rows, over which means are taken: primes, so that no pitch is met at the same places again and again.
 const SAMPLES: (u32, u32) = (101, 31);
 
-impl Turns {
+impl LensPhase {
     /// The circular mean, as parts just below 1 and just above 0 are neighbours; and whether all are the same.
     fn mean_within(&self, views: u32) -> (f64, bool) {
         let (mut sine, mut cosine, mut count) = (0.0, 0.0, 0.0);

@@ -1,13 +1,13 @@
-// The distortion map of an occlusion camera whose rays are bent along rows: src/synthesis/rows.rs says what it has to be.
+// The distortion map of an occlusion camera whose rays are distorted along rows: src/synthesis/rows.rs says what it has to be.
 
-// Of the blocks of a row: a bit for each sample on whose left side heights step down, and step up.
+// Of the blocks of a row: a bit for each sample on whose left side disparities step down, and step up.
 @group(0) @binding(5) var steps_texture: texture_2d_array<f32>;
 // Whether a sample of a block lies in a splat of one of them.
 @group(0) @binding(6) var splats_texture: texture_2d_array<f32>;
 
 // What nothing is drawn on is infinitely far.
 fn solid(x: i32, row: i32) -> f32 {
-    return max(height(x, row), 0.0);
+    return max(disparity(x, row), 0.0);
 }
 
 @fragment
@@ -16,7 +16,7 @@ fn steps(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
     let width = i32(u.tile.x);
     let first = block.x * BLOCK;
     let end = min(first + BLOCK, width);
-    // Heights of the two samples before, and here.
+    // Disparities of the two samples before, and here.
     var two = solid(max(first - 2, 0), block.y);
     var one = solid(max(first - 1, 0), block.y);
     var here = solid(first, block.y);
@@ -84,7 +84,7 @@ fn first_step(start: i32, end: i32, along: i32, down: bool, up: bool, row: i32) 
 @fragment
 fn splats(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
     let at = texel_at(position);
-    let blocks = i32(ceil(u.bend.x / f32(BLOCK)));
+    let blocks = i32(ceil(u.occlusion.x / f32(BLOCK)));
     var any = vec2<u32>(0u, 0u);
     for (var x = at.x - blocks; x <= at.x + blocks; x++) {
         any |= step_bits(x, at.y);
@@ -96,9 +96,9 @@ fn splats(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
 const LEVEL = 128.0;
 
 // Of two samples: how far to the right of their middle the discontinuity lies, with the asymmetry; the radius of the splat with its
-// direction; and the heights between which it bends. Nothing where the radius is 0.
+// direction; and the disparities between which it distorts. Nothing where the radius is 0.
 @fragment
-fn bends(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
+fn distortion_map(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
     let at = texel_at(position);
     let row = at.y;
     // Steps lie on the left sides of samples.
@@ -106,7 +106,7 @@ fn bends(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
     if textureLoad(splats_texture, vec2<i32>(2 * at.x / BLOCK, row), 0, 0).r == 0.0 {
         return vec4<f32>(0.0, 0.0, 0.0, 0.0);
     }
-    let reach = i32(ceil(u.bend.x));
+    let reach = i32(ceil(u.occlusion.x));
     let left = first_step(middle, middle - reach - 1, -1, true, true, row);
     let right = first_step(middle + 1, middle + reach + 1, 1, true, true, row);
     let nearest = select(left, right, right - middle < middle - left);
@@ -118,12 +118,12 @@ fn bends(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
     let down = before > after;
     let near = max(before, after);
     let far = min(before, after);
-    // To the nearest one that bends the other way, behind what is in front and on the side of the background.
+    // To the nearest one that distorts the other way, behind what is in front and on the side of the background.
     let side = select(-1, 1, down);
-    let wide = i32(ceil(2.0 * u.bend.x)) + 1;
+    let wide = i32(ceil(2.0 * u.occlusion.x)) + 1;
     let hidden = first_step(nearest - side, nearest - side * wide, -side, !down, down, row);
     let open = first_step(nearest + side, nearest + side * wide, side, !down, down, row);
-    let wanted = min(min(u.bend.x, u.aim.w * (near - far) + 1.0), 0.5 * f32(abs(hidden - nearest)));
+    let wanted = min(min(u.occlusion.x, u.aim.w * (near - far) + 1.0), 0.5 * f32(abs(hidden - nearest)));
     let room = 0.5 * f32(abs(open - nearest));
     let level = select(select(2.0, 1.0, wanted <= 2.0 * room), 0.0, wanted <= room);
     let radius = min(wanted, room * exp2(level));

@@ -1,12 +1,12 @@
-//! What the depths of a picture are, for views that are made of it; `shaders/field.wgsl` says how.
+//! What the depths of a picture are, for views that are synthesised from it; `shaders/disparity.wgsl` says how.
 #![forbid(unsafe_code)]
 
 use super::Sources;
 
-/// Heights of the samples of a picture, in pixels by which they stand before what is infinitely far for a camera one place further:
-/// `height = scale·depth + offset`, where the lever of a camera is how many places it stands to the side.
+/// Disparities of the samples of a picture, in pixels by which they stand before what is infinitely far for a camera one place further:
+/// `height = scale·depth + offset`, where the baseline of a camera is how many places it stands to the side.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Heights {
+pub struct Disparities {
     /// The same for what is nearer than a depth: scale and offset, that depth, and 1 where nearer is larger, −1 where it is smaller; 0 for none.
     pub before: [f32; 4],
     /// For a unit of depth.
@@ -19,8 +19,8 @@ pub struct Heights {
     pub clear: f32,
     /// That is infinitely far; else it is behind everything, and the same in all views.
     pub sky: bool,
-    /// Lever of view 0, and from each view to the next; of the view that the picture is of, it is 0.
-    pub levers: [f32; 2],
+    /// Baseline of view 0, and from each view to the next; of the view that the picture is of, it is 0.
+    pub baselines: [f32; 2],
     /// What is added to depths of views that are drawn on, so that they are farther, in units of the depth buffer.
     pub margin: f32,
     /// The view that is made, and the left edge of its tile in pixels.
@@ -47,13 +47,13 @@ pub enum Places {
     One([u32; 3]),
 }
 
-/// Lower than everything; as `shaders/field.wgsl` has it.
+/// Lower than everything; as `shaders/disparity.wgsl` has it.
 const NOTHING: f32 = -1.0e6;
 
-impl Heights {
-    /// The longest lever of a view of the picture that is looked at.
+impl Disparities {
+    /// The longest baseline of a view of the picture that is looked at.
     fn longest(&self, views: u32) -> f32 {
-        let [first, step] = self.levers;
+        let [first, step] = self.baselines;
         match (&self.sources, self.places) {
             (Some(sources), Places::One([.., i])) => sources.farthest(i, views) as f32 * step.abs(),
             _ => first
@@ -62,9 +62,9 @@ impl Heights {
         }
     }
 
-    /// `field`, `lever`, `aim`, `bend` and those of the sources of `shaders/common.wgsl`.
+    /// `field`, `baseline`, `aim`, `occlusion` and those of the sources of `shaders/common.wgsl`.
     pub(super) fn rows(&self, views: u32) -> [[f32; 4]; 7] {
-        let [first, step] = self.levers;
+        let [first, step] = self.baselines;
         let clear = if self.sky { 0.0 } else { NOTHING };
         let (view, left) = self.aim;
         let [left_edge, layer, field] = match self.places {

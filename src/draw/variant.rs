@@ -1,4 +1,4 @@
-//! A twin of one of the program's own GLSL programs, linked from rewritten shaders: what draws the views. The program's own stays as
+//! A variant of one of the program's own GLSL programs, linked from rewritten shaders: what draws the views. The program's own stays as
 //! it is, and everything that the program asks about it is answered by it.
 
 use crate::gl::{Active, Gl, consts as c};
@@ -10,17 +10,17 @@ use crate::state::Text;
 use std::borrow::Cow;
 use std::ffi::{CStr, CString};
 
-/// How a twin draws the views.
+/// How a variant draws the views.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Way {
+pub enum VariantKind {
     /// One at a time, where its viewport or framebuffer is.
     Alone,
     /// One at a time, to a layer that it chooses.
     Layer(VertexLayer),
     /// All at once, up to so many: an instance for each, to the layer of each.
     Instances(VertexLayer, u32),
-    /// To the reference image of an occlusion camera, by bent rays; also what the projection matrix of fixed function places.
-    Bent,
+    /// To the reference image of an occlusion camera, by distorted rays; also what the projection matrix of fixed function places.
+    DistortedRays,
 }
 
 /// What a program draws the views by.
@@ -28,13 +28,13 @@ pub enum Way {
 pub enum Drawn {
     /// Its vertices are placed by the projection matrix of fixed function, which the layer moves.
     ByMatrix,
-    /// A twin shifts its vertices.
-    ByTwin(Twin),
+    /// A variant shifts its vertices.
+    ByVariant(Variant),
 }
 
-/// Why a program has no twin. Its draws are the same in all views.
+/// Why a program has no variant. Its draws are the same in all views.
 #[derive(Debug, thiserror::Error)]
-pub enum NoTwin {
+pub enum NoVariant {
     /// The text.
     #[error(transparent)]
     Refused(#[from] Refusal),
@@ -50,7 +50,7 @@ pub enum NoTwin {
     /// Nothing moves vertices that could be shifted.
     #[error("it has no vertex shader")]
     NoVertex,
-    /// Bent rays end at the vertex stage.
+    /// Distorted rays end at the vertex stage.
     #[error("its vertices are placed after the vertex stage")]
     Stages,
     /// Colours come from fixed function.
@@ -72,28 +72,28 @@ pub enum NoTwin {
 
 /// The rewritten program.
 #[derive(Debug)]
-pub struct Twin {
+pub struct Variant {
     name: u32,
     shift: i32,
     tile: i32,
     views: i32,
     across: i32,
     up: i32,
-    /// The map, where its texels lie, heights.
-    bends: [i32; 3],
+    /// The map, where its texels lie, disparities.
+    distortion: [i32; 3],
     /// Type, location in the program, location here; one for each element of arrays.
     uniforms: Vec<(u32, i32, i32)>,
-    /// Index of each block in the program, here the index in the twin.
+    /// Index of each block in the program, here the index in the variant.
     blocks: Vec<Option<u32>>,
 }
 
 /// How the draws of a program get their views. `texts` are those that it was linked from. Changes nothing of the program's state.
-pub fn drawn(gl: &Gl, program: u32, texts: &[Text], way: Way) -> Result<Drawn, NoTwin> {
+pub fn drawn(gl: &Gl, program: u32, texts: &[Text], kind: VariantKind) -> Result<Drawn, NoVariant> {
     if texts.is_empty() || texts.iter().any(|text| text.source.is_empty()) {
-        return Err(NoTwin::NoText);
+        return Err(NoVariant::NoText);
     }
     if texts.iter().any(|text| text.stage == Stage::Compute) {
-        return Err(NoTwin::Computes);
+        return Err(NoVariant::Computes);
     }
     let rank = |stage: Stage| match stage {
         Stage::Vertex => 1,
@@ -105,16 +105,16 @@ pub fn drawn(gl: &Gl, program: u32, texts: &[Text], way: Way) -> Result<Drawn, N
     let last = stages
         .max_by_key(|&stage| rank(stage))
         .filter(|&stage| rank(stage) > 0);
-    let last = last.ok_or(NoTwin::NoVertex)?;
-    let (amplifier, target, views) = match way {
-        Way::Alone => (Amplifier::Replay, Target::Whole, 1),
-        Way::Layer(by) => (Amplifier::Replay, Target::Layer(by), 1),
-        Way::Instances(by, views) => (Amplifier::Instanced, Target::Layer(by), views),
-        Way::Bent => (Amplifier::Replay, Target::Bent, 1),
+    let last = last.ok_or(NoVariant::NoVertex)?;
+    let (amplifier, target, views) = match kind {
+        VariantKind::Alone => (Amplifier::Replay, Target::Whole, 1),
+        VariantKind::Layer(by) => (Amplifier::Replay, Target::Layer(by), 1),
+        VariantKind::Instances(by, views) => (Amplifier::Instanced, Target::Layer(by), views),
+        VariantKind::DistortedRays => (Amplifier::Replay, Target::DistortedRays, 1),
     };
-    let bent = way == Way::Bent;
-    if bent && last != Stage::Vertex {
-        return Err(NoTwin::Stages);
+    let distorts = kind == VariantKind::DistortedRays;
+    if distorts && last != Stage::Vertex {
+        return Err(NoVariant::Stages);
     }
     let options = Options {
         amplifier,
@@ -132,7 +132,7 @@ pub fn drawn(gl: &Gl, program: u32, texts: &[Text], way: Way) -> Result<Drawn, N
         if !moves && text.stage != Stage::Fragment {
             let facts = facts(&text.source, options.es)?;
             if facts.subroutines {
-                return Err(NoTwin::Subroutines);
+                return Err(NoVariant::Subroutines);
             }
             projection |= facts.projection;
             rewritten.push((text.kind, text.source.as_slice().into()));
@@ -140,10 +140,10 @@ pub fn drawn(gl: &Gl, program: u32, texts: &[Text], way: Way) -> Result<Drawn, N
         }
         let new = rewrite(&text.source, text.stage, &options)?;
         if new.facts.subroutines {
-            return Err(NoTwin::Subroutines);
+            return Err(NoVariant::Subroutines);
         }
-        if bent && new.facts.side_effects {
-            return Err(NoTwin::Effects);
+        if distorts && new.facts.side_effects {
+            return Err(NoVariant::Effects);
         }
         let changed = matches!(new.text, Cow::Owned(_));
         match text.stage {
@@ -162,24 +162,24 @@ pub fn drawn(gl: &Gl, program: u32, texts: &[Text], way: Way) -> Result<Drawn, N
         }
         rewritten.push((text.kind, new.text));
     }
-    if projection && !bent {
+    if projection && !distorts {
         return Ok(Drawn::ByMatrix);
     }
-    let shift = shift.ok_or(NoTwin::NoVertex)?;
+    let shift = shift.ok_or(NoVariant::NoVertex)?;
     let mut outputs = outputs(gl, program);
-    if bent {
-        let beside = place.as_ref().ok_or(NoTwin::NoFragment)?;
+    if distorts {
+        let beside = place.as_ref().ok_or(NoVariant::NoFragment)?;
         if *beside != shift {
-            return Err(NoTwin::Names);
+            return Err(NoVariant::Names);
         }
         let one = outputs.len() <= 1 && outputs.iter().all(|(_, at)| *at == 0);
         let free = built_in || one && gl.tells_outputs();
         if !free {
-            return Err(NoTwin::Outputs);
+            return Err(NoVariant::Outputs);
         }
         outputs.push((CString::new(beside.beside()).unwrap_or_default(), 1));
-        let bending = shift.bending().into_bytes();
-        rewritten.push((c::VERTEX_SHADER, bending.into()));
+        let distortion = shift.ray_distortion().into_bytes();
+        rewritten.push((c::VERTEX_SHADER, distortion.into()));
     }
     let mut shaders = Vec::with_capacity(rewritten.len());
     for (kind, text) in &rewritten {
@@ -189,17 +189,17 @@ pub fn drawn(gl: &Gl, program: u32, texts: &[Text], way: Way) -> Result<Drawn, N
                 shaders
                     .into_iter()
                     .for_each(|shader| gl.delete_shader(shader));
-                return Err(NoTwin::Driver(log));
+                return Err(NoVariant::Driver(log));
             }
         }
     }
-    let attributes = places(gl.active_attributes(program), |name| {
+    let attributes = locations(gl.active_attributes(program), |name| {
         gl.attribute_location(program, name)
     });
     let name = gl
         .link_at(&shaders, &attributes, &outputs)
-        .map_err(NoTwin::Driver)?;
-    Ok(Drawn::ByTwin(Twin::of(
+        .map_err(NoVariant::Driver)?;
+    Ok(Drawn::ByVariant(Variant::of(
         gl,
         program,
         name,
@@ -208,7 +208,7 @@ pub fn drawn(gl: &Gl, program: u32, texts: &[Text], way: Way) -> Result<Drawn, N
     )))
 }
 
-fn places(actives: Vec<Active>, location: impl Fn(&CStr) -> i32) -> Vec<(CString, u32)> {
+fn locations(actives: Vec<Active>, location: impl Fn(&CStr) -> i32) -> Vec<(CString, u32)> {
     let place = |active: Active| {
         let at = u32::try_from(location(&active.name)).ok()?;
         Some((active.name, at))
@@ -226,8 +226,8 @@ fn outputs(gl: &Gl, program: u32) -> Vec<(CString, u32)> {
     names.filter_map(place).collect()
 }
 
-impl Twin {
-    fn of(gl: &Gl, program: u32, name: u32, shift: &Names, place: Option<&Names>) -> Twin {
+impl Variant {
+    fn of(gl: &Gl, program: u32, name: u32, shift: &Names, place: Option<&Names>) -> Variant {
         let ours = |names: &Names, uniform| {
             let text = CString::new(names.uniform(uniform)).unwrap_or_default();
             gl.uniform_location(name, &text)
@@ -243,14 +243,14 @@ impl Twin {
             }
         }
         let blocks = gl.block_bindings(program).len() as u32;
-        Twin {
+        Variant {
             name,
             shift: ours(shift, Uniform::Shift),
             tile: ours(shift, Uniform::Tile),
             views: ours(shift, Uniform::Views),
             across: window(Uniform::Across),
             up: window(Uniform::Up),
-            bends: [Uniform::Bends, Uniform::Window, Uniform::Bend]
+            distortion: [Uniform::DistortionMap, Uniform::Window, Uniform::Disparity]
                 .map(|uniform| ours(shift, uniform)),
             uniforms,
             blocks: (0..blocks)
@@ -259,13 +259,13 @@ impl Twin {
         }
     }
 
-    /// The name of the twin.
+    /// The name of the variant.
     pub fn name(&self) -> u32 {
         self.name
     }
 
-    /// Gives the twin, which is in use, the values that the program's uniforms have.
-    pub fn follow(&self, gl: &Gl, program: u32) {
+    /// Gives the variant, which is in use, the values that the program's uniforms have.
+    pub fn copy_uniforms(&self, gl: &Gl, program: u32) {
         for &(kind, from, to) in &self.uniforms {
             gl.copy_uniform(kind, (program, from), to);
         }
@@ -277,7 +277,7 @@ impl Twin {
         }
     }
 
-    /// Another value for a matrix of the program's, by its location there; the twin is in use.
+    /// Another value for a matrix of the program's, by its location there; the variant is in use.
     pub fn set_matrix(&self, gl: &Gl, location: i32, m: &[f32; 16]) {
         let found = self.uniforms.iter().find(|(_, from, _)| *from == location);
         if let Some((_, _, to)) = found {
@@ -285,8 +285,8 @@ impl Twin {
         }
     }
 
-    /// The layers of the views that are drawn next; the twin is in use, and chooses layers.
-    pub fn choose(&self, gl: &Gl, layers: &[u32]) {
+    /// The layers of the views that are drawn next; the variant is in use, and chooses layers.
+    pub fn set_layers(&self, gl: &Gl, layers: &[u32]) {
         let tiles: Vec<_> = layers.iter().map(|&l| [0.0, 0.0, l as f32, 0.0]).collect();
         gl.uniform_4fv(self.tile, &tiles);
         if self.views >= 0 {
@@ -294,17 +294,17 @@ impl Twin {
         }
     }
 
-    /// What rays are bent by: the texture unit of the map, where its texels lie, heights. The twin is in use, and bends.
-    pub(super) fn bend(&self, gl: &Gl, unit: u32, [window, heights]: [[f32; 4]; 2]) {
-        let [at_map, at_window, at_heights] = self.bends;
+    /// What rays are distorted by: the texture unit of the map, where its texels lie, disparities. The variant is in use, and distorts rays.
+    pub(super) fn set_distortion(&self, gl: &Gl, unit: u32, [window, disparities]: [[f32; 4]; 2]) {
+        let [at_map, at_window, at_heights] = self.distortion;
         gl.uniform_1i(at_map, unit as i32);
         gl.uniform_4fv(at_window, &[window]);
-        gl.uniform_4fv(at_heights, &[heights]);
+        gl.uniform_4fv(at_heights, &[disparities]);
     }
 
-    /// The views that are drawn next; the twin is in use. `shear` of the scene, `flat` of what has no depth, both at the `places` of the
-    /// views (see [`crate::plan::Rig::place`]); `stride`: pixels from tile to tile.
-    pub fn place(
+    /// The views that are drawn next; the variant is in use. `shear` of the scene, `flat` of what has no depth, both at the `places` of the
+    /// views (see [`crate::plan::Rig::position`]); `stride`: pixels from tile to tile.
+    pub fn set_views(
         &self,
         gl: &Gl,
         (shear, flat): (Option<Shear>, Flat),

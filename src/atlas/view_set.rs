@@ -2,11 +2,11 @@
 
 /// A set of views; at most 256, as many as there may be.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Shown([u64; 4]);
+pub struct ViewSet([u64; 4]);
 
-impl Shown {
+impl ViewSet {
     /// Whatever their number.
-    pub const ALL: Shown = Shown([u64::MAX; 4]);
+    pub const ALL: ViewSet = ViewSet([u64::MAX; 4]);
 
     /// Whether a view is among them.
     pub fn has(&self, view: u32) -> bool {
@@ -15,7 +15,7 @@ impl Shown {
     }
 }
 
-impl FromIterator<u32> for Shown {
+impl FromIterator<u32> for ViewSet {
     fn from_iter<I: IntoIterator<Item = u32>>(views: I) -> Self {
         let mut words = [0u64; 4];
         for view in views {
@@ -23,6 +23,6 @@ impl FromIterator<u32> for Shown {
                 *word |= 1 << (view % 64);
             }
         }
-        Shown(words)
+        ViewSet(words)
     }
 }

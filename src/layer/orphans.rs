@@ -3,7 +3,7 @@
 use super::{Group, Layer};
 use crate::gl::{Gl, Held, Object, consts as c};
 use crate::offscreen::Images;
-use crate::state::Left;
+use crate::state::Orphans;
 
 impl Layer {
     /// The context is destroyed: what its share group keeps is left to the others.
@@ -11,37 +11,37 @@ impl Layer {
         let mut lists = self.group.lists();
         let mask = Some(self.interleaver.texture()).filter(|&t| t != 0);
         for atlas in self.atlases() {
-            lists.left.framebuffers.extend(atlas.framebuffers());
+            lists.orphans.framebuffers.extend(atlas.framebuffers());
         }
         let framebuffers = self.offscreen.framebuffers();
-        lists.left.framebuffers.extend(framebuffers);
+        lists.orphans.framebuffers.extend(framebuffers);
         let textures = self.atlases().flat_map(|atlas| atlas.textures());
         let textures = textures.copied();
         let textures = textures.chain(mask);
-        lists.left.textures.extend(textures);
+        lists.orphans.textures.extend(textures);
         let (buffer, fence) = self.atlas.give_buffer();
-        lists.left.buffers.extend(buffer);
-        lists.left.fences.extend(fence);
+        lists.orphans.buffers.extend(buffer);
+        lists.orphans.fences.extend(fence);
         let programs = self.interleaver.programs().chain(self.programs.names());
-        let programs = programs.chain(self.twins.names());
+        let programs = programs.chain(self.variants.names());
         let programs = programs.chain(self.synthesis.programs());
-        lists.left.programs.extend(programs);
+        lists.orphans.programs.extend(programs);
         if let Some(accumulation) = &self.accumulated.buffer {
-            lists.left.framebuffers.push(accumulation.framebuffer());
-            lists.left.textures.extend(accumulation.textures());
-            lists.left.programs.extend(accumulation.programs());
+            lists.orphans.framebuffers.push(accumulation.framebuffer());
+            lists.orphans.textures.extend(accumulation.textures());
+            lists.orphans.programs.extend(accumulation.programs());
         }
     }
 }
 
-/// Deletes what destroyed contexts of the share group have left.
-pub(super) fn sweep(gl: &Gl, group: &Group) {
-    let left = std::mem::take(&mut group.lists().left);
-    if !left.framebuffers.is_empty() {
+/// Deletes what destroyed contexts of the share group have orphans.
+pub(super) fn delete_orphans(gl: &Gl, group: &Group) {
+    let orphans = std::mem::take(&mut group.lists().orphans);
+    if !orphans.framebuffers.is_empty() {
         let bound = gl.get_integer(c::DRAW_FRAMEBUFFER_BINDING) as u32;
-        for &framebuffer in &left.framebuffers {
+        for &framebuffer in &orphans.framebuffers {
             // Where the driver does not share them the name may be the program's by now.
-            if is_attached(gl, framebuffer, &left, &group.images()) {
+            if is_attached(gl, framebuffer, &orphans, &group.images()) {
                 Held::Framebuffer.count(1);
                 gl.delete_framebuffer(framebuffer);
             }
@@ -49,23 +49,23 @@ pub(super) fn sweep(gl: &Gl, group: &Group) {
         gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, bound);
     }
     // Counted with the context that has made them, which is no more.
-    for texture in left.textures {
+    for texture in orphans.textures {
         Held::Texture.count(1);
         gl.delete_texture(texture);
     }
-    for buffer in left.buffers {
+    for buffer in orphans.buffers {
         Held::Buffer.count(1);
         gl.delete_buffer(buffer);
     }
-    left.fences.into_iter().for_each(|f| gl.delete_fence(f));
-    for program in left.programs {
+    orphans.fences.into_iter().for_each(|f| gl.delete_fence(f));
+    for program in orphans.programs {
         Held::Shader.count(1);
         gl.delete_program(program);
     }
 }
 
 /// Whether a framebuffer object has something of ours attached. Changes the draw framebuffer.
-fn is_attached(gl: &Gl, framebuffer: u32, left: &Left, images: &Images) -> bool {
+fn is_attached(gl: &Gl, framebuffer: u32, orphans: &Orphans, images: &Images) -> bool {
     if gl.is_framebuffer(framebuffer) == 0 {
         return false;
     }
@@ -73,6 +73,6 @@ fn is_attached(gl: &Gl, framebuffer: u32, left: &Left, images: &Images) -> bool 
     let attachments = gl.attachments(c::DRAW_FRAMEBUFFER);
     attachments.iter().any(|a| {
         images.owns(a.object)
-            || matches!(a.object, Object::Texture(name) if left.textures.contains(&name))
+            || matches!(a.object, Object::Texture(name) if orphans.textures.contains(&name))
     })
 }

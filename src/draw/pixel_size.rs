@@ -7,7 +7,7 @@ use crate::state::State;
 
 /// What the program has, to be put back.
 #[derive(Debug, Default)]
-pub(super) struct Tuned {
+pub(super) struct PixelSizeGuard {
     /// Of lines and points.
     widths: Option<[f32; 2]>,
     /// GL_POLYGON_OFFSET_FACTOR, _UNITS and _CLAMP.
@@ -40,24 +40,24 @@ const TARGETS: [u32; 5] = [
     c::TEXTURE_RECTANGLE,
 ];
 
-impl Tuned {
-    pub(super) fn enter(gl: &Gl, state: &State, grid: &Grid, units: Units) -> Tuned {
+impl PixelSizeGuard {
+    pub(super) fn enter(gl: &Gl, state: &State, grid: &Grid, units: Units) -> PixelSizeGuard {
         if grid.is_full() {
-            return Tuned::default();
+            return PixelSizeGuard::default();
         }
         let widths = [c::LINE_WIDTH, c::POINT_SIZE].map(|w| gl.get_floats::<1>(w)[0]);
         let [line, point] = widths.map(|width| width / grid.spacing() as f32);
         gl.line_width(line);
         gl.point_size(point);
-        let mut tuned = Tuned {
+        let mut pixel_sizes = PixelSizeGuard {
             widths: Some(widths),
             offset: flatten(gl, state, grid),
-            ..Tuned::default()
+            ..PixelSizeGuard::default()
         };
         if state.compatibility && units != Units::None {
-            tuned.sharpen(gl, grid, units == Units::All);
+            pixel_sizes.sharpen(gl, grid, units == Units::All);
         }
-        tuned
+        pixel_sizes
     }
 
     fn sharpen(&mut self, gl: &Gl, grid: &Grid, unknown: bool) {

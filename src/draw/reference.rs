@@ -1,12 +1,12 @@
-//! One draw for the reference image of an occlusion camera, with a generated program or a twin of the program's own.
+//! One draw for the reference image of an occlusion camera, with a generated program or a variant of the program's own.
 
-use super::amplified::{Around, Programs};
+use super::amplified::{Programs, StateGuard};
 use super::fixed_state::FixedState;
 use super::fragment_state;
-use super::replay::{Again, replay};
-use super::tuned::Units;
-use super::twin::Twin;
-use crate::atlas::{Atlas, BentSurface};
+use super::pixel_size::Units;
+use super::replay::{ReplayHazard, replay};
+use super::variant::Variant;
+use crate::atlas::{Atlas, ReferenceSurface};
 use crate::fixed::{Amplifier, Primitive, Tiles};
 use crate::gl::{Gl, consts as c};
 use crate::plan::{Reason, Rig, Shear};
@@ -16,13 +16,13 @@ use crate::state::State;
 /// last one that they have none for.
 pub(super) const UNIT: u32 = 31;
 
-/// What the rays are bent by.
+/// What the rays are distorted by.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rays {
     /// The distortion map.
     pub map: u32,
-    /// Heights as in the map: factor of z in NDC, and what is added.
-    pub heights: [f32; 2],
+    /// Disparities as in the map: factor of z in NDC, and what is added.
+    pub disparities: [f32; 2],
 }
 
 /// What a draw of surfaces is made of.
@@ -61,7 +61,7 @@ fn few(vertices: u64, atlas: &Atlas) -> bool {
 }
 
 impl Rays {
-    /// `mv_window` and `mv_bend` of a picture; `sparse`: without what is not moved.
+    /// `mv_window` and `mv_disparity` of a picture; `sparse`: without what is not moved.
     fn uniforms(&self, state: &State, atlas: &Atlas, sparse: bool) -> [[f32; 4]; 2] {
         let [x, y, width, height] = state.viewport.map(|n| n as f32);
         let (middle, up) = (y + height / 2.0, height / 2.0);
@@ -69,7 +69,7 @@ impl Rays {
             true => [-up, atlas.tiles.height as f32 - middle],
             false => [up, middle],
         };
-        let [factor, added] = self.heights;
+        let [factor, added] = self.disparities;
         [
             [width / 2.0, rows[0], x + width / 2.0, rows[1]],
             [factor, added, 2.0 / width, f32::from(u8::from(sparse))],
@@ -102,52 +102,52 @@ impl Bound {
 }
 
 /// One draw with the program that is in use.
-fn into_bent(
+fn into_reference(
     gl: &Gl,
     atlas: &mut Atlas,
     state: &State,
     rig: &Rig,
     shear: Option<Shear>,
-    again: Again,
+    hazard: ReplayHazard,
     call: &mut dyn FnMut(),
 ) {
-    let mut surface = BentSurface(atlas);
+    let mut surface = ReferenceSurface(atlas);
     replay(
         gl,
         &mut surface,
         state,
         rig,
         shear,
-        again,
+        hazard,
         false,
         &mut |_| call(),
     );
 }
 
-/// Draws by a twin of the program's own shaders, which is in use, into the reference image; `units` are those that it samples. All state is as
-/// before, but for the program in use. What has no shift by the projection matrix of fixed function has that of the twin.
+/// Draws by a variant of the program's own shaders, which is in use, into the reference image; `units` are those that it samples. All state is as
+/// before, but for the program in use. What has no shift by the projection matrix of fixed function has that of the variant.
 #[allow(
     clippy::too_many_arguments,
     reason = "the parts of one draw; a struct of them would be built for this call alone"
 )]
-pub fn draw_bent(
+pub fn draw_to_reference(
     gl: &Gl,
     atlas: &mut Atlas,
     state: &State,
     rig: &Rig,
     shear: Option<Shear>,
-    (twin, units): (&Twin, &[u32]),
+    (variant, units): (&Variant, &[u32]),
     vertices: u64,
-    again: Again,
+    hazard: ReplayHazard,
     rays: &Rays,
     call: &mut dyn FnMut(),
 ) {
     let unit = (0..=UNIT).rev().find(|unit| !units.contains(unit));
     let unit = unit.unwrap_or(UNIT);
     let sparse = !few(vertices, atlas);
-    twin.bend(gl, unit, rays.uniforms(state, atlas, sparse));
+    variant.set_distortion(gl, unit, rays.uniforms(state, atlas, sparse));
     let map = Bound::enter(gl, unit, rays.map);
-    into_bent(gl, atlas, state, rig, shear, again, call);
+    into_reference(gl, atlas, state, rig, shear, hazard, call);
     atlas.bind_row(gl, 0);
     map.leave(gl);
 }
@@ -162,7 +162,7 @@ impl Programs {
         clippy::too_many_arguments,
         reason = "the parts of one draw; a struct of them would be built for this call alone"
     )]
-    pub fn draw_bent(
+    pub fn draw_to_reference(
         &mut self,
         gl: &Gl,
         atlas: &mut Atlas,
@@ -171,7 +171,7 @@ impl Programs {
         shear: Option<Shear>,
         fixed: &FixedState,
         drawing: &Drawing,
-        again: Again,
+        hazard: ReplayHazard,
         rays: &Rays,
         call: &mut dyn FnMut(u32),
     ) -> Result<(), Reason> {
@@ -188,7 +188,7 @@ impl Programs {
             key.target.amplifier = Amplifier::Tessellation;
             key.target.primitive = primitive;
         }
-        key.target.tiles = Tiles::Bent;
+        key.target.tiles = Tiles::DistortedRays;
         around.allow(&key).map_err(Reason::Fixed)?;
         let fragment = fragment_state::read(gl, self.driver, &key).map_err(Reason::Fixed)?;
         let stages = (key.canonical(), Some(fragment.canonical()));
@@ -197,10 +197,10 @@ impl Programs {
             return Err(Reason::Compile);
         };
         let map = Bound::enter(gl, UNIT, rays.map);
-        let around = Around::enter(gl, state, atlas, &stages.0, program, Units::None, fixed);
-        let [window, bend] = rays.uniforms(state, atlas, !few);
+        let around = StateGuard::enter(gl, state, atlas, &stages.0, program, Units::None, fixed);
+        let [window, disparity] = rays.uniforms(state, atlas, !few);
         gl.uniform_4fv(program.window, &[window]);
-        gl.uniform_4fv(program.bend, &[bend]);
+        gl.uniform_4fv(program.disparity, &[disparity]);
         let cut = patches.map(|(_, corners)| {
             gl.uniform_1f(
                 program.levels,
@@ -211,7 +211,7 @@ impl Programs {
             was
         });
         let mode = cut.map_or(mode, |_| c::PATCHES);
-        into_bent(gl, atlas, state, rig, shear, again, &mut || call(mode));
+        into_reference(gl, atlas, state, rig, shear, hazard, &mut || call(mode));
         if let Some(was) = cut {
             gl.patch_parameteri(c::PATCH_VERTICES, was);
         }

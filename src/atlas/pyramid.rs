@@ -1,0 +1,164 @@
+//! Copies of views with their depths, and how high they are at most, for what makes other views of them.
+
+use super::layers::Layers;
+use super::{Atlas, Names, ReferenceTextures, Single};
+use crate::config::DisocclusionSource;
+use crate::gl::{Gl, consts as c};
+use crate::state::Window;
+
+/// Samples of a row in one texel of the block_bounds.
+const BLOCK: u32 = 16;
+
+/// The textures of pictures with depths, array textures with a layer for each; see `shaders/disparity.wgsl`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PyramidTextures {
+    /// Colours.
+    pub colour: u32,
+    /// Depths.
+    pub depth: u32,
+    /// The greatest and the least height of each block.
+    pub block_bounds: u32,
+    /// The greatest of each row.
+    pub row_maxima: u32,
+    /// The greatest and the least of all that the rays of a block can meet.
+    pub ray_range: u32,
+    /// The pictures are copies, else they lie in their tiles.
+    pub copied: bool,
+    /// The reference image of an occlusion camera.
+    pub reference: Option<ReferenceTextures>,
+}
+
+impl PyramidTextures {
+    /// What is known of what is hidden; `several`: there are more views than one.
+    pub fn disocclusion_source(&self, several: bool) -> DisocclusionSource {
+        match self.reference {
+            _ if several => DisocclusionSource::Views,
+            Some(_) => DisocclusionSource::Reference,
+            None => DisocclusionSource::Nothing,
+        }
+    }
+}
+
+/// Where they are drawn to.
+#[derive(Debug)]
+pub(super) struct Pyramid {
+    /// None where what the tiles are resolved to is no tile.
+    copy: Option<Single>,
+    block_bounds: Layers,
+    row_maxima: Layers,
+    ray_range: Layers,
+}
+
+/// What is drawn to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PyramidTarget {
+    /// [`PyramidTextures::block_bounds`]
+    BlockBounds,
+    /// [`PyramidTextures::row_maxima`]
+    RowMaxima,
+    /// [`PyramidTextures::ray_range`]
+    RayRange,
+}
+
+impl Pyramid {
+    fn lines(&self, target: PyramidTarget) -> &Layers {
+        match target {
+            PyramidTarget::BlockBounds => &self.block_bounds,
+            PyramidTarget::RowMaxima => &self.row_maxima,
+            PyramidTarget::RayRange => &self.ray_range,
+        }
+    }
+
+    pub(super) fn framebuffers(&self) -> impl Iterator<Item = u32> {
+        let lines = [&self.block_bounds, &self.row_maxima, &self.ray_range].into_iter();
+        let copies = self.copy.iter().flat_map(Single::framebuffers);
+        copies.chain(lines.flat_map(Layers::framebuffers))
+    }
+}
+
+impl Atlas {
+    /// Makes what [`Atlas::copy_to_pyramid`] copies to, for as many views. The caller saves and restores bindings as for [`Atlas::new`].
+    pub fn make_pyramid(
+        &mut self,
+        gl: &Gl,
+        names: &mut Names,
+        window: &Window,
+        layers: u32,
+    ) -> bool {
+        let size = [self.tiles.width, self.tiles.height].map(|side| side as i32);
+        let blocks = self.tiles.width.div_ceil(BLOCK).max(1) as i32;
+        let mut lines = |width: i32| {
+            let format = (c::RG32F, c::RG, c::FLOAT);
+            let size = [width, size[1], layers as i32];
+            let lines = Layers::new(gl, names, self.flipped, format, size);
+            self.textures.push(lines.texture);
+            lines
+        };
+        let (block_bounds, row_maxima, ray_range) = (lines(blocks), lines(1), lines(blocks));
+        let complete = [&block_bounds, &row_maxima, &ray_range]
+            .iter()
+            .all(|lines| lines.complete);
+        let copy = match self.multisampled() {
+            true => None,
+            false => {
+                let (flip, textures) = (self.flipped, &mut self.textures);
+                let size = (size, layers);
+                Some(Single::layers(gl, names, window, size, flip, textures))
+            }
+        };
+        self.pyramid = Some(Pyramid {
+            copy,
+            block_bounds,
+            row_maxima,
+            ray_range,
+        });
+        complete
+    }
+
+    /// The textures of the views, where [`Atlas::make_pyramid`] has made them: of copies, or of the tiles themselves.
+    pub fn pyramid(&self, copied: bool) -> Option<PyramidTextures> {
+        let pyramid = self.pyramid.as_ref()?;
+        let copy = pyramid.copy.as_ref().filter(|_| copied);
+        let [colour, depth] = copy.map_or([self.color, self.depth], Single::textures);
+        Some(PyramidTextures {
+            colour,
+            depth,
+            block_bounds: pyramid.block_bounds.texture,
+            row_maxima: pyramid.row_maxima.texture,
+            ray_range: pyramid.ray_range.texture,
+            copied: copy.is_some(),
+            reference: None,
+        })
+    }
+
+    /// Copies some views, each to a layer of its own, so that all tiles can be drawn to. Changes the framebuffer bindings; the scissor test must be off.
+    pub fn copy_to_pyramid(&mut self, gl: &Gl, views: impl Iterator<Item = u32>) {
+        for (layer, view) in (0..).zip(views) {
+            let (from, x) = self.target(view);
+            if let Some(copy) = self
+                .pyramid
+                .as_ref()
+                .and_then(|pyramid| pyramid.copy.as_ref())
+            {
+                copy.take_to(gl, layer, from, x);
+            }
+        }
+        self.bound_row = u32::MAX;
+    }
+
+    /// Binds what a pass draws to, of a layer, and answers its width in texels.
+    pub fn enter_pyramid(&mut self, gl: &Gl, target: PyramidTarget, layer: u32) -> i32 {
+        let Some(pyramid) = &self.pyramid else {
+            return 0;
+        };
+        let framebuffer = pyramid.lines(target).framebuffer(layer);
+        gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, framebuffer);
+        self.bound_row = u32::MAX;
+        match target {
+            PyramidTarget::RowMaxima => 1,
+            PyramidTarget::BlockBounds | PyramidTarget::RayRange => {
+                self.tiles.width.div_ceil(BLOCK).max(1) as i32
+            }
+        }
+    }
+}
