@@ -87,7 +87,7 @@ pub(crate) fn after(layer: &mut Layer) {
             Ok(server) => State::Open(server),
             Err(error) => {
                 say(&error.to_string());
-                layer.report.note(error.to_string());
+                layer.note(error.to_string());
                 State::Closed
             }
         };

@@ -110,7 +110,7 @@ pub(crate) fn after(layer: &mut Layer, window: impl FnOnce() -> Option<(String, 
     if let Err(fault) = outcome {
         let sentence = format!("keys are off: {fault}; use `manyview ctl` with --control instead");
         say(&sentence);
-        layer.report.note(sentence);
+        layer.note(sentence);
         *state = State::Closed;
     }
 }

@@ -76,7 +76,7 @@ pub struct Amplified {
 }
 
 impl Programs {
-    /// For a context. `clip` is for views that lie side by side; `resends`: uniforms that have their value are sent hazard.
+    /// For a context. `clip` is for views that lie side by side; `resends`: uniforms that have their value are sent again.
     pub fn new(limits: Limits, driver: Driver, clip: Clip, resends: bool) -> Programs {
         Programs {
             limits,

@@ -77,7 +77,7 @@ impl Current {
         current
     }
 
-    /// Sets them hazard.
+    /// Sets them again.
     pub fn put(&self, gl: &Gl) {
         for (face, name, v) in &self.material {
             gl.material(*face, *name, v);

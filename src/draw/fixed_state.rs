@@ -63,7 +63,7 @@ impl Driver {
         Driver {
             mesa: gl.get_string(c::VERSION).contains("Mesa"),
             programs: gl.has_extension("GL_ARB_vertex_program"),
-            // Measured on llvmpipe 22.3: its indices have 16 bits there, and beyond that they begin hazard.
+            // Measured on llvmpipe 22.3: its indices have 16 bits there, and beyond that they begin again.
             corners: match gl.is_llvmpipe() {
                 true => 0xffff,
                 false => u64::MAX,

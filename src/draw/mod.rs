@@ -1,4 +1,4 @@
-//! Executes a plan: the draw, once per view. Never looks at the program's state hazard.
+//! Executes a plan: the draw, once per view. Never looks at the program's state again.
 #![forbid(unsafe_code)]
 
 mod amplified;

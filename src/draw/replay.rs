@@ -1,4 +1,4 @@
-//! The draw itself hazard, per view, with P_i and the tile's viewport and scissor. Needs no shader.
+//! The draw itself again, per view, with P_i and the tile's viewport and scissor. Needs no shader.
 
 use super::current::Current;
 use super::pixel_size::{PixelSizeGuard, Units};
@@ -412,7 +412,7 @@ impl Projection<'_> {
         });
     }
 
-    /// The program's own hazard.
+    /// The program's own again.
     fn restore(&self) {
         if self.shear.is_some() || self.leans() {
             self.put(&self.state.projection);

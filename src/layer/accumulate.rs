@@ -85,27 +85,29 @@ impl Layer {
     fn accumulate(&mut self, gl: &Gl, operation: Operation) {
         self.state.refresh(gl);
         self.leave_mono(gl);
-        if let (None, Operation::Clear(values)) = (&self.accumulated.buffer, operation)
+        if let (None, Operation::Clear(values)) = (&self.targets.accumulated.buffer, operation)
             && !self.state.scissor_test
         {
-            self.accumulated.cleared = values;
+            self.targets.accumulated.cleared = values;
             return;
         }
         self.queries.pause(gl);
         self.queries.lift_condition(gl);
         let saved = Saved::take(gl, self.state.compatibility);
         if let Operation::Load(_) | Operation::Accumulate(_) = operation {
-            self.atlas.resolve(gl, &ViewSet::ALL, c::COLOR_BUFFER_BIT);
+            self.targets
+                .atlas
+                .resolve(gl, &ViewSet::ALL, c::COLOR_BUFFER_BIT);
         }
         let regions = self.regions();
-        if self.accumulated.buffer.is_none() && !self.accumulated.failed {
+        if self.targets.accumulated.buffer.is_none() && !self.targets.accumulated.failed {
             self.make_accumulation(gl);
         }
-        if let Some(buffer) = &mut self.accumulated.buffer {
+        if let Some(buffer) = &mut self.targets.accumulated.buffer {
             let (window, f) = (&self.state.window, &self.state.framebuffers);
-            let from = self.atlas.sampled(f.read_image());
+            let from = self.targets.atlas.sampled(f.read_image());
             let images = f.draw_images().into_iter().filter(|&i| i != c::NONE);
-            let to: Vec<u32> = images.map(|i| self.atlas.drawn(i)).collect();
+            let to: Vec<u32> = images.map(|i| self.targets.atlas.drawn(i)).collect();
             buffer.apply(gl, operation, window, (from, &to), &regions);
         }
         saved.restore(gl);
@@ -115,23 +117,30 @@ impl Layer {
     }
 
     fn make_accumulation(&mut self, gl: &Gl) {
-        match Accumulation::new(gl, &mut self.names, self.support.glsl, &self.atlas) {
+        match Accumulation::new(
+            gl,
+            &mut self.targets.names,
+            self.session.support.glsl,
+            &self.targets.atlas,
+        ) {
             Ok(mut made) => {
                 let whole = self.rows();
-                let clear = Operation::Clear(self.accumulated.cleared);
+                let clear = Operation::Clear(self.targets.accumulated.cleared);
                 made.apply(gl, clear, &self.state.window, (0, &[]), &whole);
-                self.accumulated.buffer = Some(made);
+                self.targets.accumulated.buffer = Some(made);
             }
             Err(e) => {
-                self.accumulated.failed = true;
-                self.report.note(format!("glAccum has no effect: {e}"));
+                self.targets.accumulated.failed = true;
+                self.diagnostics
+                    .report
+                    .note(format!("glAccum has no effect: {e}"));
             }
         }
     }
 
     /// All layers as a whole.
     fn rows(&self) -> Vec<Region> {
-        let t = &self.atlas.tiles;
+        let t = &self.targets.atlas.tiles;
         let rect = [0, 0, t.texture_width() as i32, t.height as i32];
         (0..t.rows).map(|row| Region { row, rect }).collect()
     }
@@ -141,12 +150,12 @@ impl Layer {
         if !self.state.scissor_test {
             return self.rows();
         }
-        let tiles = self.atlas.tiles;
+        let tiles = self.targets.atlas.tiles;
         let size = self.tile_size();
         let cut = tiles.order().map(|view| {
             let (row, x) = tiles.place(view);
             let [x, y, w, h] = crate::draw::cut(&self.state, &tiles, view, x as i32);
-            let y = if self.atlas.flipped {
+            let y = if self.targets.atlas.flipped {
                 size[1] - y - h
             } else {
                 y

@@ -68,19 +68,22 @@ impl Auto {
 impl Layer {
     /// What the user has chosen, or `auto` has come to.
     pub(super) fn chosen(&self) -> Strategy {
-        self.auto
+        self.session
+            .auto
             .as_ref()
-            .map_or(self.config.strategy, Auto::strategy)
+            .map_or(self.session.config.strategy, Auto::strategy)
     }
 
     /// A frame is in the true framebuffer 0: its time counts, and the next one may be drawn otherwise.
     pub(super) fn time_frame(&mut self, gl: &Gl) {
         // What lies beside the views does not move with them: nothing else is tried as long as there is such a thing.
-        if self.accumulated.buffer.is_some() || self.atlas.has_front() {
+        if self.targets.accumulated.buffer.is_some() || self.targets.atlas.has_front() {
             return;
         }
         let mono = self.is_mono();
-        let Some(auto) = &mut self.auto else { return };
+        let Some(auto) = &mut self.session.auto else {
+            return;
+        };
         if auto.trial.measures() {
             gl.finish();
         }
@@ -93,15 +96,16 @@ impl Layer {
             return;
         }
         let ms = now.duration_since(last).as_secs_f32() * 1e3;
-        let made = std::mem::take(&mut self.amplifies);
+        let made = std::mem::take(&mut self.frame.amplifies);
         if let Some(found) = auto.trial.frame(ms, made) {
             keep(auto.file.as_deref(), &auto.key, found);
-            self.report
+            self.diagnostics
+                .report
                 .note(format!("auto: {found} is the fastest here"));
         }
         let next = auto.trial.strategy();
-        if next != self.capabilities.strategy && !self.proving.replays() {
-            self.capabilities.strategy = next;
+        if next != self.session.capabilities.strategy && !self.diagnostics.proving.replays() {
+            self.session.capabilities.strategy = next;
             self.remake(gl);
         }
     }

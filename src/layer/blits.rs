@@ -18,10 +18,12 @@ impl Layer {
         if read == 0 && draw != 0 {
             self.make_views(gl);
         }
-        let split = self.offscreen.is_split(gl, read);
+        let split = self.targets.offscreen.is_split(gl, read);
         if draw != 0 {
-            let differs = split || (read == 0 && self.config.views > 1 && !self.is_mono());
-            return match differs && self.split(gl, draw) || self.offscreen.is_split(gl, draw) {
+            let differs = split || (read == 0 && self.session.config.views > 1 && !self.is_mono());
+            return match differs && self.split(gl, draw)
+                || self.targets.offscreen.is_split(gl, draw)
+            {
                 true => self.blit_aside(gl, blit),
                 false if read == 0 => self.read(gl, 0, 0, &mut || blit(0, 0)),
                 false => blit(0, 0),
@@ -33,7 +35,7 @@ impl Layer {
         }
         self.state.refresh(gl);
         self.hold_everything(gl, "copies pictures into the window");
-        self.proving.stop_search();
+        self.diagnostics.proving.stop_search();
         self.in_proof(gl, |layer| layer.blit_views(gl, scaled, blit));
         self.blit_views(gl, scaled, blit);
     }
@@ -47,7 +49,7 @@ impl Layer {
         }
         let tiles = Tiles {
             shown: self.wanted_views(),
-            ..self.atlas.tiles
+            ..self.targets.atlas.tiles
         };
         for view in tiles.order() {
             if read == 0 {
@@ -55,15 +57,15 @@ impl Layer {
             }
             for (target, name) in [(c::DRAW_FRAMEBUFFER, draw), (c::READ_FRAMEBUFFER, read)] {
                 if name != 0 {
-                    let name = self.offscreen.view(gl, name, view);
+                    let name = self.targets.offscreen.view(gl, name, view);
                     gl.bind_framebuffer(target, name);
                 }
             }
             blit(0, 0);
         }
-        if let Some(target) = self.offscreen.take(draw, tiles.shown) {
-            self.offscreen.drawn_to(&target);
-            self.offscreen.put(target);
+        if let Some(target) = self.targets.offscreen.take(draw, tiles.shown) {
+            self.targets.offscreen.drawn_to(&target);
+            self.targets.offscreen.put(target);
         }
         self.rebind(gl);
     }
@@ -75,17 +77,17 @@ impl Layer {
             [image] if image != c::NONE => Some(image),
             _ => None,
         };
-        let beside = self.atlas.tiles.columns > 1 && !self.atlas.multisampled();
+        let beside = self.targets.atlas.tiles.columns > 1 && !self.targets.atlas.multisampled();
         let single = single.filter(|_| scaled && beside);
-        for view in self.atlas.tiles.order() {
+        for view in self.targets.atlas.tiles.order() {
             if let Some(image) = single {
                 self.scaled_blit(gl, view, (image, read), blit);
                 continue;
             }
-            let x = self.atlas.enter(gl, view);
+            let x = self.targets.atlas.enter(gl, view);
             let from = match self.state.framebuffers.read {
-                0 => self.atlas.target(view).0,
-                read => self.offscreen.view(gl, read, view),
+                0 => self.targets.atlas.target(view).0,
+                read => self.targets.offscreen.view(gl, read, view),
             };
             gl.bind_framebuffer(c::READ_FRAMEBUFFER, from);
             self.scissored(gl, view, x, &mut || blit(if read { x } else { 0 }, x));
@@ -104,16 +106,16 @@ impl Layer {
     ) {
         self.make_singles(gl, true);
         let from = self.state.framebuffers.read_image();
-        let staged = self.unscissored(gl, |layer| layer.atlas.stage(gl, view, image, from));
+        let staged = self.unscissored(gl, |layer| layer.targets.atlas.stage(gl, view, image, from));
         if read {
             self.take_single(gl, view);
             gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, staged);
         } else {
             let from = self.state.framebuffers.read;
-            let from = self.offscreen.view(gl, from, view);
+            let from = self.targets.offscreen.view(gl, from, view);
             gl.bind_framebuffer(c::READ_FRAMEBUFFER, from);
         }
         blit(0, 0);
-        self.unscissored(gl, |layer| layer.atlas.unstage(gl, view));
+        self.unscissored(gl, |layer| layer.targets.atlas.unstage(gl, view));
     }
 }

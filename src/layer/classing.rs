@@ -18,6 +18,10 @@ pub(super) struct Frame {
     pub(super) deep: bool,
     /// Nearer things have larger depths, by the first draw of the scene.
     pub(super) nearer_is_larger: Option<bool>,
+    /// Something was drawn that is to be shown.
+    pub(super) drawn: bool,
+    /// A draw since the last swap was made by another strategy than replay.
+    pub(super) amplifies: bool,
 }
 
 impl Layer {
@@ -39,12 +43,16 @@ impl Layer {
         };
         let projection = seen.unwrap_or_else(|| self.state.projection_kind());
         if shown {
-            let needs = self.classifier.needs(kind, projection, first);
+            let needs = self.cameras.classifier.needs(kind, projection, first);
             self.state.read_classification(gl, needs);
             let depth = self.state.classification.depth;
             let behind = self.state.classification.range == DepthRange::Far;
             if !clear && projection == Projection::Perspective && first && !behind {
-                if self.classifier.needs_modelview(projection, first, depth) {
+                if self
+                    .cameras
+                    .classifier
+                    .needs_modelview(projection, first, depth)
+                {
                     self.state.read_classification(gl, Touch::MODELVIEW);
                 }
                 self.frame.deep = depth == DepthState::On;
@@ -52,7 +60,7 @@ impl Layer {
         }
         let (program, shader) = match self.state.program {
             0 => (0, 0),
-            program if self.classifier.needs_shader() => self.told_of(program),
+            program if self.cameras.classifier.needs_shader() => self.told_of(program),
             _ => (0, 0),
         };
         let facts = Facts {
@@ -61,24 +69,25 @@ impl Layer {
             shader,
             draw: self.frame.draws,
             list: self.frame.list,
-            raster: self.raster_placed,
+            raster: self.cameras.raster_placed,
             first,
             projection,
             ..Facts::of(kind, &self.state)
         };
-        let classed = self.classifier.class(&facts);
+        let classed = self.cameras.classifier.class(&facts);
         (facts, classed)
     }
 
     /// The call once, in the program's own view only.
     pub(super) fn once(&mut self, gl: &Gl, call: &mut dyn FnMut()) {
-        if self.has_copies() && (!self.sampled.is_empty() || self.state.transform_feedback) {
+        if self.has_copies() && (!self.variants.sampled.is_empty() || self.state.transform_feedback)
+        {
             self.write_back_textures(gl);
         }
         // What is fed back or hit is not drawn, and is told in the program's own viewport.
         if self.state.draws_to_window() && self.state.render_mode == c::RENDER {
             // The tiles beside it are others' views.
-            self.scissored(gl, self.atlas.tiles.own(), 0, call);
+            self.scissored(gl, self.targets.atlas.tiles.own(), 0, call);
         } else {
             call();
         }

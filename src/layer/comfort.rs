@@ -88,12 +88,13 @@ impl Comfort {
 impl Layer {
     /// Takes note of a draw that is about to be made, and a picture of the depths where it would spoil them.
     pub(super) fn watch_depths(&mut self, gl: &Gl, kind: Kind, classed: &Classed) {
-        let looked_at = self.comfort.on && !self.live.flat && self.state.list.is_none();
+        let looked_at =
+            self.cameras.comfort.on && !self.session.live.flat && self.state.list.is_none();
         // Depths elsewhere are not those of the window.
         if !looked_at || self.state.framebuffers.draw != 0 {
             return;
         }
-        if !std::mem::replace(&mut self.comfort.begun, true) {
+        if !std::mem::replace(&mut self.cameras.comfort.begun, true) {
             self.begin_frame(gl);
         }
         match (kind, classed.class) {
@@ -102,17 +103,17 @@ impl Layer {
                 self.save_depths(gl);
                 // A part of the window that is cleared has a picture of its own.
                 if !self.state.scissor_test {
-                    self.comfort.mappings.clear();
-                    self.comfort.spoilt = false;
+                    self.cameras.comfort.mappings.clear();
+                    self.cameras.comfort.spoilt = false;
                 }
             }
-            (_, Class::Sky) => self.comfort.mappings.sky = true,
+            (_, Class::Sky) => self.cameras.comfort.mappings.sky = true,
             (_, Class::Flat) => {
-                if self.comfort.pending {
+                if self.cameras.comfort.pending {
                     self.state.read_classification(gl, Touch::DEPTH);
                     if self.state.classification.depth == DepthState::On {
                         self.save_depths(gl);
-                        self.comfort.spoilt = true;
+                        self.cameras.comfort.spoilt = true;
                     }
                 }
             }
@@ -122,15 +123,16 @@ impl Layer {
                 let viewport = self.state.viewport_kind();
                 let [matrix, p] = self.projections();
                 if viewport == Viewport::Main && kind != Kind::Pixels {
-                    self.comfort.projection = Some(p);
+                    self.cameras.comfort.projection = Some(p);
                 }
                 if self.state.classification.depth != DepthState::On {
                     return;
                 }
                 let look = &self.state.classification;
                 if let Some(ramp) = Ramp::of(&matrix, look.depths, look.zero_to_one) {
-                    self.comfort.pending |= viewport == Viewport::Main;
-                    self.comfort
+                    self.cameras.comfort.pending |= viewport == Viewport::Main;
+                    self.cameras
+                        .comfort
                         .mappings
                         .drawn(ramp, &p, classed.focal, viewport);
                 }
@@ -141,7 +143,7 @@ impl Layer {
     /// Looks at the depths of the frame before, if they are there already: with a driver that is a frame behind they are not, and
     /// wait until the end of this frame.
     fn begin_frame(&mut self, gl: &Gl) {
-        if self.comfort.sent.is_empty() || !self.atlas.depths_are_there(gl) {
+        if self.cameras.comfort.sent.is_empty() || !self.targets.atlas.depths_are_there(gl) {
             return;
         }
         let pack = gl.get_integer(c::PIXEL_PACK_BUFFER_BINDING) as u32;
@@ -151,18 +153,18 @@ impl Layer {
     }
 
     fn set_measured_cameras(&mut self) {
-        if let Camera::Measured(_) = self.live.camera {
+        if let Camera::Measured(_) = self.session.live.camera {
             let budget = self.budget().px / self.half_width();
-            if let Some(cameras) = self.comfort.next {
-                let farthest = self.comfort.cameras.farthest(cameras, budget);
-                self.rig.set_measured(cameras, farthest);
+            if let Some(cameras) = self.cameras.comfort.next {
+                let farthest = self.cameras.comfort.cameras.farthest(cameras, budget);
+                self.cameras.rig.set_measured(cameras, farthest);
             }
         }
     }
 
     /// Within a frame, before what is about to be drawn or cleared.
     fn save_depths(&mut self, gl: &Gl) {
-        if !self.comfort.pending || self.comfort.spoilt {
+        if !self.cameras.comfort.pending || self.cameras.comfort.spoilt {
             return;
         }
         self.queries.pause(gl);
@@ -177,27 +179,27 @@ impl Layer {
 
     /// The state is as [`Saved::take`] leaves it.
     fn take_depths(&mut self, gl: &Gl) {
-        self.comfort.pending = false;
-        if self.state.window.bits[4] == 0 || self.comfort.mappings.is_empty() {
+        self.cameras.comfort.pending = false;
+        if self.state.window.bits[4] == 0 || self.cameras.comfort.mappings.is_empty() {
             return;
         }
         // The buffer holds the pictures of one frame.
-        if self.comfort.taken.is_empty() {
+        if self.cameras.comfort.taken.is_empty() {
             self.read_depths(gl);
         }
-        if !self.atlas.has_depths() {
-            let (names, window) = (&mut self.names, &self.state.window);
-            keep_bindings(gl, || self.atlas.make_depths(gl, names, window));
+        if !self.targets.atlas.has_depths() {
+            let (names, window) = (&mut self.targets.names, &self.state.window);
+            keep_bindings(gl, || self.targets.atlas.make_depths(gl, names, window));
         }
         let clear = gl.get_floats::<1>(c::DEPTH_CLEAR_VALUE)[0];
-        if self.atlas.take_depths(gl) {
-            let mappings = self.comfort.mappings.clone();
+        if self.targets.atlas.take_depths(gl) {
+            let mappings = self.cameras.comfort.mappings.clone();
             let way = mappings.most().map(|way| way.projection);
-            self.comfort.taken.push(Taken {
-                frame: self.report.frames() + 1,
+            self.cameras.comfort.taken.push(Taken {
+                frame: self.diagnostics.report.frames() + 1,
                 cameras: way.and_then(|p| self.cameras(&p)),
                 sky: way
-                    .and_then(|p| self.rig.sky(&p))
+                    .and_then(|p| self.cameras.rig.sky(&p))
                     .map_or(0.0, |shear| shear.separation(1.0) * self.half_width()),
                 mappings,
                 clear,
@@ -208,25 +210,29 @@ impl Layer {
     /// At the end of a frame: looks at the depths of the one before, and takes this one's. The state is as [`Saved::take`] leaves it;
     /// changes the framebuffer bindings.
     pub(super) fn track_depths(&mut self, gl: &Gl) {
-        if !self.comfort.on {
+        if !self.cameras.comfort.on {
             return;
         }
-        if self.comfort.pending && !self.comfort.spoilt {
+        if self.cameras.comfort.pending && !self.cameras.comfort.spoilt {
             self.take_depths(gl);
         }
-        if self.comfort.taken.is_empty() {
+        if self.cameras.comfort.taken.is_empty() {
             self.read_depths(gl);
         }
-        self.comfort.sent = std::mem::take(&mut self.comfort.taken);
-        self.atlas.send_depths(gl);
-        let measured = matches!(self.live.camera, Camera::Measured(_));
-        if measured && self.comfort.next.is_none() {
+        self.cameras.comfort.sent = std::mem::take(&mut self.cameras.comfort.taken);
+        self.targets.atlas.send_depths(gl);
+        let measured = matches!(self.session.live.camera, Camera::Measured(_));
+        if measured && self.cameras.comfort.next.is_none() {
             // Nothing has depth yet: better to wait once than to show another flat frame.
             self.read_depths(gl);
         }
         if measured
-            && self.comfort.next.is_none()
-            && let Some(p) = self.comfort.projection.filter(|p| !parallax::flat(p))
+            && self.cameras.comfort.next.is_none()
+            && let Some(p) = self
+                .cameras
+                .comfort
+                .projection
+                .filter(|p| !parallax::flat(p))
         {
             let (_, scale) = parallax::lens(&p);
             let planes = parallax::planes(&p).map(|distance| distance * scale);
@@ -234,21 +240,21 @@ impl Layer {
             self.find_cameras(&p, &seen);
         }
         self.set_measured_cameras();
-        self.comfort.begun = false;
-        self.comfort.mappings = DepthMappings::default();
-        self.comfort.projection = None;
-        self.comfort.pending = false;
-        self.comfort.spoilt = false;
+        self.cameras.comfort.begun = false;
+        self.cameras.comfort.mappings = DepthMappings::default();
+        self.cameras.comfort.projection = None;
+        self.cameras.comfort.pending = false;
+        self.cameras.comfort.spoilt = false;
     }
 
     fn read_depths(&mut self, gl: &Gl) {
-        let sent = std::mem::take(&mut self.comfort.sent);
+        let sent = std::mem::take(&mut self.cameras.comfort.sent);
         if sent.is_empty() {
             return;
         }
-        let pictures = self.atlas.read_depths(gl);
+        let pictures = self.targets.atlas.read_depths(gl);
         // The atlas is another one since the window has another size.
-        let stale = std::mem::take(&mut self.comfort.stale);
+        let stale = std::mem::take(&mut self.cameras.comfort.stale);
         if stale || pictures.len() != sent.len() {
             return;
         }
@@ -266,15 +272,18 @@ impl Layer {
 
     /// Separation and convergence that a projection is drawn with.
     fn cameras(&self, p: &[f32; 16]) -> Option<(f64, f64)> {
-        self.rig.shear(p).map(|s| (s.separation(1.0), s.conv))
+        self.cameras
+            .rig
+            .shear(p)
+            .map(|s| (s.separation(1.0), s.conv))
     }
 
     /// What the display can show between neighbouring views.
     fn budget(&self) -> Budget {
-        let (width, views) = (self.size().0, self.config.views);
+        let (width, views) = (self.size().0, self.session.config.views);
         match self.output().is_stereo() {
-            true => self.config.display.budget_of_eyes(views, width),
-            false => self.config.display.budget(views, width),
+            true => self.session.config.display.budget_of_eyes(views, width),
+            false => self.session.config.display.budget(views, width),
         }
     }
 
@@ -285,7 +294,7 @@ impl Layer {
 
     /// The cameras for a frame of which this was seen, with the projection of its scene.
     fn find_cameras(&mut self, p: &[f32; 16], seen: &comfort::Seen) {
-        if let Camera::Measured(_) = self.live.camera {
+        if let Camera::Measured(_) = self.session.live.camera {
             let (budget, lens) = (self.budget(), parallax::lens(p));
             // A projection that turns the picture by a right angle has no A to measure by.
             let orthoscopic = match (lens.0 * budget.neighbours).abs() {
@@ -297,7 +306,7 @@ impl Layer {
                 orthoscopic,
                 lens,
             };
-            self.comfort.next = self.comfort.cameras.track(seen, &limits);
+            self.cameras.comfort.next = self.cameras.comfort.cameras.track(seen, &limits);
         }
     }
 
@@ -319,7 +328,7 @@ impl Layer {
             sky: all.sky,
         };
         self.find_cameras(p, &seen);
-        if self.config.report.is_none() {
+        if self.session.config.report.is_none() {
             return;
         }
         let (budget, px) = (self.budget(), self.half_width());
@@ -329,7 +338,7 @@ impl Layer {
         let own = seen.others.into_iter().flatten().map(at);
         let sky = all.sky.then_some(taken.sky);
         let all = ends.into_iter().chain(own).chain(sky);
-        self.report.disparity(Disparity {
+        self.diagnostics.report.disparity(Disparity {
             frame: taken.frame,
             cameras: (separation, convergence),
             least: all.clone().fold(f64::INFINITY, f64::min),

@@ -18,11 +18,12 @@ impl Layer {
             0 => Default::default(),
             program => {
                 let units = self.units_of(gl, program).into_iter();
-                let sampled = self.offscreen.bound_among(gl, units);
+                let sampled = self.targets.offscreen.bound_among(gl, units);
                 (sampled, self.images_of(gl, program))
             }
         };
-        let differs = |image: &ImageUnit| self.offscreen.has(Object::Texture(image.texture));
+        let differs =
+            |image: &ImageUnit| self.targets.offscreen.has(Object::Texture(image.texture));
         let reads = !sampled.is_empty() || images.iter().any(differs);
         let writes = |image: &&ImageUnit| image.is_written();
         if !reads || !images.iter().any(|image| writes(&image)) {
@@ -32,21 +33,22 @@ impl Layer {
         self.state.keep_errors(gl);
         keep_bindings(gl, || {
             for image in images.iter().filter(writes) {
-                self.offscreen
-                    .split_named(gl, &mut self.names, image.texture);
+                self.targets
+                    .offscreen
+                    .split_named(gl, &mut self.targets.names, image.texture);
             }
         });
         self.drain_own_errors(gl);
         let tiles = Tiles {
             shown: self.wanted_views(),
-            ..self.atlas.tiles
+            ..self.targets.atlas.tiles
         };
         let own = tiles.own();
         self.queries.pause(gl);
         for view in tiles.order().filter(|&view| view != own).chain([own]) {
-            self.offscreen.bind(gl, &sampled, view);
+            self.targets.offscreen.bind(gl, &sampled, view);
             for image in &images {
-                let views = self.offscreen.views(image.texture);
+                let views = self.targets.offscreen.views(image.texture);
                 if let Some(&name) = views.get(view as usize) {
                     gl.bind_image(image, name);
                 }
@@ -56,12 +58,12 @@ impl Layer {
             }
             call();
         }
-        self.offscreen.unbind(gl, &sampled);
+        self.targets.offscreen.unbind(gl, &sampled);
         for image in &images {
             gl.bind_image(image, image.texture);
         }
         for image in images.iter().filter(writes) {
-            self.offscreen.written(image.texture);
+            self.targets.offscreen.written(image.texture);
         }
     }
 }

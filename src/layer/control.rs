@@ -30,33 +30,36 @@ pub enum Pictured {
 impl Layer {
     /// The values in force.
     pub fn live(&self) -> Live {
-        self.live
+        self.session.live
     }
 
     /// Other values from the next draw on; to be called between frames, so that none is drawn with both.
     pub fn adopt(&mut self, live: Live) {
-        if live.camera != self.live.camera {
-            self.comfort.change(self.config, live.camera);
+        if live.camera != self.session.live.camera {
+            self.cameras
+                .comfort
+                .change(self.session.config, live.camera);
         }
         if let Some(lens) = live.lens
-            && live.lens != self.live.lens
+            && live.lens != self.session.live.lens
         {
             let display = self
+                .session
                 .fitted
-                .get_or_insert_with(|| self.config.display.clone());
+                .get_or_insert_with(|| self.session.config.display.clone());
             display.set_lens(lens);
         }
-        self.live = live;
-        self.rig.change(live.camera, live.flat);
-        self.classifier.change_hud_depth(live.hud_depth);
+        self.session.live = live;
+        self.cameras.rig.change(live.camera, live.flat);
+        self.cameras.classifier.change_hud_depth(live.hud_depth);
     }
 
     /// What the window shows.
     pub(super) fn output(&self) -> Output {
-        if self.live.flat {
-            Output::View(self.atlas.tiles.own())
+        if self.session.live.flat {
+            Output::View(self.targets.atlas.tiles.own())
         } else {
-            self.live.output
+            self.session.live.output
         }
     }
 
@@ -65,8 +68,12 @@ impl Layer {
     pub fn control(&mut self, order: Order) -> Result<Result<Answer, Capture>, ControlError> {
         match order {
             Order::Set(changes) => {
-                let live = self.live.with(self.config, &changes, self.rig.latched())?;
-                let chosen = live.output != self.live.output;
+                let live = self.session.live.with(
+                    self.session.config,
+                    &changes,
+                    self.cameras.rig.latched(),
+                )?;
+                let chosen = live.output != self.session.live.output;
                 if chosen && live.output == Output::Quad && !self.state.window.stereo {
                     return Err(ControlError::NoStereo);
                 }
@@ -82,14 +89,14 @@ impl Layer {
                 out: path,
                 first: 0,
                 last: 0,
-                what: CaptureWhat::asked(&what, self.config.views)?,
+                what: CaptureWhat::asked(&what, self.session.config.views)?,
             })),
             Order::Toggle => {
                 self.adopt(Live {
-                    flat: !self.live.flat,
-                    ..self.live
+                    flat: !self.session.live.flat,
+                    ..self.session.live
                 });
-                Ok(Ok(Answer::Layer(!self.live.flat)))
+                Ok(Ok(Answer::Layer(!self.session.live.flat)))
             }
         }
     }
@@ -101,8 +108,10 @@ impl Layer {
         picture: impl FnOnce(u64) -> PathBuf,
     ) -> Result<Result<Answer, Capture>, ControlError> {
         // The next one, counted from 1.
-        let frame = self.report.frames() + 1;
-        let orders = key.orders(self.live, self.rig.latched(), || picture(frame));
+        let frame = self.diagnostics.report.frames() + 1;
+        let orders = key.orders(self.session.live, self.cameras.rig.latched(), || {
+            picture(frame)
+        });
         let outcome = orders
             .into_iter()
             .fold(None, |outcome, order| match outcome {
@@ -119,17 +128,20 @@ impl Layer {
                 values.insert(name.to_owned(), value);
             }
         };
-        put(OptionId::Output, self.live.output.to_string().into());
-        put(OptionId::HudDepth, self.live.hud_depth.into());
-        let measured = matches!(self.live.camera, Camera::Measured(_));
+        put(
+            OptionId::Output,
+            self.session.live.output.to_string().into(),
+        );
+        put(OptionId::HudDepth, self.session.live.hud_depth.into());
+        let measured = matches!(self.session.live.camera, Camera::Measured(_));
         put(OptionId::AutoDepth, u8::from(measured).into());
-        let cameras = self.live.cameras(self.rig.latched());
+        let cameras = self.session.live.cameras(self.cameras.rig.latched());
         for (id, value) in cameras.into_iter().flatten() {
             put(id, value.into());
         }
         for (part, lens) in LensPart::ALL
             .into_iter()
-            .zip(self.live.lens.into_iter().cycle())
+            .zip(self.session.live.lens.into_iter().cycle())
         {
             let number = lens.get(part);
             let value = number
@@ -137,19 +149,19 @@ impl Layer {
                 .map_or_else(|| number.to_string().into(), Value::from);
             values.insert(part.name().to_owned(), value);
         }
-        values.insert(VIEWS.to_owned(), self.config.views.into());
-        values.insert(LAYER.to_owned(), (!self.live.flat).into());
+        values.insert(VIEWS.to_owned(), self.session.config.views.into());
+        values.insert(LAYER.to_owned(), (!self.session.live.flat).into());
         values
     }
 
     /// Only values of the cameras and of a lens sheet are not always there.
     fn not_in_force(&self, name: String) -> ControlError {
         ControlError::NotInForce {
-            reason: match self.live.camera {
+            reason: match self.session.live.camera {
                 _ if LensPart::named(&name).is_some() => {
                     "the display is no slanted lens sheet; see `manyview displays show`"
                 }
-                Camera::Auto | Camera::Measured(_) if self.rig.latched().is_none() => {
+                Camera::Auto | Camera::Measured(_) if self.cameras.rig.latched().is_none() => {
                     "the program has drawn nothing in perspective yet, so the cameras are not chosen"
                 }
                 Camera::Eye { .. } => {
@@ -165,17 +177,17 @@ impl Layer {
 
     /// Asks for a picture of the next frame that is shown.
     pub fn picture(&mut self, wanted: Capture) {
-        self.picture = Picture::Wanted(wanted);
+        self.diagnostics.picture = Picture::Wanted(wanted);
     }
 
     /// Whether a picture of the next frame is asked for already.
     pub fn awaits_picture(&self) -> bool {
-        !matches!(self.picture, Picture::None)
+        !matches!(self.diagnostics.picture, Picture::None)
     }
 
     /// What has become of the picture that was asked for, once.
     pub fn pictured(&mut self) -> Option<Pictured> {
-        match std::mem::replace(&mut self.picture, Picture::None) {
+        match std::mem::replace(&mut self.diagnostics.picture, Picture::None) {
             Picture::None => None,
             Picture::Wanted(wanted) => Some(Pictured::Later(wanted)),
             Picture::Done(outcome) => Some(Pictured::Done(outcome)),
@@ -184,7 +196,7 @@ impl Layer {
 
     /// Writes the picture that was asked for, if one was.
     pub(super) fn take_picture(&mut self, gl: &Gl, source: &Source, frame: u64) {
-        if let Picture::Wanted(wanted) = &self.picture {
+        if let Picture::Wanted(wanted) = &self.diagnostics.picture {
             let wanted = Capture {
                 first: frame,
                 last: frame,
@@ -194,7 +206,7 @@ impl Layer {
                 return; // it is asked for again with the next frame
             }
             let written = self.write(gl, source, &wanted, frame);
-            self.picture = Picture::Done(match written {
+            self.diagnostics.picture = Picture::Done(match written {
                 Ok(path) => Ok(Answer::Captured { path, frame }),
                 Err(reason) => Err(ControlError::Picture(reason)),
             });

@@ -1,7 +1,7 @@
 //! Textures copied from the frame, or from a framebuffer that each view has its own of: each view has its own copy, and is drawn with
 //! it (see [`crate::offscreen`]).
 //!
-//! Motion blur, water, heat: the program copies what it has drawn into a texture and draws that over the scene hazard.
+//! Motion blur, water, heat: the program copies what it has drawn into a texture and draws that over the scene again.
 
 use super::{Layer, keep_bindings};
 use crate::gl::{Gl, Object, consts as c};
@@ -19,8 +19,8 @@ impl Layer {
     ) {
         let from = self.state.framebuffers.read;
         let differs = match from {
-            0 => self.config.views > 1,
-            _ => self.offscreen.is_split(gl, from),
+            0 => self.session.config.views > 1,
+            _ => self.targets.offscreen.is_split(gl, from),
         };
         let texture = self.bound_texture(gl, target);
         if self.compiles() || !differs || texture == 0 {
@@ -29,8 +29,10 @@ impl Layer {
         self.leave_mono(gl);
         self.state.keep_errors(gl);
         let split = keep_bindings(gl, || {
-            let names = &mut self.names;
-            self.offscreen.split_texture(gl, names, (target, texture))
+            let names = &mut self.targets.names;
+            self.targets
+                .offscreen
+                .split_texture(gl, names, (target, texture))
         });
         self.drain_own_errors(gl);
         self.state.keep_errors(gl);
@@ -42,14 +44,14 @@ impl Layer {
         if from != 0 {
             self.split(gl, from);
         }
-        let own = self.atlas.tiles.own();
+        let own = self.targets.atlas.tiles.own();
         let shown = self.wanted_views();
-        for (view, name) in (0..).zip(self.offscreen.views(texture)) {
+        for (view, name) in (0..).zip(self.targets.offscreen.views(texture)) {
             if name != texture && (view == own || shown.has(view)) {
                 match from {
                     0 => self.take_single(gl, view),
                     from => {
-                        let from = self.offscreen.view(gl, from, view);
+                        let from = self.targets.offscreen.view(gl, from, view);
                         gl.bind_framebuffer(c::READ_FRAMEBUFFER, from);
                     }
                 }
@@ -58,7 +60,7 @@ impl Layer {
             }
         }
         gl.bind_texture(target, texture);
-        self.offscreen.written(texture);
+        self.targets.offscreen.written(texture);
         self.drain_own_errors(gl);
         self.rebind(gl);
     }
@@ -75,7 +77,7 @@ impl Layer {
 
     /// After glGenerateMipmap: the other views' textures, too.
     pub fn mipmaps(&mut self, gl: &Gl, target: u32, call: &mut dyn FnMut()) {
-        let Some(texture) = self.offscreen.bound_at(gl, target) else {
+        let Some(texture) = self.targets.offscreen.bound_at(gl, target) else {
             return;
         };
         self.mipmaps_of(gl, texture, &mut |name| {
@@ -88,34 +90,34 @@ impl Layer {
     /// The same of a texture that is named.
     pub fn mipmaps_of(&mut self, gl: &Gl, texture: u32, call: &mut dyn FnMut(u32)) {
         self.state.keep_errors(gl);
-        for name in self.offscreen.views(texture) {
+        for name in self.targets.offscreen.views(texture) {
             if name != texture {
                 call(name);
             }
         }
-        self.offscreen.written(texture);
+        self.targets.offscreen.written(texture);
         self.drain_own_errors(gl);
     }
 
-    /// The program changes the image of the texture that is bound: all views see the same hazard.
+    /// The program changes the image of the texture that is bound: all views see the same again.
     pub fn texture_written(&mut self, gl: &Gl, target: u32) {
-        if let Some(texture) = self.offscreen.bound_at(gl, target) {
+        if let Some(texture) = self.targets.offscreen.bound_at(gl, target) {
             self.written(gl, Object::Texture(texture));
         }
     }
 
-    /// The program changes the image of a texture or renderbuffer: all views see the same hazard.
+    /// The program changes the image of a texture or renderbuffer: all views see the same again.
     pub fn written(&mut self, gl: &Gl, object: Object) {
-        if self.offscreen.has(object) {
+        if self.targets.offscreen.has(object) {
             self.write_back_textures(gl);
-            self.offscreen.forget(gl, [object]);
+            self.targets.offscreen.forget(gl, [object]);
         }
     }
 
     /// The program's own textures are about to be read or written in another way than by drawing.
     pub fn write_back_textures(&mut self, gl: &Gl) {
         self.state.keep_errors(gl);
-        self.offscreen.write_back(gl);
+        self.targets.offscreen.write_back(gl);
         self.drain_own_errors(gl);
     }
 
@@ -128,32 +130,32 @@ impl Layer {
     /// glDeleteTextures.
     pub fn deleted_textures(&mut self, gl: &Gl, textures: &[u32]) {
         let all = textures.iter().map(|&name| Object::Texture(name));
-        self.offscreen.forget(gl, all);
+        self.targets.offscreen.forget(gl, all);
     }
 
     /// glDeleteRenderbuffers.
     pub fn deleted_renderbuffers(&mut self, gl: &Gl, names: &[u32]) {
         let all = names.iter().map(|&name| Object::Renderbuffer(name));
-        self.offscreen.forget(gl, all);
+        self.targets.offscreen.forget(gl, all);
     }
 
     /// A parameter of some texture is another.
     pub fn look_changed(&mut self) {
-        self.offscreen.look_changed();
+        self.targets.offscreen.look_changed();
     }
 
     /// What is attached to some framebuffer is another, or what is drawn to of it.
     pub fn attachments_changed(&mut self) {
-        self.offscreen.attachments_changed();
+        self.targets.offscreen.attachments_changed();
     }
 
     /// Whether other contexts see its objects: each has its group in its layer, and in the record of what was created.
     pub fn is_shared(&self) -> bool {
-        Arc::strong_count(&self.group) > 2
+        Arc::strong_count(&self.session.group) > 2
     }
 
     /// Whether the views differ in anything but the window.
     pub fn has_copies(&self) -> bool {
-        !self.offscreen.is_empty()
+        !self.targets.offscreen.is_empty()
     }
 }

@@ -147,7 +147,7 @@ impl Layer {
             // The position moves, and the projection matters no more.
             Kind::Pixels if plan.class == Class::Scene => {
                 plan.shear = None;
-                ReplayHazard::Raster(self.raster)
+                ReplayHazard::Raster(self.cameras.raster)
             }
             Kind::Pixels => ReplayHazard::Raster(plan.shear.take()),
             _ => ReplayHazard::None,
@@ -172,7 +172,7 @@ impl Layer {
             Method::Once => self.once(gl, call),
             Method::Replay => {
                 if self.synthesis.reference.next.is_some() {
-                    let drawing = primitives.drawing(gl, &self.support);
+                    let drawing = primitives.drawing(gl, &self.session.support);
                     self.draw_to_reference(gl, &plan, ReplayHazard::None, drawing, &mut |mode| {
                         primitives.send(gl, mode);
                     });
@@ -228,10 +228,14 @@ impl Layer {
 
     /// Reads the state of fixed function, where it is not known.
     pub(super) fn read_fixed(&mut self, gl: &Gl) {
-        if self.state.touched.has(Touch::FIXED) || self.fixed.is_none() {
-            self.fixed = Some(FixedState::read(gl, self.driver, self.state.window.samples));
+        if self.state.touched.has(Touch::FIXED) || self.variants.fixed.is_none() {
+            self.variants.fixed = Some(FixedState::read(
+                gl,
+                self.variants.driver,
+                self.state.window.samples,
+            ));
         } else if self.state.touched.has(Touch::MATERIAL)
-            && let Some(fixed) = &mut self.fixed
+            && let Some(fixed) = &mut self.variants.fixed
         {
             fixed.reread_material(gl);
         }
@@ -247,24 +251,34 @@ impl Layer {
         material: bool,
     ) -> Option<Amplified> {
         self.read_fixed(gl);
-        let fixed = self.fixed.as_ref()?;
-        let how = Programs::allow(&self.state, &self.atlas).and_then(|()| {
-            self.programs
-                .prepare(gl, plan.method, mode, fixed, material, &self.atlas)
+        let fixed = self.variants.fixed.as_ref()?;
+        let how = Programs::allow(&self.state, &self.targets.atlas).and_then(|()| {
+            self.variants.programs.prepare(
+                gl,
+                plan.method,
+                mode,
+                fixed,
+                material,
+                &self.targets.atlas,
+            )
         });
-        self.report.shaders(self.programs.compiled);
+        self.diagnostics
+            .report
+            .shaders(self.variants.programs.compiled);
         match how {
             Ok(how) => {
-                self.amplifies = true;
-                self.report
+                self.frame.amplifies = true;
+                self.diagnostics
+                    .report
                     .draw(method_name(plan.method), plan.class.word());
                 Some(how)
             }
             Err(reason) => {
-                self.proving.replayed();
-                self.report
+                self.diagnostics.proving.replayed();
+                self.diagnostics
+                    .report
                     .draw(method_name(Method::Replay), plan.class.word());
-                self.fallbacks.add(reason);
+                self.diagnostics.fallbacks.add(reason);
                 None
             }
         }
@@ -277,12 +291,12 @@ impl Layer {
         how: &Amplified,
         draw: &mut dyn FnMut(u32),
     ) {
-        if let Some(fixed) = &self.fixed {
-            self.programs.draw(
+        if let Some(fixed) = &self.variants.fixed {
+            self.variants.programs.draw(
                 gl,
-                &mut self.atlas,
+                &mut self.targets.atlas,
                 &self.state,
-                &self.rig,
+                &self.cameras.rig,
                 plan.shear,
                 fixed,
                 how,
@@ -297,7 +311,7 @@ impl Layer {
         self.hold(gl, kind);
         let (facts, classed) = self.classify(gl, kind);
         if classed.class == Class::Scene {
-            self.rig.latch(&self.state.projection);
+            self.cameras.rig.latch(&self.state.projection);
             if self.output() == Output::Rgbd && self.frame.nearer_is_larger.is_none() {
                 self.state.read_classification(gl, Touch::RANGE);
                 let look = &self.state.classification;
@@ -307,7 +321,13 @@ impl Layer {
         }
         self.watch_depths(gl, kind, &classed);
         self.watch_equal_depths(gl);
-        let plan = plan(kind, &self.state, &self.rig, &self.capabilities, &classed);
+        let plan = plan(
+            kind,
+            &self.state,
+            &self.cameras.rig,
+            &self.session.capabilities,
+            &classed,
+        );
         let plan = self.plan_shaders(gl, kind, &classed, plan);
         let plan = self.track_pass(gl, kind, self.uncounted(plan));
         let plan = self.by_instances(gl, kind, plan);
@@ -327,37 +347,40 @@ impl Layer {
         if plan.method == Method::Once {
             self.queries.drawn();
         } else {
-            self.drawn = true;
+            self.frame.drawn = true;
         }
         // An amplified draw is counted when it is known that it can be made.
         if matches!(plan.method, Method::Once | Method::Replay) {
-            self.report
+            self.diagnostics
+                .report
                 .draw(method_name(plan.method), plan.class.word());
         }
         if let Some(reason) = &plan.reason {
-            self.fallbacks.add(reason.clone());
+            self.diagnostics.fallbacks.add(reason.clone());
         }
         plan
     }
 
     /// Some draws of a program are always replayed, such as those of display lists. Instances in layers have the very depths that
     /// these have; views beside each other and what comes out of a geometry shader do not, so from the first draw with GL_EQUAL on
-    /// all draws go the same way. A pass before that one, in the program's first frame, is not made hazard.
+    /// all draws go the same way. A pass before that one, in the program's first frame, is not made again.
     fn watch_equal_depths(&mut self, gl: &Gl) {
-        let same_depths = match self.capabilities.strategy {
+        let same_depths = match self.session.capabilities.strategy {
             Strategy::Replay
             | Strategy::Auto
             | Strategy::DepthImage
             | Strategy::Occlusion
             | Strategy::Hybrid => true,
-            Strategy::Instanced => self.config.clip.is_none() && self.support.layers(),
+            Strategy::Instanced => {
+                self.session.config.clip.is_none() && self.session.support.layers()
+            }
             Strategy::Geometry => false,
         };
-        if same_depths || self.capabilities.together || !self.state.draws_to_window() {
+        if same_depths || self.session.capabilities.together || !self.state.draws_to_window() {
             return;
         }
         self.state.read_classification(gl, Touch::DEPTH);
-        self.capabilities.together = self.state.classification.equal;
+        self.session.capabilities.together = self.state.classification.equal;
     }
 
     pub(super) fn replay(
@@ -368,17 +391,21 @@ impl Layer {
         call: &mut dyn FnMut(u32),
     ) {
         let (program, framebuffer) = (self.state.program, self.state.framebuffers.draw);
-        if let Some(target) = self.offscreen.take(framebuffer, self.wanted_views()) {
+        if let Some(target) = self
+            .targets
+            .offscreen
+            .take(framebuffer, self.wanted_views())
+        {
             return self.replay_aside(gl, target, plan, hazard, call);
         }
-        let mut variants = std::mem::take(&mut self.variants);
+        let mut variants = std::mem::take(&mut self.variants.own);
         match plan
             .variant
             .then(|| variants.enter(gl, program, VariantUse::Views))
             .flatten()
         {
             Some(Entered { variant, .. }) => {
-                let (rig, stride) = (self.rig, self.atlas.tiles.stride);
+                let (rig, stride) = (self.cameras.rig, self.targets.atlas.tiles.stride);
                 let unproject = self.unproject(plan);
                 self.replay_by(gl, None, None, hazard, &mut |view| {
                     let shifts = (plan.shear, plan.flat);
@@ -393,7 +420,7 @@ impl Layer {
                 self.replay_by(gl, None, shear, hazard, call);
             }
         }
-        self.variants = variants;
+        self.variants.own = variants;
     }
 
     /// To a target that each view has its own of, or the window, with this shift of the projection.
@@ -407,10 +434,10 @@ impl Layer {
     ) {
         self.prove(gl, shear, hazard, call);
         // Of what queries count, only the own view is counted.
-        let bound = std::mem::take(&mut self.sampled);
+        let bound = std::mem::take(&mut self.variants.sampled);
         let surface: &mut dyn Surface = match target {
             Some(target) => target,
-            None => &mut self.atlas,
+            None => &mut self.targets.atlas,
         };
         let mut queries = std::mem::take(&mut self.queries);
         let (own, mut paused) = (surface.tiles().own(), true);
@@ -419,7 +446,7 @@ impl Layer {
             gl,
             surface,
             &self.state,
-            &self.rig,
+            &self.cameras.rig,
             shear,
             hazard,
             true,
@@ -427,16 +454,16 @@ impl Layer {
                 if view == own && std::mem::take(&mut paused) {
                     queries.resume(gl);
                 }
-                self.offscreen.bind(gl, &bound, view);
+                self.targets.offscreen.bind(gl, &bound, view);
                 call(view);
             },
         );
         self.queries = queries;
-        self.offscreen.unbind(gl, &bound);
-        self.sampled = bound;
+        self.targets.offscreen.unbind(gl, &bound);
+        self.variants.sampled = bound;
         if !sent {
-            self.mono.lose();
-            self.report.note(
+            self.targets.mono.lose();
+            self.diagnostics.report.note(
                 "the program's attribute stack was full: some draws are in its own view only"
                     .into(),
             );
@@ -446,14 +473,14 @@ impl Layer {
     /// glRasterPos, after the driver's own: the position stands for a point of the scene and moves with the view.
     pub fn placed_raster(&mut self, gl: &Gl) {
         self.state.refresh(gl);
-        self.raster = self.rig.shear(&self.state.projection);
-        self.raster_placed = self.state.projection_kind();
+        self.cameras.raster = self.cameras.rig.shear(&self.state.projection);
+        self.cameras.raster_placed = self.state.projection_kind();
     }
 
     /// glWindowPos: the position is one of the window.
     pub fn placed_in_window(&mut self) {
-        self.raster = None;
-        self.raster_placed = Projection::None;
+        self.cameras.raster = None;
+        self.cameras.raster_placed = Projection::None;
     }
 
     /// State groups that a command touches; false where it is compiled into a list instead.

@@ -28,19 +28,22 @@ impl Layer {
         let plan = self.plan(gl, Kind::List);
         self.queries.drawn();
         let framebuffer = self.state.framebuffers.draw;
-        let mut target = self.offscreen.take(framebuffer, self.wanted_views());
+        let mut target = self
+            .targets
+            .offscreen
+            .take(framebuffer, self.wanted_views());
         if !self.state.makes_pictures() || (framebuffer != 0 && target.is_none()) {
             return;
         }
-        self.proving.refuse_lists();
+        self.diagnostics.proving.refuse_lists();
         let everywhere = plan.method != Method::Once;
         let shear = plan.shear.filter(|_| everywhere);
         let surface: &mut dyn Surface = match &mut target {
             Some(target) => target,
-            None => &mut self.atlas,
+            None => &mut self.targets.atlas,
         };
-        enter_own(gl, surface, &self.state, &self.rig, shear);
-        self.executed = Some(Own {
+        enter_own(gl, surface, &self.state, &self.cameras.rig, shear);
+        self.lists.executed = Some(Own {
             shear,
             everywhere,
             before: Current::take(gl, Effect::ALL, true),
@@ -50,38 +53,38 @@ impl Layer {
 
     /// After the driver has ended it; `name` is the list.
     pub(super) fn finish_own(&mut self, gl: &Gl, name: u32) {
-        let Some(mut own) = self.executed.take() else {
+        let Some(mut own) = self.lists.executed.take() else {
             return;
         };
         let after = Current::take(gl, Effect::ALL, true);
-        let bound = self.offscreen.bound(gl);
+        let bound = self.targets.offscreen.bound(gl);
         if own.everywhere {
             self.queries.pause(gl);
         }
         let surface: &mut dyn Surface = match &mut own.target {
             Some(target) => target,
-            None => &mut self.atlas,
+            None => &mut self.targets.atlas,
         };
         others(
             gl,
             surface,
             &self.state,
-            &self.rig,
+            &self.cameras.rig,
             own.shear,
             own.everywhere,
             &mut |view| {
                 own.before.put(gl);
-                self.offscreen.bind(gl, &bound, view);
+                self.targets.offscreen.bind(gl, &bound, view);
                 gl.call_list(name);
             },
         );
         if own.everywhere {
-            self.offscreen.unbind(gl, &bound);
+            self.targets.offscreen.unbind(gl, &bound);
         }
         if let Some(target) = own.target.take() {
             gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, target.own());
-            self.offscreen.drawn_to(&target);
-            self.offscreen.put(target);
+            self.targets.offscreen.drawn_to(&target);
+            self.targets.offscreen.put(target);
         }
         if own.everywhere {
             after.put(gl);

@@ -44,8 +44,9 @@ pub(super) struct Explained {
 impl Layer {
     /// The frame that is being drawn is the one to explain.
     fn explains(&self) -> Option<&'static Explain> {
-        let explain = self.config.explain.as_ref()?;
-        (self.report.frames() + 1 == explain.frame && self.state.list.is_none()).then_some(explain)
+        let explain = self.session.config.explain.as_ref()?;
+        (self.diagnostics.report.frames() + 1 == explain.frame && self.state.list.is_none())
+            .then_some(explain)
     }
 
     /// Before a draw: finds what the one before it has changed.
@@ -53,10 +54,10 @@ impl Layer {
         if self.explains().is_none() {
             return;
         }
-        let Some(mut explained) = self.explained.take() else {
+        let Some(mut explained) = self.diagnostics.explained.take() else {
             let view = self.own_view(gl);
             let pixels = view.width() as usize * view.height() as usize;
-            self.explained = Some(Explained {
+            self.diagnostics.explained = Some(Explained {
                 view,
                 owner: vec![None; pixels],
                 last: None,
@@ -73,7 +74,7 @@ impl Layer {
         if let Some(class) = explained.last.take() {
             explained.attribute(class, self.own_view(gl));
         }
-        self.explained = Some(explained);
+        self.diagnostics.explained = Some(explained);
     }
 
     /// A draw is about to be made.
@@ -81,7 +82,7 @@ impl Layer {
         if self.explains().is_none() {
             return;
         }
-        if let Some(explained) = &mut self.explained {
+        if let Some(explained) = &mut self.diagnostics.explained {
             let clear = matches!(facts.kind, Kind::Clear { .. } | Kind::Accum);
             if !clear {
                 explained.draws.push((*facts, *classed));
@@ -107,7 +108,8 @@ impl Layer {
             });
             if let Err(e) = made.and(written) {
                 let folder = folder.display();
-                self.report
+                self.diagnostics
+                    .report
                     .note(format!("shaders of the explained frame: {folder}: {e}"));
                 return;
             }
@@ -120,7 +122,7 @@ impl Layer {
             return;
         };
         self.explain_last(gl);
-        let Some(explained) = self.explained.take() else {
+        let Some(explained) = self.diagnostics.explained.take() else {
             return;
         };
         self.write_shaders(explain, &explained);
@@ -137,7 +139,8 @@ impl Layer {
             })
         });
         if let Err(e) = written {
-            self.report
+            self.diagnostics
+                .report
                 .note(format!("explanation of frame {}: {e}", explain.frame));
         }
     }

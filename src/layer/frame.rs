@@ -1,6 +1,6 @@
 //! The end of a frame: interleave, capture, report.
 
-use super::{Layer, OnScreen};
+use super::{Frame, Layer, OnScreen};
 use crate::atlas::ViewSet;
 use crate::config::{Capture, CaptureWhat, Output};
 use crate::display::{Placement, QuiltName};
@@ -27,12 +27,13 @@ impl Layer {
         if self.is_mono() {
             self.enter_mono(gl);
         }
-        super::orphans::delete_orphans(gl, &self.group);
+        super::orphans::delete_orphans(gl, &self.session.group);
         self.queries.pause(gl);
         self.queries.lift_condition(gl);
         let saved = Saved::take(gl, self.state.compatibility);
         // A flush shows what is drawn to the front buffer; where that is the only image, so does a swap.
-        let front = !swap && self.atlas.has_front() && self.state.framebuffers.draws_front();
+        let front =
+            !swap && self.targets.atlas.has_front() && self.state.framebuffers.draws_front();
         let image = if front { FRONT } else { BACK };
         self.reading(gl, image, |layer| layer.present(gl, image));
         self.leave_scene();
@@ -46,7 +47,7 @@ impl Layer {
             gl.read_buffer(self.state.window.default_read);
         }
         let used = self.state.framebuffers.uses_front();
-        if swap && self.atlas.swapped(gl, used) {
+        if swap && self.targets.atlas.swapped(gl, used) {
             self.apply_buffers(gl);
         }
         self.next_proof(gl);
@@ -56,14 +57,16 @@ impl Layer {
         self.queries.resume(gl);
         if swap {
             if self.is_mono() {
-                self.report.mono_frame();
+                self.diagnostics.report.mono_frame();
             }
             self.time_frame(gl);
             self.enter_mono(gl);
         }
         self.realign_tiles();
-        self.drawn = false;
-        self.frame = Default::default();
+        self.frame = Frame {
+            amplifies: self.frame.amplifies,
+            ..Frame::default()
+        };
     }
 
     /// Draws the picture into the true framebuffer 0 and captures what is wanted.
@@ -71,10 +74,10 @@ impl Layer {
         self.end_scene(gl);
         if self.synthesis.pyramid.is_none() {
             let views = match self.is_mono() {
-                true => self.atlas.tiles.own_alone(),
+                true => self.targets.atlas.tiles.own_alone(),
                 false => ViewSet::ALL,
             };
-            self.atlas.resolve(gl, &views, c::COLOR_BUFFER_BIT);
+            self.targets.atlas.resolve(gl, &views, c::COLOR_BUFFER_BIT);
         }
         let output = self.output();
         let depth = (output == Output::Rgbd).then(|| self.own_depth(gl));
@@ -94,11 +97,11 @@ impl Layer {
     /// What pictures are made of.
     fn source<'a>(&self, image: u32, depth: Option<&'a Depth>) -> Source<'a> {
         Source {
-            tiles: self.atlas.tiles,
-            texture: self.atlas.sampled(image),
-            depth: depth.map(|depth| (self.atlas.depth, depth)),
+            tiles: self.targets.atlas.tiles,
+            texture: self.targets.atlas.sampled(image),
+            depth: depth.map(|depth| (self.targets.atlas.depth, depth)),
             pyramid: self.synthesis.pyramid,
-            top_down: self.atlas.flipped,
+            top_down: self.targets.atlas.flipped,
             srgb: self.state.window.srgb,
         }
     }
@@ -108,26 +111,30 @@ impl Layer {
         let output = self.output();
         let source = self.source(image, depth);
         let pictures = match self.is_mono() {
-            true => vec![(None, Output::View(self.atlas.tiles.own()))],
+            true => vec![(None, Output::View(self.targets.atlas.tiles.own()))],
             false => self.pictures(output, image),
         };
         let panel = PanelPlacement {
-            display: self.fitted.as_ref().unwrap_or(&self.config.display),
+            display: self
+                .session
+                .fitted
+                .as_ref()
+                .unwrap_or(&self.session.config.display),
             placement: self.placement(),
         };
         for (buffer, output) in pictures {
             if let Some(buffer) = buffer {
                 gl.draw_buffer(buffer);
             }
-            if let Err(e) = self.interleaver.draw(
+            if let Err(e) = self.targets.interleaver.draw(
                 gl,
-                self.config,
+                self.session.config,
                 &source,
-                &mut |view| tile(gl, &self.atlas, view),
+                &mut |view| tile(gl, &self.targets.atlas, view),
                 output,
                 &panel,
             ) {
-                self.report.note(e);
+                self.diagnostics.report.note(e);
             }
             if buffer.is_some() {
                 gl.draw_buffer(self.state.window.default_buffer);
@@ -137,14 +144,17 @@ impl Layer {
 
     /// The depth of the program's own view. Changes the framebuffers that are bound.
     fn own_depth(&self, gl: &Gl) -> Depth {
-        let tiles = &self.atlas.tiles;
+        let tiles = &self.targets.atlas.tiles;
         let (width, height) = (tiles.width, tiles.height);
         let reversed = self.frame.nearer_is_larger.unwrap_or(false);
         let mut values = Vec::with_capacity(width as usize * height as usize);
-        if self.atlas.depth != 0 {
-            self.atlas
-                .resolve(gl, &self.atlas.tiles.own_alone(), c::DEPTH_BUFFER_BIT);
-            let (from, x) = self.atlas.readable(tiles.own());
+        if self.targets.atlas.depth != 0 {
+            self.targets.atlas.resolve(
+                gl,
+                &self.targets.atlas.tiles.own_alone(),
+                c::DEPTH_BUFFER_BIT,
+            );
+            let (from, x) = self.targets.atlas.readable(tiles.own());
             gl.bind_framebuffer(c::READ_FRAMEBUFFER, from);
             let read = gl.read_depth32(x, 0, width, height);
             values.extend(read.rchunks_exact(width as usize).flatten());
@@ -171,10 +181,12 @@ impl Layer {
         self.queries.lift_condition(gl);
         let saved = Saved::take(gl, self.state.compatibility);
         let picture = self.reading(gl, BACK, |layer| {
-            layer
-                .atlas
-                .resolve(gl, &layer.atlas.tiles.own_alone(), c::COLOR_BUFFER_BIT);
-            tile(gl, &layer.atlas, layer.atlas.tiles.own())
+            layer.targets.atlas.resolve(
+                gl,
+                &layer.targets.atlas.tiles.own_alone(),
+                c::COLOR_BUFFER_BIT,
+            );
+            tile(gl, &layer.targets.atlas, layer.targets.atlas.tiles.own())
         });
         saved.restore(gl);
         self.rebind(gl);
@@ -186,7 +198,7 @@ impl Layer {
     /// Where the window's picture lies on the screen; a window system that does not tell leaves it in the corner.
     pub(super) fn placement(&self) -> Placement {
         let (width, height) = self.size();
-        let on_screen = self.on_screen.unwrap_or(OnScreen {
+        let on_screen = self.session.on_screen.unwrap_or(OnScreen {
             screen: (width, height),
             at: (0, 0),
         });
@@ -202,42 +214,47 @@ impl Layer {
 
     /// Counts the frame and writes the report where one is asked for.
     pub fn count_frame(&mut self) {
-        if let (Some(ms), Some(number)) = (self.report.frame(), self.synthesis.number()) {
+        if let (Some(ms), Some(number)) = (self.diagnostics.report.frame(), self.synthesis.number())
+        {
             let drawn = self.synthesis.take_drawn();
-            self.report.drew(ms, drawn.unwrap_or(self.config.views));
+            self.diagnostics
+                .report
+                .drew(ms, drawn.unwrap_or(self.session.config.views));
             // A menu, say, tells of nothing.
-            if drawn.is_some() || number == self.config.views {
+            if drawn.is_some() || number == self.session.config.views {
                 self.synthesis.adapt(ms);
             }
         }
-        self.report.memory(self.atlas.bytes);
-        for (reason, count) in self.fallbacks.take() {
-            self.report.fallbacks(&reason, count);
+        self.diagnostics.report.memory(self.targets.atlas.bytes);
+        for (reason, count) in self.diagnostics.fallbacks.take() {
+            self.diagnostics.report.fallbacks(&reason, count);
         }
         self.count_names();
-        self.report.write_if_due(self.config);
+        self.diagnostics.report.write_if_due(self.session.config);
     }
 
     /// Whether a flush shows what was drawn: it went to the front buffer, or there is no other, and somebody can see it.
     pub fn shows_on_flush(&self) -> bool {
-        self.drawn
+        self.frame.drawn
             && !self.is_hidden()
             && (!self.state.window.double_buffered || self.state.framebuffers.draws_front())
     }
 
     /// Whether something was drawn since the last frame was shown.
     pub fn drawn(&self) -> bool {
-        self.drawn
+        self.frame.drawn
     }
 
     fn capture(&mut self, gl: &Gl, source: &Source) {
-        let frame = self.report.frames() + 1;
-        if let Some(wanted) = &self.config.capture
+        let frame = self.diagnostics.report.frames() + 1;
+        if let Some(wanted) = &self.session.config.capture
             && (wanted.first..=wanted.last).contains(&frame)
         {
-            self.report.write(self.config, frame);
+            self.diagnostics.report.write(self.session.config, frame);
             if let Err(e) = self.write(gl, source, wanted, frame) {
-                self.report.note(format!("capture of frame {frame}: {e}"));
+                self.diagnostics
+                    .report
+                    .note(format!("capture of frame {frame}: {e}"));
             }
         }
         self.take_picture(gl, source, frame);
@@ -252,7 +269,11 @@ impl Layer {
         frame: u64,
     ) -> Result<PathBuf, String> {
         let (width, height) = self.size();
-        let form = Form::of(self.config, &self.config.display, self.output());
+        let form = Form::of(
+            self.session.config,
+            &self.session.config.display,
+            self.output(),
+        );
         let path = match (wanted.what, form) {
             (CaptureWhat::Output, Form::Layout(Layout::Quilt { columns, rows })) => {
                 let name = QuiltName::new((columns, rows), (width, height));
@@ -260,26 +281,32 @@ impl Layer {
             }
             _ => wanted.path_for(frame),
         };
-        let last = self.config.views - 1;
+        let last = self.session.config.views - 1;
         // Layouts are written at the full size of their tiles, whatever the window's size.
         let whole = |views: &[u32], layout: Layout| {
             let size = layout.native_size(
                 views.len() as u32,
-                (self.atlas.tiles.width, self.atlas.tiles.height),
+                (
+                    self.targets.atlas.tiles.width,
+                    self.targets.atlas.tiles.height,
+                ),
             );
-            let views: Vec<_> = views.iter().map(|&v| tile(gl, &self.atlas, v)).collect();
+            let views: Vec<_> = views
+                .iter()
+                .map(|&v| tile(gl, &self.targets.atlas, v))
+                .collect();
             reference::arrange(&views, layout, size)
                 .map_err(|e| e.to_string())
                 .and_then(|i| capture::write(&i, &path))
         };
-        let all: Vec<u32> = (0..self.config.views).collect();
+        let all: Vec<u32> = (0..self.session.config.views).collect();
         let row = Layout::SideBySide { half: false };
         let written = match wanted.what {
             CaptureWhat::Output if self.output() == Output::Quad => whole(&[0, last], row),
             CaptureWhat::Output => match form {
                 Form::Layout(layout) => whole(&all, layout),
                 Form::Rgbd => {
-                    let own = tile(gl, &self.atlas, source.tiles.own());
+                    let own = tile(gl, &self.targets.atlas, source.tiles.own());
                     let size = row.native_size(2, own.dimensions());
                     rgbd(&own, &self.own_depth(gl), size)
                         .map_err(|e| e.to_string())
@@ -291,16 +318,16 @@ impl Layer {
                 }
             },
             CaptureWhat::Atlas => whole(&all, row),
-            CaptureWhat::View(v) => capture::write(&tile(gl, &self.atlas, v), &path),
+            CaptureWhat::View(v) => capture::write(&tile(gl, &self.targets.atlas, v), &path),
             CaptureWhat::Reference => self
                 .reference_image(gl)
                 .and_then(|i| capture::write(&i, &path)),
             CaptureWhat::Samples => capture::write_bytes(&self.samples(), &path),
             CaptureWhat::Depth => {
-                let own = self.atlas.tiles.own_alone();
-                self.atlas.resolve(gl, &own, c::DEPTH_BUFFER_BIT);
+                let own = self.targets.atlas.tiles.own_alone();
+                self.targets.atlas.resolve(gl, &own, c::DEPTH_BUFFER_BIT);
                 let t = &source.tiles;
-                let (from, x) = self.atlas.readable(t.own());
+                let (from, x) = self.targets.atlas.readable(t.own());
                 gl.bind_framebuffer(c::READ_FRAMEBUFFER, from);
                 capture::write(&capture::read_depth(gl, x, 0, t.width, t.height), &path)
             }

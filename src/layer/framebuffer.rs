@@ -35,8 +35,8 @@ impl Layer {
     fn pushed_attribs(&mut self, depth: i32, mask: u32) {
         let f = &self.state.framebuffers;
         // Lists push and pop without our seeing it: what is above has gone.
-        self.pushed.retain(|p| p.depth < depth);
-        self.pushed.push(Pushed {
+        self.targets.pushed.retain(|p| p.depth < depth);
+        self.targets.pushed.push(Pushed {
             depth,
             draw_buffers: (mask & c::COLOR_BUFFER_BIT != 0 && f.draw == 0)
                 .then(|| f.draw_buffers.clone()),
@@ -71,8 +71,8 @@ impl Layer {
     }
 
     fn popped_attribs(&mut self, gl: &Gl, depth: i32) {
-        let saved = self.pushed.iter().position(|p| p.depth == depth);
-        let Some(saved) = saved.map(|at| self.pushed.swap_remove(at)) else {
+        let saved = self.targets.pushed.iter().position(|p| p.depth == depth);
+        let Some(saved) = saved.map(|at| self.targets.pushed.swap_remove(at)) else {
             return;
         };
         let f = &mut self.state.framebuffers;
@@ -99,13 +99,13 @@ impl Layer {
         bind(
             target,
             if name == 0 {
-                self.atlas.framebuffer()
+                self.targets.atlas.framebuffer()
             } else {
                 name
             },
         );
         if draw {
-            self.atlas.forget_row();
+            self.targets.atlas.forget_row();
             self.state.framebuffers.draw = name;
             // It may have a depth buffer where the other has none.
             self.state.touch(Touch::DEPTH);
@@ -128,7 +128,7 @@ impl Layer {
         if read {
             f.read = 0;
         }
-        self.offscreen.forget_targets(gl, names);
+        self.targets.offscreen.forget_targets(gl, names);
         self.bind_draw(gl, draw, read);
     }
 
@@ -136,11 +136,11 @@ impl Layer {
     pub(super) fn bind_draw(&mut self, gl: &Gl, draw: bool, read: bool) {
         let f = &self.state.framebuffers;
         if draw && f.draw == 0 {
-            gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, self.atlas.framebuffer());
-            self.atlas.forget_row();
+            gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, self.targets.atlas.framebuffer());
+            self.targets.atlas.forget_row();
         }
         if read && f.read == 0 {
-            gl.bind_framebuffer(c::READ_FRAMEBUFFER, self.atlas.framebuffer());
+            gl.bind_framebuffer(c::READ_FRAMEBUFFER, self.targets.atlas.framebuffer());
         }
     }
 
@@ -243,17 +243,17 @@ impl Layer {
     /// Draw and read buffers are kept in each framebuffer object of the atlas.
     pub(super) fn apply_buffers(&mut self, gl: &Gl) {
         if self.state.framebuffers.uses_front()
-            && !self.atlas.has_front()
-            && self.atlas.tiles.grid.is_full()
+            && !self.targets.atlas.has_front()
+            && self.targets.atlas.tiles.grid.is_full()
         {
             self.leave_mono(gl);
-            let (names, window) = (&mut self.names, &self.state.window);
-            let swapped = self.report.frames() > 0;
-            let make = || self.atlas.make_front(gl, names, window, swapped);
+            let (names, window) = (&mut self.targets.names, &self.state.window);
+            let swapped = self.diagnostics.report.frames() > 0;
+            let make = || self.targets.atlas.make_front(gl, names, window, swapped);
             as_they_are(gl, || keep_bindings(gl, make));
         }
         let f = &self.state.framebuffers;
-        if f.uses_front() && !self.atlas.tiles.grid.is_full() {
+        if f.uses_front() && !self.targets.atlas.tiles.grid.is_full() {
             // Which comes back here for the new one.
             return self.hold_everything(gl, "uses the front buffer");
         }
@@ -342,30 +342,34 @@ impl Layer {
             return call();
         }
         let read = self.state.framebuffers.read;
-        if read != 0 && self.offscreen.is_split(gl, read) {
+        if read != 0 && self.targets.offscreen.is_split(gl, read) {
             self.split(gl, read);
-            let own = self.offscreen.view(gl, read, self.atlas.tiles.own());
+            let own = self
+                .targets
+                .offscreen
+                .view(gl, read, self.targets.atlas.tiles.own());
             gl.bind_framebuffer(c::READ_FRAMEBUFFER, own);
             call();
             gl.bind_framebuffer(c::READ_FRAMEBUFFER, read);
             return;
         }
         // What lies to the right of the window must not be another view.
-        let beside = self.atlas.tiles.columns > 1 && x.saturating_add(width) > self.tile_size()[0];
-        let other = self.atlas.multisampled() || !self.atlas.tiles.grid.is_full();
+        let beside =
+            self.targets.atlas.tiles.columns > 1 && x.saturating_add(width) > self.tile_size()[0];
+        let other = self.targets.atlas.multisampled() || !self.targets.atlas.tiles.grid.is_full();
         if self.state.framebuffers.read != 0 || !(other || beside) {
             return call();
         }
         self.state.refresh(gl);
-        self.take_single(gl, self.atlas.tiles.own());
+        self.take_single(gl, self.targets.atlas.tiles.own());
         let draw = match self.state.framebuffers.draw {
-            0 => self.atlas.framebuffer(),
+            0 => self.targets.atlas.framebuffer(),
             other => other,
         };
         gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, draw);
-        self.atlas.forget_row();
+        self.targets.atlas.forget_row();
         call();
-        gl.bind_framebuffer(c::READ_FRAMEBUFFER, self.atlas.framebuffer());
+        gl.bind_framebuffer(c::READ_FRAMEBUFFER, self.targets.atlas.framebuffer());
     }
 
     /// A read that no list compiles (glReadPixels).
@@ -388,14 +392,14 @@ impl Layer {
             c::NONE => c::NONE,
             _ => BACK,
         };
-        self.unscissored(gl, |layer| layer.atlas.take_single(gl, view, read));
+        self.unscissored(gl, |layer| layer.targets.atlas.take_single(gl, view, read));
     }
 
     pub(super) fn make_singles(&mut self, gl: &Gl, staged: bool) {
-        if !self.atlas.has_singles(staged) {
+        if !self.targets.atlas.has_singles(staged) {
             keep_bindings(gl, || {
-                let (names, window) = (&mut self.names, &self.state.window);
-                self.atlas.make_singles(gl, names, window, staged);
+                let (names, window) = (&mut self.targets.names, &self.state.window);
+                self.targets.atlas.make_singles(gl, names, window, staged);
             });
         }
     }
@@ -432,13 +436,13 @@ impl Layer {
     }
 
     fn copy_views(&mut self, gl: &Gl, call: &mut dyn FnMut()) {
-        let own = self.atlas.tiles.own();
+        let own = self.targets.atlas.tiles.own();
         // As in `draw::replay`: before a glPushAttrib of ours.
         gl.get_floats::<4>(c::CURRENT_COLOR);
         self.queries.pause(gl);
-        for view in self.atlas.tiles.order() {
+        for view in self.targets.atlas.tiles.order() {
             self.take_single(gl, view);
-            let x = self.atlas.enter(gl, view);
+            let x = self.targets.atlas.enter(gl, view);
             if view == own {
                 self.queries.resume(gl);
             }
@@ -457,23 +461,23 @@ impl Layer {
 
     /// Runs a call with the scissor cut to a tile, where tiles lie beside each other.
     pub(super) fn scissored(&self, gl: &Gl, view: u32, x: i32, call: &mut dyn FnMut()) {
-        if self.atlas.tiles.columns == 1 && self.atlas.tiles.grid.is_full() {
+        if self.targets.atlas.tiles.columns == 1 && self.targets.atlas.tiles.grid.is_full() {
             return call();
         }
-        crate::draw::set_tile_viewport(gl, &self.state, &self.atlas.tiles, view, x);
+        crate::draw::set_tile_viewport(gl, &self.state, &self.targets.atlas.tiles, view, x);
         call();
         crate::draw::restore_viewport(gl, &self.state);
     }
 
     pub(super) fn tile_size(&self) -> [i32; 2] {
         [
-            self.atlas.tiles.width as i32,
-            self.atlas.tiles.height as i32,
+            self.targets.atlas.tiles.width as i32,
+            self.targets.atlas.tiles.height as i32,
         ]
     }
 
     /// The atlas, for tests of what it holds.
     pub fn atlas(&self) -> &Atlas {
-        &self.atlas
+        &self.targets.atlas
     }
 }

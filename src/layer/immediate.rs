@@ -41,18 +41,18 @@ impl Layer {
     }
 
     pub(super) fn start_recording(&mut self, mode: u32) {
-        self.recording.clear();
-        self.immediate = Immediate::default();
-        self.ends = Ends::default();
+        self.lists.recording.clear();
+        self.lists.immediate = Immediate::default();
+        self.lists.ends = Ends::default();
         self.state.begin = Begin::Recorded(mode);
     }
 
     /// Where a call between glBegin and glEnd is written.
     #[inline]
     pub fn record(&mut self, slot: usize, effect: Effect) -> &mut Recording {
-        self.immediate.note(effect);
-        self.recording.call(slot);
-        &mut self.recording
+        self.lists.immediate.note(effect);
+        self.lists.recording.call(slot);
+        &mut self.lists.recording
     }
 
     /// After the driver's glEnd: makes the recorded calls.
@@ -61,18 +61,18 @@ impl Layer {
             return;
         };
         let plan = self.plan(gl, Kind::Begin(mode));
-        let hazard = match self.immediate.must_restore() {
+        let hazard = match self.lists.immediate.must_restore() {
             Effect::NONE => ReplayHazard::None,
             effects => ReplayHazard::Current(effects),
         };
-        let recording = std::mem::take(&mut self.recording);
+        let recording = std::mem::take(&mut self.lists.recording);
         let amplified = match plan.method {
-            Method::Instanced | Method::Geometry if self.ends == Ends::default() => {
-                self.amplify(gl, &plan, mode, self.immediate.changes_material())
+            Method::Instanced | Method::Geometry if self.lists.ends == Ends::default() => {
+                self.amplify(gl, &plan, mode, self.lists.immediate.changes_material())
             }
             _ => None,
         };
-        let ends = self.ends;
+        let ends = self.lists.ends;
         match amplified {
             Some(how) => {
                 self.prove(gl, plan.shear, hazard, &mut |_| {
@@ -95,19 +95,19 @@ impl Layer {
                 self.once(gl, &mut || gl.replay(mode, &recording, ends));
             }
             None => {
-                let all = self.atlas.tiles.shown;
-                self.atlas.tiles.shown = self.seeing(gl, mode, &plan, &recording);
+                let all = self.targets.atlas.tiles.shown;
+                self.targets.atlas.tiles.shown = self.seeing(gl, mode, &plan, &recording);
                 let surface = Drawing {
                     mode: Some(mode),
                     vertices: recording.calls() as u64,
                     cuts: [c::TRIANGLES, c::QUADS].contains(&mode),
-                    material: self.immediate.changes_material(),
+                    material: self.lists.immediate.changes_material(),
                 };
                 self.draw_to_reference(gl, &plan, hazard, surface, &mut |mode| {
                     gl.replay(mode, &recording, ends);
                 });
                 let streamed = self.stream(gl, mode, &recording, hazard);
-                let sets = self.immediate.sets();
+                let sets = self.lists.immediate.sets();
                 self.replay(gl, &plan, hazard, &mut |_| match streamed {
                     Some(list) => {
                         touch_current_values(gl, sets);
@@ -118,11 +118,11 @@ impl Layer {
                 if let Some(list) = streamed {
                     self.drop_list(gl, list);
                 }
-                self.atlas.tiles.shown = all;
+                self.targets.atlas.tiles.shown = all;
             }
         }
-        self.recording = recording;
-        if self.immediate.changes_material() {
+        self.lists.recording = recording;
+        if self.lists.immediate.changes_material() {
             self.state.touch(Touch::MATERIAL);
         }
     }
@@ -130,10 +130,18 @@ impl Layer {
     /// The views of those that are drawn in whose frustum some of it may lie. Only of triangles: they are cut at its sides before they
     /// become outlines or corners (OpenGL 4.6, 13.7), while lines and points are as wide outside.
     fn seeing(&self, gl: &Gl, mode: u32, plan: &Plan, recording: &Recording) -> ViewSet {
-        let (all, tiles, state) = (self.atlas.tiles.shown, &self.atlas.tiles, &self.state);
-        let unknown = self.immediate.sets().has(Effect::UNKNOWN | Effect::ATTRIB);
+        let (all, tiles, state) = (
+            self.targets.atlas.tiles.shown,
+            &self.targets.atlas.tiles,
+            &self.state,
+        );
+        let unknown = self
+            .lists
+            .immediate
+            .sets()
+            .has(Effect::UNKNOWN | Effect::ATTRIB);
         let triangles = (c::TRIANGLES..=c::POLYGON).contains(&mode);
-        if self.config.disabled.has(Optimisation::Frustum)
+        if self.session.config.disabled.has(Optimisation::Frustum)
             || unknown
             || !triangles
             || !tiles.grid.is_full()
@@ -149,14 +157,14 @@ impl Layer {
         let modelview = gl.get_floats::<16>(c::MODELVIEW_MATRIX);
         let sees = |view: &u32| {
             let p = plan.shear.map_or(state.projection, |shear| {
-                shear.projection(&state.projection, self.rig.position(*view))
+                shear.projection(&state.projection, self.cameras.rig.position(*view))
             });
             !bounds.outside(&[0, 1, 3].map(|row| product_row(&p, &modelview, row)))
         };
         let seeing: ViewSet = tiles.order().filter(sees).collect();
         // A program of its own puts vertices elsewhere. Asked last, as it is rarely needed.
         let unseen = tiles.order().any(|view| !seeing.has(view));
-        if unseen && self.driver.programs && gl.is_enabled(c::VERTEX_PROGRAM_ARB) {
+        if unseen && self.variants.driver.programs && gl.is_enabled(c::VERTEX_PROGRAM_ARB) {
             return all;
         }
         seeing
@@ -170,12 +178,12 @@ impl Layer {
         recording: &Recording,
         hazard: ReplayHazard,
     ) -> Option<u32> {
-        let sets = self.immediate.sets();
-        let pays = !self.config.disabled.has(Optimisation::Lists)
+        let sets = self.lists.immediate.sets();
+        let pays = !self.session.config.disabled.has(Optimisation::Lists)
             && recording.calls() >= MANY
-            && self.atlas.tiles.order().count() >= SEVERAL;
+            && self.targets.atlas.tiles.order().count() >= SEVERAL;
         let as_it_is = hazard == ReplayHazard::None
-            && self.ends == Ends::default()
+            && self.lists.ends == Ends::default()
             && !sets.has(Effect::UNKNOWN | Effect::ATTRIB | Effect::MATERIAL);
         if !pays || !as_it_is || !(c::TRIANGLES..=c::TRIANGLE_FAN).contains(&mode) {
             return None;

@@ -13,14 +13,14 @@ impl Layer {
     /// Whether a draw that goes by a variant takes all views by instances. Not where each view samples a texture of its own, or the program
     /// counts what is drawn.
     pub(super) fn by_instances(&mut self, gl: &Gl, kind: Kind, plan: Plan) -> Plan {
-        let wanted = self.capabilities.strategy == Strategy::Instanced
+        let wanted = self.session.capabilities.strategy == Strategy::Instanced
             && plan.variant
             && plan.method == Method::Replay
             && matches!(kind, Kind::Arrays(_) | Kind::Elements(_))
-            && self.sampled.is_empty()
+            && self.variants.sampled.is_empty()
             && !self.queries.active()
-            && !self.capabilities.together;
-        if !wanted || !self.has_layers(gl) || (self.divides && gl.has_divisors()) {
+            && !self.session.capabilities.together;
+        if !wanted || !self.has_layers(gl) || (self.variants.divides && gl.has_divisors()) {
             return plan;
         }
         match self.know_layers(gl, self.state.program, true) {
@@ -35,10 +35,17 @@ impl Layer {
 
     /// Whether what is drawn to has all views as its layers.
     fn has_layers(&mut self, gl: &Gl) -> bool {
-        let tiles = &self.atlas.tiles;
+        let tiles = &self.targets.atlas.tiles;
         match self.state.framebuffers.draw {
-            0 => tiles.columns == 1 && tiles.grid.is_full() && self.atlas.layered().is_some(),
-            framebuffer => self.offscreen.target(gl, framebuffer).layered().is_some(),
+            0 => {
+                tiles.columns == 1 && tiles.grid.is_full() && self.targets.atlas.layered().is_some()
+            }
+            framebuffer => self
+                .targets
+                .offscreen
+                .target(gl, framebuffer)
+                .layered()
+                .is_some(),
         }
     }
 
@@ -50,23 +57,26 @@ impl Layer {
         draw: &mut dyn FnMut(i32),
         call: &mut dyn FnMut(),
     ) {
-        let (program, rig) = (self.state.program, self.rig);
+        let (program, rig) = (self.state.program, self.cameras.rig);
         let framebuffer = self.state.framebuffers.draw;
         let shifts = (plan.shear, plan.flat);
-        let mut variants = std::mem::take(&mut self.variants);
-        if self.proving.atlas().is_some()
+        let mut variants = std::mem::take(&mut self.variants.own);
+        if self.diagnostics.proving.atlas().is_some()
             && let Some(Entered { variant, .. }) = variants.enter(gl, program, VariantUse::Views)
         {
-            let stride = self.atlas.tiles.stride;
+            let stride = self.targets.atlas.tiles.stride;
             self.prove(gl, None, ReplayHazard::None, &mut |view| {
                 variant.set_views(gl, shifts, &[rig.position(view)], stride);
                 call();
             });
         }
-        let target = self.offscreen.take(framebuffer, self.wanted_views());
+        let target = self
+            .targets
+            .offscreen
+            .take(framebuffer, self.wanted_views());
         let tiles = target
             .as_ref()
-            .map_or(self.atlas.tiles, |target| target.tiles());
+            .map_or(self.targets.atlas.tiles, |target| target.tiles());
         if let Some(Entered { variant, .. }) = variants.enter(gl, program, VariantUse::Instances) {
             let views: Vec<u32> = tiles.order().collect();
             let places: Vec<f64> = views.iter().map(|&view| rig.position(view)).collect();
@@ -75,29 +85,30 @@ impl Layer {
             variant.set_layers(gl, &layers);
             match target.as_ref().and_then(|target| target.layered()) {
                 Some(name) => gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, name),
-                None => self.atlas.bind_layered(gl),
+                None => self.targets.atlas.bind_layered(gl),
             }
             draw(views.len() as i32);
         } else {
             call();
         }
         gl.use_program(program);
-        self.variants = variants;
+        self.variants.own = variants;
         match target {
             Some(target) => {
                 gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, framebuffer);
-                self.offscreen.drawn_to(&target);
-                self.offscreen.put(target);
+                self.targets.offscreen.drawn_to(&target);
+                self.targets.offscreen.put(target);
             }
-            None => self.atlas.bind_row(gl, 0),
+            None => self.targets.atlas.bind_row(gl, 0),
         }
-        self.amplifies = true;
-        self.report
+        self.frame.amplifies = true;
+        self.diagnostics
+            .report
             .draw(method_name(Method::Instanced), plan.class.word());
     }
 
     /// Some attribute is about to advance by instances.
     pub fn divides(&mut self) {
-        self.divides = true;
+        self.variants.divides = true;
     }
 }

@@ -24,13 +24,13 @@ impl Layer {
     }
 
     pub(super) fn list_name(&self, gl: &Gl) -> u32 {
-        self.group.lists().name(|name| gl.is_list(name))
+        self.session.group.lists().name(|name| gl.is_list(name))
     }
 
     /// A list of ours is of no use any more.
     pub(super) fn drop_list(&self, gl: &Gl, name: u32) {
         gl.delete_list(name);
-        let mut lists = self.group.lists();
+        let mut lists = self.session.group.lists();
         lists.spare(name);
     }
 
@@ -149,19 +149,19 @@ impl Layer {
             gl.call_list(segment.name);
         }
         gl.end_list();
-        let unused = self.group.lists().define(list.list, body);
+        let unused = self.session.group.lists().define(list.list, body);
         unused.into_iter().for_each(|name| gl.delete_list(name));
     }
 
     /// Whether a display list is one of ours.
     pub fn owns_list(&self, name: u32) -> bool {
-        let lists = self.group.lists();
+        let lists = self.session.group.lists();
         lists.owns(name)
     }
 
     /// glGenLists, after the driver's own answer `first`: the names that it would have found without ours.
     pub fn generated_lists(&mut self, gl: &Gl, first: u32, count: u32) -> u32 {
-        let group = self.group.clone();
+        let group = self.session.group.clone();
         let mut lists = group.lists();
         let mut names = first;
         match lists.free(count) {
@@ -181,7 +181,7 @@ impl Layer {
 
     /// glDeleteLists, after the driver's own.
     pub fn deleted_lists(&mut self, gl: &Gl, first: u32, count: u32) {
-        let unused = self.group.lists().delete(first, count);
+        let unused = self.session.group.lists().delete(first, count);
         unused.into_iter().for_each(|name| gl.delete_list(name));
     }
 
@@ -237,7 +237,7 @@ impl Layer {
 
     /// The runs of a list; of one that does not exist none. `None`: only the driver knows what is in it.
     fn body(&self, gl: &Gl, list: u32) -> Option<Body> {
-        let lists = self.group.lists();
+        let lists = self.session.group.lists();
         let known = lists.body(list);
         known.or_else(|| (!gl.is_list(list)).then(Body::default))
     }
@@ -250,8 +250,8 @@ impl Layer {
             && self.state.makes_pictures()
         {
             self.start_recording(mode);
-            self.ends.opener = segment.name;
-            self.immediate.note(Effect::UNKNOWN);
+            self.lists.ends.opener = segment.name;
+            self.lists.immediate.note(Effect::UNKNOWN);
             return self.state.touch(segment.touch);
         }
         match segment.run {
@@ -338,8 +338,8 @@ impl Layer {
                 self.state.begin = Begin::Outside;
             }
         } else if segment.closes {
-            self.immediate.note(Effect::UNKNOWN);
-            self.ends.closer = segment.name;
+            self.lists.immediate.note(Effect::UNKNOWN);
+            self.lists.ends.closer = segment.name;
             self.end(gl);
         } else {
             self.record(slot::glCallList, Effect::UNKNOWN)
@@ -349,7 +349,7 @@ impl Layer {
 
     /// Whether a list that is called within a primitive ends it.
     pub fn closes(&self, list: u32) -> bool {
-        let lists = self.group.lists();
+        let lists = self.session.group.lists();
         let mut next = list;
         for _ in 0..NESTING {
             let body = lists.body(next);

@@ -4,11 +4,13 @@
 mod accumulate;
 mod auto;
 mod blits;
+mod cameras;
 mod classing;
 mod comfort;
 mod compute;
 mod control;
 mod copies;
+mod diagnostics;
 mod drawing;
 mod executed;
 mod explain;
@@ -26,9 +28,13 @@ mod programs;
 mod prove;
 mod quad_buffer;
 mod queries;
+mod recordings;
 mod sampling;
+mod session;
 pub mod support;
 mod synthesis;
+mod targets;
+mod variants;
 
 pub use control::Pictured;
 pub use drawing::Primitives;
@@ -37,20 +43,25 @@ pub use lists::is_scaled;
 pub use queries::Answer;
 
 use crate::atlas::{Atlas, AtlasError, Grid, Names, Tiles};
-use crate::config::{
-    AtlasLayout, Config, Live, Optimisation, Projection, Strategy, ViewScale, profile,
-};
-use crate::display::{Display, Placement};
-use crate::draw::{Driver, FixedState, Programs};
-use crate::gl::{Count, Ends, Gl, Recording, consts as c};
+use crate::config::{AtlasLayout, Config, Live, Optimisation, Strategy, ViewScale, profile};
+use crate::display::Placement;
+use crate::draw::{Driver, Programs};
+use crate::gl::{Gl, consts as c};
 use crate::interleave::Interleaver;
-use crate::offscreen::{Bound, Images, Offscreen, SharedImages};
-use crate::plan::{Capabilities, Classifier, Reason, Rig, Shear};
+use crate::offscreen::{Images, Offscreen, SharedImages};
+use crate::plan::Capabilities;
 use crate::present::Saved;
-use crate::report::{Counts, Proof, Report};
-use crate::state::{BACK, Immediate, Lists, State, Window};
+use crate::report::{Proof, Report};
+use crate::state::{BACK, Lists, State, Window};
+use cameras::Cameras;
+use classing::Frame;
+use diagnostics::Diagnostics;
+use recordings::Recordings;
+use session::Session;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use support::Support;
+use targets::Targets;
+use variants::Variants;
 
 /// Why a context cannot be shown in several views; it then runs as if the layer were not there.
 #[derive(Debug, thiserror::Error)]
@@ -95,65 +106,17 @@ impl Group {
 /// One context and its drawable.
 #[derive(Debug)]
 pub struct Layer {
-    config: &'static Config,
+    session: Session,
     /// What the program believes.
     pub state: State,
-    atlas: Atlas,
-    names: Names,
-    rig: Rig,
-    capabilities: Capabilities,
-    interleaver: Interleaver,
-    programs: Programs,
-    variants: programs::Variants,
-    fixed: Option<FixedState>,
-    driver: Driver,
-    group: Arc<Group>,
-    raster: Option<Shear>,
-    /// The projection under which the raster position was placed; none where glWindowPos did it.
-    raster_placed: Projection,
-    pushed: Vec<framebuffer::Pushed>,
-    queries: queries::Queries,
-    offscreen: Offscreen,
-    /// What the draw samples that is being made, as far as the views differ in it.
-    sampled: Vec<Bound>,
-    /// The program, and the changes of uniforms and images, up to which that is known.
-    sampled_by: Option<(u32, u64, u64)>,
-    /// The matrices by which it computes positions from depths, with their locations.
-    unprojections: Vec<(i32, [f32; 16])>,
-    /// The program has attributes that advance by instances.
-    divides: bool,
-    /// A of the camera that the window is drawn with, for telling it from a lamp's.
-    lens: Option<f64>,
-    executed: Option<executed::Own>,
-    accumulated: accumulate::Accumulated,
-    recording: Recording,
-    ends: Ends,
-    immediate: Immediate,
-    support: Support,
-    classifier: Classifier,
-    frame: classing::Frame,
-    mono: mono::MonoFrames,
-    explained: Option<explain::Explained>,
-    live: Live,
-    comfort: comfort::Comfort,
-    /// The display with other numbers of its sheet, once they have been changed.
-    fitted: Option<Display>,
-    picture: control::Picture,
-    proving: prove::Proving,
-    made: Count,
+    targets: Targets,
+    variants: Variants,
     synthesis: synthesis::Synthesis,
-    on_screen: Option<OnScreen>,
-    detail: sampling::Detail,
-    /// A picture waits for views that are not shown.
-    undrawn: bool,
-    auto: Option<auto::Auto>,
-    /// Of this frame.
-    fallbacks: Counts<Reason>,
-    /// Counts for `--report`.
-    pub report: Report,
-    drawn: bool,
-    /// A draw since the last frame was made by another strategy than replay.
-    amplifies: bool,
+    lists: Recordings,
+    cameras: Cameras,
+    frame: Frame,
+    queries: queries::Queries,
+    diagnostics: Diagnostics,
 }
 
 /// Where a window lies.
@@ -268,64 +231,42 @@ impl Layer {
             grid,
             capabilities.strategy,
         )?;
+        let offscreen = Offscreen::new(
+            gl,
+            config.views,
+            support.compatibility,
+            group.images.clone(),
+        );
         let mut layer = Layer {
-            config,
-            rig: Rig::new(config.views, live.camera, config.profile.focal_depth),
+            cameras: Cameras::new(config, &live, program.as_deref()),
+            session: Session {
+                config,
+                support,
+                capabilities,
+                group,
+                live,
+                on_screen: None,
+                fitted: None,
+                auto,
+            },
             state,
-            atlas,
-            names,
-            capabilities,
-            interleaver,
-            programs,
-            variants: programs::Variants::default(),
-            fixed: None,
-            driver,
-            offscreen: Offscreen::new(
-                gl,
-                config.views,
-                support.compatibility,
-                group.images.clone(),
-            ),
-            group,
-            raster: None,
-            raster_placed: Projection::None,
-            pushed: Vec::new(),
-            queries: queries::Queries::default(),
-            sampled: Vec::new(),
-            sampled_by: None,
-            unprojections: Vec::new(),
-            divides: false,
-            lens: None,
-            executed: None,
-            on_screen: None,
-            accumulated: accumulate::Accumulated::default(),
-            recording: Recording::default(),
-            ends: Ends::default(),
-            immediate: Immediate::default(),
-            support,
-            classifier: Classifier::new(
-                &config.profile,
-                Some(live.hud_depth),
-                program.as_deref(),
-                config.explain.is_some(),
-            ),
-            frame: classing::Frame::default(),
-            mono: mono::MonoFrames::default(),
-            explained: None,
-            live,
-            comfort: comfort::Comfort::new(config, live.camera),
-            fitted: None,
-            picture: control::Picture::None,
-            proving: prove::Proving::default(),
-            made: Count::default(),
+            targets: Targets {
+                atlas,
+                names,
+                offscreen,
+                accumulated: accumulate::Accumulated::default(),
+                interleaver,
+                detail,
+                mono: mono::MonoFrames::default(),
+                undrawn: false,
+                pushed: Vec::new(),
+            },
+            variants: Variants::new(programs, driver),
             synthesis,
-            detail,
-            undrawn: false,
-            auto,
-            fallbacks: Counts::default(),
-            report,
-            drawn: false,
-            amplifies: false,
+            lists: Recordings::default(),
+            frame: Frame::default(),
+            queries: queries::Queries::default(),
+            diagnostics: Diagnostics::new(report),
         };
         layer.drain_own_errors(gl);
         layer.bind_draw(gl, true, true);
@@ -339,16 +280,24 @@ impl Layer {
             return Ok(());
         }
         self.drop_proof(gl);
-        self.mono = mono::MonoFrames::default();
+        self.targets.mono = mono::MonoFrames::default();
         self.forget_scene();
         self.state.window.width = width;
         self.state.window.height = height;
         let grid = self.grid();
-        let (names, config, state) = (&mut self.names, self.config, &self.state);
-        let strategy = self.capabilities.strategy;
-        let atlas = make_atlas(gl, names, config, state, &self.support, grid, strategy)?;
-        std::mem::replace(&mut self.atlas, atlas).delete(gl);
-        if let Some(old) = std::mem::take(&mut self.accumulated).buffer {
+        let (names, config, state) = (&mut self.targets.names, self.session.config, &self.state);
+        let strategy = self.session.capabilities.strategy;
+        let atlas = make_atlas(
+            gl,
+            names,
+            config,
+            state,
+            &self.session.support,
+            grid,
+            strategy,
+        )?;
+        std::mem::replace(&mut self.targets.atlas, atlas).delete(gl);
+        if let Some(old) = std::mem::take(&mut self.targets.accumulated).buffer {
             old.delete(gl);
         }
         self.apply_buffers(gl);
@@ -366,21 +315,22 @@ impl Layer {
 
     /// The window lies here; none where the window system does not tell.
     pub fn moved(&mut self, on_screen: Option<OnScreen>) {
-        self.on_screen = on_screen;
+        self.session.on_screen = on_screen;
     }
 
     /// The one that the program draws to, and that of a proof where there is one.
     fn atlases(&self) -> impl Iterator<Item = &Atlas> {
-        std::iter::once(&self.atlas).chain(self.proving.atlas())
+        std::iter::once(&self.targets.atlas).chain(self.diagnostics.proving.atlas())
     }
 
     /// Whether a texture is one of ours.
     pub fn owns_texture(&self, name: u32) -> bool {
         name != 0
             && (self.atlases().any(|atlas| atlas.owns(name))
-                || self.interleaver.texture() == name
-                || self.offscreen.owns_texture(name)
+                || self.targets.interleaver.texture() == name
+                || self.targets.offscreen.owns_texture(name)
                 || self
+                    .targets
                     .accumulated
                     .buffer
                     .as_ref()
@@ -389,12 +339,12 @@ impl Layer {
 
     /// Whether a framebuffer object is one of ours.
     pub fn owns_framebuffer(&self, name: u32) -> bool {
-        let accumulation = self.accumulated.buffer.as_ref();
+        let accumulation = self.targets.accumulated.buffer.as_ref();
         name != 0
             && (self
                 .atlases()
                 .any(|atlas| atlas.framebuffers().any(|t| t == name))
-                || self.offscreen.owns_framebuffer(name)
+                || self.targets.offscreen.owns_framebuffer(name)
                 || accumulation.is_some_and(|a| a.framebuffer() == name))
     }
 
@@ -403,33 +353,33 @@ impl Layer {
         if self.owns_texture(name) {
             self.yield_names(gl);
         } else if name != 0 {
-            self.names.promise(name);
+            self.targets.names.promise(name);
         }
     }
 
     /// The program uses a texture name that it never asked for and that is ours: our textures move to other names.
     pub fn yield_names(&mut self, gl: &Gl) {
         // Core profiles have no names but those that were asked for.
-        if self.names.hidden() || !(self.state.compatibility || self.support.es) {
+        if self.targets.names.hidden() || !(self.state.compatibility || self.session.support.es) {
             return;
         }
         self.outside_list(gl, |layer| layer.move_names(gl));
     }
 
     fn move_names(&mut self, gl: &Gl) {
-        self.names.hide();
+        self.targets.names.hide();
         self.drop_proof(gl);
-        self.offscreen.clear(gl);
+        self.targets.offscreen.clear(gl);
         let note = if self.remake(gl) {
             "the program numbers its textures itself; ours moved out of its way"
         } else {
             "the program's texture names clash with ours"
         };
-        self.report.note(note.into());
-        self.interleaver.rename(gl, &mut self.names);
-        if let Some(buffer) = &mut self.accumulated.buffer {
+        self.diagnostics.report.note(note.into());
+        self.targets.interleaver.rename(gl, &mut self.targets.names);
+        if let Some(buffer) = &mut self.targets.accumulated.buffer {
             let saved = Saved::take(gl, self.state.compatibility);
-            buffer.rename(gl, &mut self.names);
+            buffer.rename(gl, &mut self.targets.names);
             saved.restore(gl);
             self.rebind(gl);
         }
@@ -448,7 +398,8 @@ impl Layer {
             self.drop_proof(gl);
             if !self.remake(gl) {
                 self.state.window.srgb = false;
-                self.report
+                self.diagnostics
+                    .report
                     .note("the driver makes no sRGB framebuffer: colours are not converted".into());
             }
         }
@@ -459,29 +410,36 @@ impl Layer {
         self.state.refresh(gl);
         self.leave_mono(gl);
         let grid = self.grid();
-        let (names, config, state) = (&mut self.names, self.config, &self.state);
-        let strategy = self.capabilities.strategy;
-        let Ok(mut atlas) = make_atlas(gl, names, config, state, &self.support, grid, strategy)
-        else {
+        let (names, config, state) = (&mut self.targets.names, self.session.config, &self.state);
+        let strategy = self.session.capabilities.strategy;
+        let Ok(mut atlas) = make_atlas(
+            gl,
+            names,
+            config,
+            state,
+            &self.session.support,
+            grid,
+            strategy,
+        ) else {
             return false;
         };
         as_they_are(gl, || {
             self.reading(gl, BACK, |layer| {
-                if atlas.tiles.lies_like(&layer.atlas.tiles) {
-                    return atlas.copy(gl, &layer.atlas);
+                if atlas.tiles.lies_like(&layer.targets.atlas.tiles) {
+                    return atlas.copy(gl, &layer.targets.atlas);
                 }
-                let (names, window) = (&mut layer.names, &layer.state.window);
+                let (names, window) = (&mut layer.targets.names, &layer.state.window);
                 keep_bindings(gl, || {
-                    atlas.copy_spread(gl, &mut layer.atlas, names, window)
+                    atlas.copy_spread(gl, &mut layer.targets.atlas, names, window)
                 });
             });
-            if self.atlas.has_front() {
-                let (names, window) = (&mut self.names, &self.state.window);
+            if self.targets.atlas.has_front() {
+                let (names, window) = (&mut self.targets.names, &self.state.window);
                 keep_bindings(gl, || atlas.make_front(gl, names, window, false));
-                atlas.copy_front(gl, &self.atlas);
+                atlas.copy_front(gl, &self.targets.atlas);
             }
         });
-        std::mem::replace(&mut self.atlas, atlas).delete(gl);
+        std::mem::replace(&mut self.targets.atlas, atlas).delete(gl);
         self.apply_buffers(gl);
         let f = &self.state.framebuffers;
         for (target, name) in [(c::DRAW_FRAMEBUFFER, f.draw), (c::READ_FRAMEBUFFER, f.read)] {
@@ -494,8 +452,15 @@ impl Layer {
     /// Takes note of the names that the layer has made and deleted on this thread, all of them in this context: to be called
     /// before another one is made current.
     pub fn count_names(&mut self) {
-        self.made.catch_up();
-        self.report.names(self.made, self.group.lists().held());
+        self.diagnostics.made.catch_up();
+        self.diagnostics
+            .report
+            .names(self.diagnostics.made, self.session.group.lists().held());
+    }
+
+    /// Tells the user a sentence, in the report.
+    pub fn note(&mut self, sentence: String) {
+        self.diagnostics.report.note(sentence);
     }
 
     /// Size of the window in pixels.
@@ -521,7 +486,7 @@ impl Layer {
             if gl.get_error() == c::NO_ERROR {
                 break;
             }
-            self.report.error();
+            self.diagnostics.report.error();
         }
     }
 }

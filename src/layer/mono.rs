@@ -41,7 +41,7 @@ impl MonoFrames {
 impl Layer {
     /// Whether the frame is drawn in the program's own view only.
     pub(super) fn is_mono(&self) -> bool {
-        self.mono.active
+        self.targets.mono.active
     }
 
     /// Before a draw that is planned.
@@ -53,11 +53,11 @@ impl Layer {
             return self.cleared(gl, whole);
         }
         // The raster position stands for a point of the scene.
-        let placed = kind == Kind::Pixels && self.raster.is_some();
+        let placed = kind == Kind::Pixels && self.cameras.raster.is_some();
         if plan.shear.is_some()
             || placed
             || matches!(kind, Kind::Accum)
-            || !self.sampled.is_empty()
+            || !self.variants.sampled.is_empty()
             || (kind == Kind::List && self.has_copies())
         {
             self.differ(gl, kind == Kind::List);
@@ -67,7 +67,7 @@ impl Layer {
     /// What is drawn next depends on the view. `list`: it may change the state of the stencil test itself.
     pub(super) fn differ(&mut self, gl: &Gl, list: bool) {
         self.leave_mono(gl);
-        let same = &mut self.mono.same;
+        let same = &mut self.targets.mono.same;
         *same &= !COLOURS_AND_DEPTHS;
         if *same != 0 && (list || gl.is_enabled(c::STENCIL_TEST)) {
             *same = 0;
@@ -76,8 +76,8 @@ impl Layer {
 
     /// A clear, of these buffers for certain.
     fn cleared(&mut self, gl: &Gl, buffers: u32) {
-        let new = buffers & EVERYTHING & !self.mono.same;
-        if new == 0 || self.state.scissor_test || self.atlas.has_front() {
+        let new = buffers & EVERYTHING & !self.targets.mono.same;
+        if new == 0 || self.state.scissor_test || self.targets.atlas.has_front() {
             return;
         }
         let written = [
@@ -92,25 +92,25 @@ impl Layer {
             ),
         ];
         for (bit, _) in written.iter().filter(|(bit, all)| new & bit != 0 && *all) {
-            self.mono.same |= bit;
+            self.targets.mono.same |= bit;
         }
     }
 
-    /// The other views get what the program's own one has, and are drawn hazard.
+    /// The other views get what the program's own one has, and are drawn again.
     pub(super) fn leave_mono(&mut self, gl: &Gl) {
         self.make_views(gl);
         self.draw_all_views(gl);
     }
 
     fn draw_all_views(&mut self, gl: &Gl) {
-        if !std::mem::take(&mut self.mono.active) {
+        if !std::mem::take(&mut self.targets.mono.active) {
             return;
         }
-        self.atlas.tiles.shown = self.shown();
+        self.targets.atlas.tiles.shown = self.shown();
         self.queries.pause(gl);
         self.queries.lift_condition(gl);
         as_they_are(gl, || {
-            self.reading(gl, BACK, |layer| layer.atlas.share_own(gl));
+            self.reading(gl, BACK, |layer| layer.targets.atlas.share_own(gl));
         });
         self.rebind(gl);
         self.queries.put_condition(gl);
@@ -121,25 +121,30 @@ impl Layer {
     pub(super) fn enter_mono(&mut self, gl: &Gl) {
         let mono = self.may_enter_mono();
         if mono {
-            self.mono.active = true;
+            self.targets.mono.active = true;
         } else {
             self.draw_all_views(gl);
         }
     }
 
     fn may_enter_mono(&self) -> bool {
-        let captured = self.config.capture.as_ref().map(|capture| capture.what);
-        self.mono.same == EVERYTHING
-            && self.config.views > 1
-            && self.config.strategy.disocclusion_source().is_none()
-            && !self.config.disabled.has(Optimisation::MonoFrames)
-            && self.support.shares
-            && self.atlas.tiles.grid.is_full()
-            && !self.atlas.has_front()
-            && self.accumulated.buffer.is_none()
+        let captured = self
+            .session
+            .config
+            .capture
+            .as_ref()
+            .map(|capture| capture.what);
+        self.targets.mono.same == EVERYTHING
+            && self.session.config.views > 1
+            && self.session.config.strategy.disocclusion_source().is_none()
+            && !self.session.config.disabled.has(Optimisation::MonoFrames)
+            && self.session.support.shares
+            && self.targets.atlas.tiles.grid.is_full()
+            && !self.targets.atlas.has_front()
+            && self.targets.accumulated.buffer.is_none()
             && !self.has_copies()
-            && !self.undrawn
-            && self.config.prove.is_none()
+            && !self.targets.undrawn
+            && self.session.config.prove.is_none()
             && captured.is_none_or(|what| what == CaptureWhat::Output)
             && self.shows_one_view()
     }
@@ -147,8 +152,10 @@ impl Layer {
     /// Whether the picture of views that are all the same is any of them: each subpixel shows some view, as it is.
     fn shows_one_view(&self) -> bool {
         match self.output() {
-            Output::Panel if self.config.filter != Filter::Nearest => false,
-            output @ (Output::Panel | Output::Interlaced(_)) => self.interleaver.lit(output),
+            Output::Panel if self.session.config.filter != Filter::Nearest => false,
+            output @ (Output::Panel | Output::Interlaced(_)) => {
+                self.targets.interleaver.lit(output)
+            }
             _ => false,
         }
     }

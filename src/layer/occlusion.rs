@@ -45,15 +45,15 @@ pub(super) struct Next {
 impl Layer {
     /// A scene begins, with its depths cleared.
     pub(super) fn begin_reference(&mut self, gl: &Gl) {
-        let framebuffer = self.atlas.reference_framebuffer();
+        let framebuffer = self.targets.atlas.reference_framebuffer();
         let reference = &mut self.synthesis.reference;
         reference.on = reference.mapped && framebuffer.is_some();
         if let (true, Some(framebuffer)) = (reference.on, framebuffer) {
             gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, framebuffer);
             gl.clear(c::COLOR_BUFFER_BIT | c::DEPTH_BUFFER_BIT);
-            let drawn = self.atlas.framebuffer();
+            let drawn = self.targets.atlas.framebuffer();
             gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, drawn);
-            self.atlas.forget_row();
+            self.targets.atlas.forget_row();
         }
     }
 
@@ -74,7 +74,11 @@ impl Layer {
                 (0, 0) => self.state.compatibility && surfaces(),
                 (program, _) => program != 0,
             };
-        let map = self.atlas.reference().map(|reference| reference.map);
+        let map = self
+            .targets
+            .atlas
+            .reference()
+            .map(|reference| reference.map);
         if let (true, Some(map)) = (distorts, map) {
             let [near, far] = self.state.classification.depths;
             let (middle, half) = match self.state.classification.zero_to_one {
@@ -110,14 +114,16 @@ impl Layer {
             return self.draw_variant_to_reference(gl, plan, hazard, &drawing, &next.rays, call);
         }
         self.read_fixed(gl);
-        let Some(fixed) = self.fixed else { return };
+        let Some(fixed) = self.variants.fixed else {
+            return;
+        };
         self.queries.pause(gl);
         let drawn = self.unblended(gl, |layer| {
-            layer.programs.draw_to_reference(
+            layer.variants.programs.draw_to_reference(
                 gl,
-                &mut layer.atlas,
+                &mut layer.targets.atlas,
                 &layer.state,
-                &layer.rig,
+                &layer.cameras.rig,
                 plan.shear,
                 &fixed,
                 &drawing,
@@ -126,10 +132,12 @@ impl Layer {
                 call,
             )
         });
-        self.report.shaders(self.programs.compiled);
+        self.diagnostics
+            .report
+            .shaders(self.variants.programs.compiled);
         match drawn {
-            Ok(()) => self.report.draw("reference", plan.class.word()),
-            Err(reason) => self.fallbacks.add(reason),
+            Ok(()) => self.diagnostics.report.draw("reference", plan.class.word()),
+            Err(reason) => self.diagnostics.fallbacks.add(reason),
         }
         self.queries.resume(gl);
     }
@@ -144,13 +152,13 @@ impl Layer {
         rays: &Rays,
         call: &mut dyn FnMut(u32),
     ) {
-        let (program, rig) = (self.state.program, self.rig);
+        let (program, rig) = (self.state.program, self.cameras.rig);
         if let Err(why) = self.link_distorting(gl, program) {
-            return self.fallbacks.add(Reason::NoReference(why));
+            return self.diagnostics.fallbacks.add(Reason::NoReference(why));
         }
         let units = self.units_of(gl, program);
         let units: Vec<u32> = units.into_iter().map(|(unit, _)| unit).collect();
-        let mut variants = std::mem::take(&mut self.variants);
+        let mut variants = std::mem::take(&mut self.variants.own);
         if let Some(Entered { variant, .. }) = variants.enter(gl, program, VariantUse::Rays) {
             self.queries.pause(gl);
             // What the projection matrix places is shifted by that.
@@ -158,13 +166,13 @@ impl Layer {
                 true => (None, (plan.shear, plan.flat)),
                 false => (plan.shear, (None, Flat::Still)),
             };
-            let tiles = self.atlas.tiles;
+            let tiles = self.targets.atlas.tiles;
             variant.set_views(gl, shifts, &[rig.position(tiles.own())], tiles.stride);
             let mode = drawing.mode.unwrap_or(c::TRIANGLES);
             self.unblended(gl, |layer| {
                 draw_to_reference(
                     gl,
-                    &mut layer.atlas,
+                    &mut layer.targets.atlas,
                     &layer.state,
                     &rig,
                     moved,
@@ -176,10 +184,10 @@ impl Layer {
                 );
             });
             gl.use_program(program);
-            self.report.draw("reference", plan.class.word());
+            self.diagnostics.report.draw("reference", plan.class.word());
             self.queries.resume(gl);
         }
-        self.variants = variants;
+        self.variants.own = variants;
     }
 
     /// By how much samples are moved is not blended, and written whatever colours the program leaves out.
@@ -205,12 +213,15 @@ impl Layer {
 
     /// The reference image, row 0 on top. Changes the read framebuffer.
     pub(super) fn reference_image(&self, gl: &Gl) -> Result<RgbImage, String> {
-        let framebuffer = self.atlas.reference_framebuffer();
+        let framebuffer = self.targets.atlas.reference_framebuffer();
         let framebuffer = framebuffer.filter(|_| self.synthesis.reference.on).ok_or(
             "there is no reference image in this frame: `--strategy occlusion` draws one from the second frame of a scene on",
         )?;
         gl.bind_framebuffer(c::READ_FRAMEBUFFER, framebuffer);
-        let [width, height] = [self.atlas.tiles.width, self.atlas.tiles.height];
+        let [width, height] = [
+            self.targets.atlas.tiles.width,
+            self.targets.atlas.tiles.height,
+        ];
         Ok(read_rgb(gl, 0, 0, width, height))
     }
 
@@ -220,19 +231,19 @@ impl Layer {
         if !passes.is_some_and(Passes::distorts) {
             return;
         }
-        if self.atlas.reference().is_none() {
-            let (names, window) = (&mut self.names, &self.state.window);
+        if self.targets.atlas.reference().is_none() {
+            let (names, window) = (&mut self.targets.names, &self.state.window);
             self.synthesis.reference.refused =
-                !keep_bindings(gl, || self.atlas.make_reference(gl, names, window));
+                !keep_bindings(gl, || self.targets.atlas.make_reference(gl, names, window));
             if self.synthesis.reference.refused {
-                self.report.note(
+                self.diagnostics.report.note(
                     "what is hidden stays unknown: the driver makes no reference image".into(),
                 );
             }
         }
         if let (Some(passes), false) = (&self.synthesis.passes, self.synthesis.reference.refused) {
             self.synthesis.reference.mapped =
-                passes.map_distortion(gl, &mut self.atlas, disparities);
+                passes.map_distortion(gl, &mut self.targets.atlas, disparities);
         }
     }
 }

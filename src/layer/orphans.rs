@@ -8,25 +8,29 @@ use crate::state::Orphans;
 impl Layer {
     /// The context is destroyed: what its share group keeps is left to the others.
     pub fn leave(mut self) {
-        let mut lists = self.group.lists();
-        let mask = Some(self.interleaver.texture()).filter(|&t| t != 0);
+        let mut lists = self.session.group.lists();
+        let mask = Some(self.targets.interleaver.texture()).filter(|&t| t != 0);
         for atlas in self.atlases() {
             lists.orphans.framebuffers.extend(atlas.framebuffers());
         }
-        let framebuffers = self.offscreen.framebuffers();
+        let framebuffers = self.targets.offscreen.framebuffers();
         lists.orphans.framebuffers.extend(framebuffers);
         let textures = self.atlases().flat_map(|atlas| atlas.textures());
         let textures = textures.copied();
         let textures = textures.chain(mask);
         lists.orphans.textures.extend(textures);
-        let (buffer, fence) = self.atlas.give_buffer();
+        let (buffer, fence) = self.targets.atlas.give_buffer();
         lists.orphans.buffers.extend(buffer);
         lists.orphans.fences.extend(fence);
-        let programs = self.interleaver.programs().chain(self.programs.names());
-        let programs = programs.chain(self.variants.names());
+        let programs = self
+            .targets
+            .interleaver
+            .programs()
+            .chain(self.variants.programs.names());
+        let programs = programs.chain(self.variants.own.names());
         let programs = programs.chain(self.synthesis.programs());
         lists.orphans.programs.extend(programs);
-        if let Some(accumulation) = &self.accumulated.buffer {
+        if let Some(accumulation) = &self.targets.accumulated.buffer {
             lists.orphans.framebuffers.push(accumulation.framebuffer());
             lists.orphans.textures.extend(accumulation.textures());
             lists.orphans.programs.extend(accumulation.programs());

@@ -29,8 +29,8 @@ impl Layer {
         if name == 0 {
             return Target::Window;
         }
-        let number = self.offscreen.number(gl, name);
-        if self.config.views > 1 && self.is_pass(gl, name) {
+        let number = self.targets.offscreen.number(gl, name);
+        if self.session.config.views > 1 && self.is_pass(gl, name) {
             Target::Pass(number)
         } else {
             Target::Framebuffer(number)
@@ -49,7 +49,7 @@ impl Layer {
                 }
             }
         };
-        let target = self.offscreen.target(gl, framebuffer);
+        let target = self.targets.offscreen.target(gl, framebuffer);
         if target.is_cube() || target.attachments.is_empty() {
             return false;
         }
@@ -65,12 +65,13 @@ impl Layer {
         if alone && width == height {
             // The map of a lamp, unless it sees what the window does.
             return self
+                .cameras
                 .lens
                 .is_some_and(|lens| (a - lens).abs() <= 0.01 * lens);
         }
         let pass = fits || camera::fits(&camera, self.aspect());
         if pass {
-            self.lens = Some(a);
+            self.cameras.lens = Some(a);
         }
         pass
     }
@@ -100,19 +101,19 @@ impl Layer {
     /// Where each view has its own images of what a draw samples or draws to, it is replayed; a target gets them when something that depends
     /// on the view is drawn to it.
     pub(super) fn track_pass(&mut self, gl: &Gl, kind: Kind, plan: Plan) -> Plan {
-        if self.config.views < 2 || !self.state.makes_pictures() {
+        if self.session.config.views < 2 || !self.state.makes_pictures() {
             return plan;
         }
         let whole = matches!(kind, Kind::Clear { .. } | Kind::Accum);
         if whole {
-            self.sampled.clear();
-            self.sampled_by = None;
+            self.variants.sampled.clear();
+            self.variants.sampled_by = None;
         } else {
             self.sample(gl);
         }
         let framebuffer = self.state.framebuffers.draw;
         let mut plan = plan;
-        if !self.sampled.is_empty() {
+        if !self.variants.sampled.is_empty() {
             // A picture of a view stands where that view has it.
             if plan.flat != Flat::Scene {
                 plan.flat = Flat::Still;
@@ -128,20 +129,30 @@ impl Layer {
             }
         }
         // Depths of a view are of its own camera.
-        self.unprojections = match plan.variant && !self.sampled.is_empty() {
+        self.variants.unprojections = match plan.variant && !self.variants.sampled.is_empty() {
             true => self.unprojections_of(gl, self.state.program),
             false => Vec::new(),
         };
         if framebuffer == 0 {
             return plan;
         }
-        let differs = !self.sampled.is_empty()
+        let differs = !self.variants.sampled.is_empty()
             || (plan.method != Method::Once && !whole && plan.shear.is_some());
         let split = match differs {
             true => self.split(gl, framebuffer),
-            false => self.offscreen.is_split(gl, framebuffer) && self.split(gl, framebuffer),
+            false => {
+                self.targets.offscreen.is_split(gl, framebuffer) && self.split(gl, framebuffer)
+            }
         };
-        if split && plan.variant && self.offscreen.target(gl, framebuffer).layered().is_some() {
+        if split
+            && plan.variant
+            && self
+                .targets
+                .offscreen
+                .target(gl, framebuffer)
+                .layered()
+                .is_some()
+        {
             self.know_layers(gl, self.state.program, false);
         }
         plan.method = if split { Method::Replay } else { Method::Once };
@@ -159,7 +170,7 @@ impl Layer {
         call: &mut dyn FnMut(u32),
     ) {
         let program = self.state.program;
-        let mut variants = std::mem::take(&mut self.variants);
+        let mut variants = std::mem::take(&mut self.variants.own);
         let layered = target.layered();
         let with = layered.map_or(VariantUse::Views, |_| VariantUse::Layers);
         let variant = match plan.variant {
@@ -175,13 +186,13 @@ impl Layer {
         target.take_layers(layered.is_some());
         match &variant {
             // All layers at once.
-            None if layered.is_some() => call(self.atlas.tiles.own()),
+            None if layered.is_some() => call(self.targets.atlas.tiles.own()),
             None => {
                 let shear = plan.shear.filter(|_| !plan.variant);
                 self.replay_by(gl, Some(&mut target), shear, hazard, call);
             }
             Some(Entered { variant, layers }) => {
-                let (rig, tiles) = (self.rig, target.tiles());
+                let (rig, tiles) = (self.cameras.rig, target.tiles());
                 let unproject = self.unproject(plan);
                 self.replay_by(gl, Some(&mut target), None, hazard, &mut |view| {
                     let shifts = (plan.shear, plan.flat);
@@ -197,15 +208,15 @@ impl Layer {
         if variant.is_some() {
             gl.use_program(program);
         }
-        self.variants = variants;
+        self.variants.own = variants;
         gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, self.state.framebuffers.draw);
-        self.offscreen.drawn_to(&target);
-        self.offscreen.put(target);
+        self.targets.offscreen.drawn_to(&target);
+        self.targets.offscreen.put(target);
     }
 
     /// Gives a variant that is in use the unprojections of the view at a place.
     pub(super) fn unproject(&mut self, plan: &Plan) -> impl Fn(&Gl, &Variant, f64) + use<> {
-        let (matrices, shear) = (std::mem::take(&mut self.unprojections), plan.shear);
+        let (matrices, shear) = (std::mem::take(&mut self.variants.unprojections), plan.shear);
         move |gl, variant, place| {
             for (location, m) in &matrices {
                 let m = shear.map_or(*m, |shear| camera::unprojection(m, &shear, place));
@@ -217,37 +228,39 @@ impl Layer {
     /// Looks which textures with an image per view a draw reads.
     fn sample(&mut self, gl: &Gl) {
         let program = self.state.program;
-        let key = Some((program, uniform_change(), self.offscreen.changes()));
+        let key = Some((program, uniform_change(), self.targets.offscreen.changes()));
         let bound = self.state.touched.has(Touch::UNITS);
-        if std::mem::replace(&mut self.sampled_by, key) == key && !bound {
+        if std::mem::replace(&mut self.variants.sampled_by, key) == key && !bound {
             return;
         }
         self.state.touched = self.state.touched.without(Touch::UNITS);
-        self.sampled = match program {
-            _ if self.offscreen.is_empty() => Vec::new(),
-            0 => self.offscreen.bound(gl),
+        self.variants.sampled = match program {
+            _ if self.targets.offscreen.is_empty() => Vec::new(),
+            0 => self.targets.offscreen.bound(gl),
             program => {
                 let units = self.units_of(gl, program);
-                self.offscreen.bound_among(gl, units.into_iter())
+                self.targets.offscreen.bound_among(gl, units.into_iter())
             }
         };
     }
 
     /// Each view gets a framebuffer like this one of the program's; false where the driver makes none.
     pub(super) fn split(&mut self, gl: &Gl, framebuffer: u32) -> bool {
-        if self.offscreen.is_made(gl, framebuffer) {
+        if self.targets.offscreen.is_made(gl, framebuffer) {
             return true;
         }
-        if self.offscreen.is_refused(gl, framebuffer) {
+        if self.targets.offscreen.is_refused(gl, framebuffer) {
             return false;
         }
         self.state.keep_errors(gl);
         let split = keep_bindings(gl, || {
-            self.offscreen.split(gl, &mut self.names, framebuffer)
+            self.targets
+                .offscreen
+                .split(gl, &mut self.targets.names, framebuffer)
         });
         self.drain_own_errors(gl);
         if !split {
-            self.report.note(format!(
+            self.diagnostics.report.note(format!(
                 "the driver makes no other framebuffer like the program's {framebuffer}: what is drawn there is the same in all views"
             ));
         }

@@ -13,7 +13,7 @@ use std::collections::HashMap;
 
 /// The programs that were drawn with, by name.
 #[derive(Debug, Default)]
-pub(super) struct Variants {
+pub(super) struct OwnVariants {
     known: HashMap<u32, ProgramRecord>,
     /// The camera of the last program that had one, for those that have none.
     camera: Option<[f32; 16]>,
@@ -96,7 +96,7 @@ impl ProgramRecord {
     }
 }
 
-impl Variants {
+impl OwnVariants {
     /// The variant of a program, in use, with the values of its uniforms; with layers only where one is there that chooses
     /// them.
     pub(super) fn enter(&mut self, gl: &Gl, program: u32, with: VariantUse) -> Option<Entered<'_>> {
@@ -141,7 +141,7 @@ impl Layer {
 
     /// Whether programs have to come with their texts: from a binary nothing can be made for a view.
     pub fn refuses_binaries(&self) -> bool {
-        self.config.views > 1
+        self.session.config.views > 1
     }
 
     /// A program got its executable in another way.
@@ -154,19 +154,19 @@ impl Layer {
         let used = program != 0 && gl.get_integer(c::CURRENT_PROGRAM) as u32 == program;
         if used && !self.is_doomed(program) {
             Held::Shader.count(1);
-            self.variants.doomed.push(program);
+            self.variants.own.doomed.push(program);
         }
         used
     }
 
     /// Whether any program waits to be deleted.
     pub fn has_doomed(&self) -> bool {
-        !self.variants.doomed.is_empty()
+        !self.variants.own.doomed.is_empty()
     }
 
     /// Whether a program waits to be deleted.
     pub fn is_doomed(&self, program: u32) -> bool {
-        self.variants.doomed.contains(&program)
+        self.variants.own.doomed.contains(&program)
     }
 
     /// After glUseProgram.
@@ -174,10 +174,11 @@ impl Layer {
         let used = gl.get_integer(c::CURRENT_PROGRAM) as u32;
         let (kept, gone): (Vec<u32>, Vec<u32>) = self
             .variants
+            .own
             .doomed
             .iter()
             .partition(|&&program| program == used);
-        self.variants.doomed = kept;
+        self.variants.own.doomed = kept;
         for program in gone {
             gl.delete_program(program);
             self.deleted_program(gl, program);
@@ -190,7 +191,7 @@ impl Layer {
             return;
         }
         self.shaders(|shaders| shaders.forget(program));
-        if let Some(known) = self.variants.known.remove(&program) {
+        if let Some(known) = self.variants.own.known.remove(&program) {
             known
                 .variants()
                 .for_each(|variant| gl.delete_program(variant));
@@ -198,7 +199,7 @@ impl Layer {
     }
 
     fn shaders<R>(&self, ask: impl FnOnce(&mut Shaders) -> R) -> R {
-        let mut lists = self.group.lists();
+        let mut lists = self.session.group.lists();
         ask(&mut lists.shaders)
     }
 
@@ -212,35 +213,36 @@ impl Layer {
     ) -> Plan {
         let program = self.state.program;
         let fragments = matches!(kind, Kind::Clear { .. } | Kind::Pixels | Kind::Accum);
-        if plan.method == Method::Once || program == 0 || fragments || self.config.views < 2 {
+        if plan.method == Method::Once || program == 0 || fragments || self.session.config.views < 2
+        {
             return plan;
         }
         self.know(gl, program);
         let Some(camera) = self.camera_of(gl, program) else {
             return plan;
         };
-        let camera = camera.or(self.variants.camera);
+        let camera = camera.or(self.variants.own.camera);
         let Some(camera) = camera else {
             // Menus and what else is flat needs none.
             if !gl.is_enabled(c::DEPTH_TEST) {
                 return plan;
             }
-            self.report.note(
+            self.diagnostics.report.note(
                 "no camera was found in the matrices of some of the program's shaders: what they draw is the same in all views".into(),
             );
             return plan;
         };
-        self.variants.camera = Some(camera);
-        self.rig.latch(&camera);
+        self.variants.own.camera = Some(camera);
+        self.cameras.rig.latch(&camera);
         let ruled = matches!(classed.why, Why::Rule(_));
         let hud = plan.shear.map_or(Flat::Still, Flat::By);
         let (class, shear, flat) = match classed.class {
             Class::Flat if ruled => (Class::Flat, plan.shear, hud),
-            Class::Sky => (Class::Sky, self.rig.sky(&camera), Flat::Still),
+            Class::Sky => (Class::Sky, self.cameras.rig.sky(&camera), Flat::Still),
             class => {
                 let shear = match classed.focal {
-                    None => self.rig.shear(&camera),
-                    Some(focal) => self.rig.shear_about(&camera, focal),
+                    None => self.cameras.rig.shear(&camera),
+                    Some(focal) => self.cameras.rig.shear_about(&camera, focal),
                 };
                 let flat = match class {
                     Class::Flat => hud,
@@ -264,7 +266,7 @@ impl Layer {
     /// the screen by such a program has none.
     fn fills_depths(&mut self, gl: &Gl) -> bool {
         self.state.read_classification(gl, Touch::DEPTH);
-        let known = self.variants.known.get(&self.state.program);
+        let known = self.variants.own.known.get(&self.state.program);
         self.state.classification.depth == DepthState::On && known.is_some_and(|known| !known.lost)
     }
 
@@ -279,7 +281,7 @@ impl Layer {
             lost,
             seen,
             ..
-        }) = self.variants.known.get_mut(&program)
+        }) = self.variants.own.known.get_mut(&program)
         else {
             return None;
         };
@@ -324,7 +326,7 @@ impl Layer {
 
     /// What the scene that is being drawn is projected by, as it is and as a projection alone.
     pub(super) fn projections(&self) -> [[f32; 16]; 2] {
-        let known = self.variants.known.get(&self.state.program);
+        let known = self.variants.own.known.get(&self.state.program);
         let camera = known.and_then(|known| known.camera);
         let fixed = || [self.state.projection; 2];
         camera.map_or_else(fixed, |camera| [camera.matrix, camera.projection])
@@ -333,13 +335,14 @@ impl Layer {
     /// The kind of projection of the program's own shaders; none where that is fixed function's.
     pub(super) fn looks_through(&mut self, gl: &Gl) -> Option<Projection> {
         let program = self.state.program;
-        if program == 0 || self.config.views < 2 {
+        if program == 0 || self.session.config.views < 2 {
             return None;
         }
         self.know(gl, program);
         self.camera_of(gl, program)?;
         let lost = self
             .variants
+            .own
             .known
             .get(&program)
             .is_none_or(|known| known.lost);
@@ -352,7 +355,7 @@ impl Layer {
     /// The matrices by which a program computes positions from depths, with their locations.
     pub(super) fn unprojections_of(&mut self, gl: &Gl, program: u32) -> Vec<(i32, [f32; 16])> {
         let (change, aspect) = (uniform_change(), self.aspect());
-        let Some(known) = self.variants.known.get_mut(&program) else {
+        let Some(known) = self.variants.own.known.get_mut(&program) else {
             return Vec::new();
         };
         if (known.unprojections.0, known.unprojections.1) != (change, aspect) {
@@ -366,7 +369,7 @@ impl Layer {
     /// The texture units that a program samples, counted from 0, with the targets.
     pub(super) fn units_of(&mut self, gl: &Gl, program: u32) -> Vec<(u32, u32)> {
         self.know(gl, program);
-        let Some(known) = self.variants.known.get_mut(&program) else {
+        let Some(known) = self.variants.own.known.get_mut(&program) else {
             return Vec::new();
         };
         let change = uniform_change();
@@ -379,7 +382,7 @@ impl Layer {
     /// What is bound to the image units that a program loads and stores.
     pub(super) fn images_of(&mut self, gl: &Gl, program: u32) -> Vec<ImageUnit> {
         self.know(gl, program);
-        let known = self.variants.known.get(&program);
+        let known = self.variants.own.known.get(&program);
         let units = known.map_or_else(Vec::new, |known| known.samplers.image_units(gl, program));
         units
             .into_iter()
@@ -406,11 +409,11 @@ impl Layer {
     /// Learns how a program is drawn, once for each of its links.
     pub(super) fn know(&mut self, gl: &Gl, program: u32) {
         let checked = link_change();
-        let mut known = self.variants.known.get_mut(&program);
+        let mut known = self.variants.own.known.get_mut(&program);
         if known.as_ref().is_some_and(|known| known.checked == checked) {
             return;
         }
-        let linked = self.group.lists().shaders.of(program);
+        let linked = self.session.group.lists().shaders.of(program);
         let link = linked.as_ref().map_or(0, |linked| linked.link);
         if let Some(known) = known.as_mut().filter(|known| known.link == link) {
             known.checked = checked;
@@ -426,11 +429,13 @@ impl Layer {
         self.drain_own_errors(gl);
         match &how {
             Ok(Drawn::ByVariant(_)) => {
-                self.programs.compiled += 1;
-                self.report.shaders(self.programs.compiled);
+                self.variants.programs.compiled += 1;
+                self.diagnostics
+                    .report
+                    .shaders(self.variants.programs.compiled);
             }
             Ok(Drawn::ByMatrix) | Err(NoVariant::Computes) => {}
-            Err(reason) => self.report.note(format!(
+            Err(reason) => self.diagnostics.report.note(format!(
                 "what program {program} draws is the same in all views: {reason}"
             )),
         }
@@ -449,7 +454,7 @@ impl Layer {
             layered: [None, None],
             distorting: None,
         };
-        if let Some(old) = self.variants.known.insert(program, new) {
+        if let Some(old) = self.variants.own.known.insert(program, new) {
             old.variants()
                 .for_each(|variant| gl.delete_program(variant));
         }
@@ -461,7 +466,7 @@ impl Layer {
             Ok(_) => Ok(()),
             Err(reason) => Err(reason.to_string()),
         };
-        let known = self.variants.known.get(&program);
+        let known = self.variants.own.known.get(&program);
         if let Some(made) = known.and_then(|known| known.distorting.as_ref()) {
             return told(made);
         }
@@ -478,10 +483,12 @@ impl Layer {
         });
         let answer = told(&variant);
         if answer.is_ok() {
-            self.programs.compiled += 1;
-            self.report.shaders(self.programs.compiled);
+            self.variants.programs.compiled += 1;
+            self.diagnostics
+                .report
+                .shaders(self.variants.programs.compiled);
         }
-        if let Some(known) = self.variants.known.get_mut(&program) {
+        if let Some(known) = self.variants.own.known.get_mut(&program) {
             known.distorting = Some(variant);
         }
         answer
@@ -490,15 +497,15 @@ impl Layer {
     /// Makes the variant that chooses layers, for one view or for all, where the driver can and once for each link; whether it is there.
     pub(super) fn know_layers(&mut self, gl: &Gl, program: u32, all: bool) -> bool {
         let at = usize::from(all);
-        let known = self.variants.known.get(&program);
+        let known = self.variants.own.known.get(&program);
         match known.and_then(|known| known.layered.get(at)) {
             Some(None) => {}
             Some(Some(made)) => return made.is_some(),
             None => return false,
         }
         let linked = self.linked_from(program);
-        let way = self.support.vertex_layer.map(|by| match all {
-            true => VariantKind::Instances(by, self.config.views),
+        let way = self.session.support.vertex_layer.map(|by| match all {
+            true => VariantKind::Instances(by, self.session.config.views),
             false => VariantKind::Layer(by),
         });
         self.state.keep_errors(gl);
@@ -513,10 +520,12 @@ impl Layer {
         };
         let there = variant.is_some();
         if there {
-            self.programs.compiled += 1;
-            self.report.shaders(self.programs.compiled);
+            self.variants.programs.compiled += 1;
+            self.diagnostics
+                .report
+                .shaders(self.variants.programs.compiled);
         }
-        let known = self.variants.known.get_mut(&program);
+        let known = self.variants.own.known.get_mut(&program);
         if let Some(slot) = known.and_then(|known| known.layered.get_mut(at)) {
             *slot = Some(variant);
         }

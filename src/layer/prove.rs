@@ -166,29 +166,33 @@ impl Proving {
 impl Layer {
     /// A draw is about to be made.
     pub(super) fn prove_this(&mut self, gl: &Gl, facts: &Facts, plan: &Plan) {
-        let first = match self.proving.now {
+        let first = match self.diagnostics.proving.now {
             Now::Plain => return,
             Now::Proved if !self.state.draws_to_window() => return,
-            Now::Proved | Now::Timed { .. } => !std::mem::replace(&mut self.proving.begun, true),
+            Now::Proved | Now::Timed { .. } => {
+                !std::mem::replace(&mut self.diagnostics.proving.begun, true)
+            }
         };
-        if let Now::Timed { .. } = self.proving.now {
+        if let Now::Timed { .. } = self.diagnostics.proving.now {
             if first {
                 gl.finish();
-                self.proving.since = Some(Instant::now());
+                self.diagnostics.proving.since = Some(Instant::now());
             }
             return;
         }
         if first {
             let clears = matches!(facts.kind, Kind::Clear { .. });
-            self.proving.carries = !clears || self.state.scissor_test;
+            self.diagnostics.proving.carries = !clears || self.state.scissor_test;
         }
         match plan.method {
-            Method::Once if self.state.render_mode == c::RENDER => self.proving.refuse(ONCE),
-            _ if facts.kind == Kind::Accum => self.proving.refuse(ACCUM),
+            Method::Once if self.state.render_mode == c::RENDER => {
+                self.diagnostics.proving.refuse(ONCE)
+            }
+            _ if facts.kind == Kind::Accum => self.diagnostics.proving.refuse(ACCUM),
             _ => {}
         }
         self.attribute_last_draw(gl);
-        if let Some(search) = &mut self.proving.search {
+        if let Some(search) = &mut self.diagnostics.proving.search {
             search.draws.push(Drawn {
                 facts: *facts,
                 class: plan.class.word(),
@@ -206,31 +210,31 @@ impl Layer {
         hazard: ReplayHazard,
         call: &mut dyn FnMut(u32),
     ) {
-        if !self.proving.proves() {
+        if !self.diagnostics.proving.proves() {
             return;
         }
         if !self.state.draws_to_window() {
             return;
         }
-        if !self.sampled.is_empty() {
-            return self.proving.refuse(COPIES);
+        if !self.variants.sampled.is_empty() {
+            return self.diagnostics.proving.refuse(COPIES);
         }
         let mut sent = true;
         self.in_proof(gl, |layer| {
-            let (atlas, state, rig) = (&mut layer.atlas, &layer.state, &layer.rig);
+            let (atlas, state, rig) = (&mut layer.targets.atlas, &layer.state, &layer.cameras.rig);
             sent = replay(gl, atlas, state, rig, shear, hazard, false, call);
         });
         if !sent {
-            self.proving.refuse(STACK);
+            self.diagnostics.proving.refuse(STACK);
         }
     }
 
     /// Runs something with the other atlas in the place of the first one, if the frame is proved; queries do not count it.
     pub(super) fn in_proof(&mut self, gl: &Gl, work: impl FnOnce(&mut Self)) {
-        if self.proving.proves() && self.state.framebuffers.uses_front() {
-            self.proving.refuse(FRONT);
+        if self.diagnostics.proving.proves() && self.state.framebuffers.uses_front() {
+            self.diagnostics.proving.refuse(FRONT);
         }
-        if !self.proving.proves() {
+        if !self.diagnostics.proving.proves() {
             return;
         }
         let mut queries = std::mem::take(&mut self.queries);
@@ -245,8 +249,8 @@ impl Layer {
     }
 
     fn change_places(&mut self) {
-        if let Some(other) = &mut self.proving.atlas {
-            std::mem::swap(&mut self.atlas, other);
+        if let Some(other) = &mut self.diagnostics.proving.atlas {
+            std::mem::swap(&mut self.targets.atlas, other);
         }
     }
 
@@ -254,11 +258,13 @@ impl Layer {
     pub(super) fn exact_picture(&mut self, gl: &Gl, image: u32) -> Option<RgbImage> {
         // Those are made of more than one picture of colours.
         let single = !matches!(self.output(), Output::Quad | Output::Rgbd);
-        if !single || !self.proving.proves() || !self.drawn {
+        if !single || !self.diagnostics.proving.proves() || !self.frame.drawn {
             return None;
         }
         self.change_places();
-        self.atlas.resolve(gl, &ViewSet::ALL, c::COLOR_BUFFER_BIT);
+        self.targets
+            .atlas
+            .resolve(gl, &ViewSet::ALL, c::COLOR_BUFFER_BIT);
         gl.bind_framebuffer(c::FRAMEBUFFER, 0);
         self.draw_picture(gl, image, None);
         self.change_places();
@@ -273,16 +279,22 @@ impl Layer {
 
     /// After the picture: compares, or takes the time. `exact` is that of the other atlas, where the two can be compared.
     pub(super) fn judge_proof(&mut self, gl: &Gl, exact: Option<RgbImage>) {
-        let now = self.proving.now;
-        if let (Now::Timed { by_replay }, Some(since)) = (now, self.proving.since.take()) {
+        let now = self.diagnostics.proving.now;
+        if let (Now::Timed { by_replay }, Some(since)) =
+            (now, self.diagnostics.proving.since.take())
+        {
             gl.finish();
             let ms = since.elapsed().as_secs_f64() * 1e3;
             self.tell(|proof| proof.timed(by_replay, ms));
         }
         if now == Now::Proved {
-            let refused = self.proving.refused.or((!self.drawn).then_some(EMPTY));
+            let refused = self
+                .diagnostics
+                .proving
+                .refused
+                .or((!self.frame.drawn).then_some(EMPTY));
             if let Some(why) = refused {
-                self.proving.search = None;
+                self.diagnostics.proving.search = None;
                 self.tell(|proof| proof.skipped(why));
             } else {
                 self.compare(gl, exact);
@@ -291,15 +303,15 @@ impl Layer {
     }
 
     fn tell(&mut self, what: impl FnOnce(&mut Proof)) {
-        let frame = self.report.frames() + 1;
-        if let Some(proof) = &mut self.report.proof {
+        let frame = self.diagnostics.report.frames() + 1;
+        if let Some(proof) = &mut self.diagnostics.report.proof {
             what(proof);
         }
-        self.report.write(self.config, frame);
+        self.diagnostics.report.write(self.session.config, frame);
     }
 
     fn compare(&mut self, gl: &Gl, exact: Option<RgbImage>) {
-        let frame = self.report.frames() + 1;
+        let frame = self.diagnostics.report.frames() + 1;
         let shown = exact.as_ref().map(|_| self.window_picture(gl));
         let panel: Vec<_> = exact
             .zip(shown)
@@ -307,12 +319,17 @@ impl Layer {
             .into_iter()
             .collect();
         self.resolve_both(gl);
-        let mut search = self.proving.search.take();
+        let mut search = self.diagnostics.proving.search.take();
         let mut culprit = None;
         let mut views: Vec<Difference> = Vec::new();
-        let mut least = self.report.proof.as_ref().map_or(0.0, Proof::psnr);
+        let mut least = self
+            .diagnostics
+            .report
+            .proof
+            .as_ref()
+            .map_or(0.0, Proof::psnr);
         let mut worst_pair = None;
-        for view in 0..self.config.views {
+        for view in 0..self.session.config.views {
             let pair = self.pair(gl, view);
             let Some(difference) = Difference::new(&pair[0], &pair[1]) else {
                 return;
@@ -331,34 +348,48 @@ impl Layer {
         }
         gl.bind_framebuffer(c::FRAMEBUFFER, 0);
         let picture = worst_pair.and_then(|[exact, shown]| self.draw_failure(&exact, &shown));
-        let carried = self.proving.carries;
+        let carried = self.diagnostics.proving.carries;
         self.tell(|proof| {
             proof.frame(frame, carried, &views, &panel);
             culprit.into_iter().for_each(|c| proof.culprit(c));
             picture.into_iter().for_each(|file| proof.picture(file));
         });
-        let explained = self.report.proof.as_ref().map_or(0, Proof::explained);
+        let explained = self
+            .diagnostics
+            .report
+            .proof
+            .as_ref()
+            .map_or(0, Proof::explained);
         let worst = (0..).zip(&views).max_by_key(|(_, d)| d.worst());
-        self.proving.suspect = worst
+        self.diagnostics.proving.suspect = worst
             .filter(|(_, d)| d.worst() > explained)
             .map(|(view, _)| view);
     }
 
     /// What replay has drawn, the difference and what is shown, beside the report.
     fn draw_failure(&mut self, exact: &RgbImage, shown: &RgbImage) -> Option<String> {
-        let file = self.config.report.as_ref()?.with_extension("proof.png");
+        let file = self
+            .session
+            .config
+            .report
+            .as_ref()?
+            .with_extension("proof.png");
         match capture::write(&triptych(exact, shown), &file) {
             Ok(()) => Some(file.display().to_string()),
             Err(error) => {
-                self.report.note(format!("picture of the proof: {error}"));
+                self.diagnostics
+                    .report
+                    .note(format!("picture of the proof: {error}"));
                 None
             }
         }
     }
 
     fn resolve_both(&self, gl: &Gl) {
-        self.atlas.resolve(gl, &ViewSet::ALL, c::COLOR_BUFFER_BIT);
-        if let Some(other) = &self.proving.atlas {
+        self.targets
+            .atlas
+            .resolve(gl, &ViewSet::ALL, c::COLOR_BUFFER_BIT);
+        if let Some(other) = &self.diagnostics.proving.atlas {
             other.resolve(gl, &ViewSet::ALL, c::COLOR_BUFFER_BIT);
         }
     }
@@ -366,24 +397,24 @@ impl Layer {
     /// A view by replay, and as it is shown, stretched to the window where it has fewer pixels. State is as [`Saved::take`] leaves
     /// it; changes the framebuffers that are bound.
     fn pair(&mut self, gl: &Gl, view: u32) -> [RgbImage; 2] {
-        let exact = self.proving.atlas.as_ref();
+        let exact = self.diagnostics.proving.atlas.as_ref();
         let exact = exact.map_or_else(RgbImage::default, |atlas| tile(gl, atlas, view));
-        if self.atlas.tiles.grid.is_full() {
-            return [exact, tile(gl, &self.atlas, view)];
+        if self.targets.atlas.tiles.grid.is_full() {
+            return [exact, tile(gl, &self.targets.atlas, view)];
         }
         self.make_singles(gl, false);
-        self.atlas.take_single(gl, view, BACK);
+        self.targets.atlas.take_single(gl, view, BACK);
         let (width, height) = self.size();
         [exact, capture::read_rgb(gl, 0, 0, width, height)]
     }
 
     /// Before a draw: what has the one before it changed?
     fn attribute_last_draw(&mut self, gl: &Gl) {
-        let Some(mut search) = self.proving.search.take() else {
+        let Some(mut search) = self.diagnostics.proving.search.take() else {
             return;
         };
         if search.began.elapsed() > PATIENCE {
-            return self.report.note(format!(
+            return self.diagnostics.report.note(format!(
                 "the draw that brought the worst pixel was not found within {} s",
                 PATIENCE.as_secs()
             ));
@@ -402,66 +433,69 @@ impl Layer {
             self.queries.resume(gl);
             search.attribute(&pair);
         }
-        self.proving.search = Some(search);
+        self.diagnostics.proving.search = Some(search);
     }
 
     /// At the end of a frame: decides how the next one is drawn. State is as [`Saved::take`] leaves it; changes the framebuffers that
     /// are bound.
     pub(super) fn next_proof(&mut self, gl: &Gl) {
-        let Some(every) = self.config.prove else {
+        let Some(every) = self.session.config.prove else {
             return;
         };
-        if self.proving.replays() {
+        if self.diagnostics.proving.replays() {
             self.choose_again(gl, true);
         }
-        self.proving.now = Now::Plain;
-        self.proving.refused = None;
-        self.proving.begun = false;
-        self.proving.search = None;
+        self.diagnostics.proving.now = Now::Plain;
+        self.diagnostics.proving.refused = None;
+        self.diagnostics.proving.begun = false;
+        self.diagnostics.proving.search = None;
         // This one is not counted yet.
-        let at = (self.report.frames() + 2) % every;
+        let at = (self.diagnostics.report.frames() + 2) % every;
         if at == 0 {
             self.begin_proof(gl);
-        } else if at <= TRIALS.len() as u64 && self.proving.atlas.is_some() {
+        } else if at <= TRIALS.len() as u64 && self.diagnostics.proving.atlas.is_some() {
             self.begin_trial(gl);
         }
     }
 
     fn uses_front(&self) -> bool {
-        self.atlas.has_front() || self.state.framebuffers.uses_front()
+        self.targets.atlas.has_front() || self.state.framebuffers.uses_front()
     }
 
     fn begin_proof(&mut self, gl: &Gl) {
-        self.proving.now = Now::Proved;
+        self.diagnostics.proving.now = Now::Proved;
         if self.uses_front() {
-            return self.proving.refuse(FRONT);
+            return self.diagnostics.proving.refuse(FRONT);
         }
-        if self.proving.atlas.is_none() {
-            let (names, config, state) = (&mut self.names, self.config, &self.state);
-            let strategy = self.capabilities.strategy;
+        if self.diagnostics.proving.atlas.is_none() {
+            let (names, config, state) =
+                (&mut self.targets.names, self.session.config, &self.state);
+            let strategy = self.session.capabilities.strategy;
             match make_atlas(
                 gl,
                 names,
                 config,
                 state,
-                &self.support,
+                &self.session.support,
                 Grid::FULL,
                 strategy,
             ) {
-                Ok(atlas) => self.proving.atlas = Some(atlas),
+                Ok(atlas) => self.diagnostics.proving.atlas = Some(atlas),
                 Err(error) => {
-                    self.report.note(format!("nothing is proved: {error}"));
-                    return self.proving.refuse(MEMORY);
+                    self.diagnostics
+                        .report
+                        .note(format!("nothing is proved: {error}"));
+                    return self.diagnostics.proving.refuse(MEMORY);
                 }
             }
             self.apply_buffers(gl);
         }
         self.hand_over(gl);
-        if let Some(view) = self.proving.suspect.take()
-            && self.proving.searches < SEARCHES
+        if let Some(view) = self.diagnostics.proving.suspect.take()
+            && self.diagnostics.proving.searches < SEARCHES
         {
-            self.proving.searches += 1;
-            self.proving.search = Some(Search {
+            self.diagnostics.proving.searches += 1;
+            self.diagnostics.proving.search = Some(Search {
                 view,
                 draws: Vec::new(),
                 since: Vec::new(),
@@ -473,46 +507,49 @@ impl Layer {
 
     /// What the program does not clear, both have.
     fn hand_over(&mut self, gl: &Gl) {
-        let Some(mut other) = self.proving.atlas.take() else {
+        let Some(mut other) = self.diagnostics.proving.atlas.take() else {
             return;
         };
         self.reading(gl, BACK, |layer| {
-            if other.tiles.lies_like(&layer.atlas.tiles) {
-                return other.copy(gl, &layer.atlas);
+            if other.tiles.lies_like(&layer.targets.atlas.tiles) {
+                return other.copy(gl, &layer.targets.atlas);
             }
-            let (names, window) = (&mut layer.names, &layer.state.window);
+            let (names, window) = (&mut layer.targets.names, &layer.state.window);
             keep_bindings(gl, || {
-                other.copy_spread(gl, &mut layer.atlas, names, window);
+                other.copy_spread(gl, &mut layer.targets.atlas, names, window);
             });
         });
-        self.proving.atlas = Some(other);
+        self.diagnostics.proving.atlas = Some(other);
     }
 
     fn begin_trial(&mut self, gl: &Gl) {
-        let full = self.atlas.tiles.grid.is_full();
+        let full = self.targets.atlas.tiles.grid.is_full();
         // What stands in an atlas, or beside it, would have to be there in the other one as well.
-        if self.uses_front() || self.accumulated.buffer.is_some() || self.proving.carries && !full {
+        if self.uses_front()
+            || self.targets.accumulated.buffer.is_some()
+            || self.diagnostics.proving.carries && !full
+        {
             return;
         }
-        let trial = TRIALS.get(self.proving.trials % TRIALS.len());
+        let trial = TRIALS.get(self.diagnostics.proving.trials % TRIALS.len());
         let by_replay = trial.is_some_and(|by_replay| *by_replay);
-        self.proving.trials += 1;
-        self.proving.now = Now::Timed { by_replay };
+        self.diagnostics.proving.trials += 1;
+        self.diagnostics.proving.now = Now::Timed { by_replay };
         if by_replay {
             if full {
                 self.hand_over(gl);
             }
-            self.capabilities.strategy = Strategy::Replay;
+            self.session.capabilities.strategy = Strategy::Replay;
             self.put_other(gl);
         }
     }
 
     /// After a frame by replay alone; `whole`: the frame is at its end.
     fn choose_again(&mut self, gl: &Gl, whole: bool) {
-        self.proving.now = Now::Plain;
-        self.capabilities.strategy = self.chosen();
+        self.diagnostics.proving.now = Now::Plain;
+        self.session.capabilities.strategy = self.chosen();
         let full = |atlas: &Atlas| atlas.tiles.grid.is_full();
-        if whole && self.proving.atlas.as_ref().is_some_and(full) {
+        if whole && self.diagnostics.proving.atlas.as_ref().is_some_and(full) {
             self.hand_over(gl);
         }
         self.put_other(gl);
@@ -520,19 +557,19 @@ impl Layer {
 
     fn put_other(&mut self, gl: &Gl) {
         self.change_places();
-        self.comfort.leave_pictures();
+        self.cameras.comfort.leave_pictures();
         self.apply_buffers(gl);
     }
 
     /// The window, or what our textures are called, changes: the other atlas has to be another one. The caller binds framebuffers.
     pub(super) fn drop_proof(&mut self, gl: &Gl) {
-        if self.proving.replays() {
+        if self.diagnostics.proving.replays() {
             self.choose_again(gl, false);
         }
-        if self.proving.now == Now::Proved {
-            self.proving.refuse(CHANGED);
+        if self.diagnostics.proving.now == Now::Proved {
+            self.diagnostics.proving.refuse(CHANGED);
         }
-        if let Some(other) = self.proving.atlas.take() {
+        if let Some(other) = self.diagnostics.proving.atlas.take() {
             other.delete(gl);
         }
     }

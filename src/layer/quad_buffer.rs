@@ -17,7 +17,7 @@ impl Layer {
             return vec![(None, output)];
         }
         if !window.stereo {
-            self.report.note(NO_STEREO.into());
+            self.diagnostics.report.note(NO_STEREO.into());
             return vec![(None, Output::View(0))];
         }
         let [left, right] = if image == FRONT || !window.double_buffered {
@@ -25,7 +25,7 @@ impl Layer {
         } else {
             [c::BACK_LEFT, c::BACK_RIGHT]
         };
-        let last = self.config.views - 1;
+        let last = self.session.config.views - 1;
         vec![
             (Some(left), Output::View(0)),
             (Some(right), Output::View(last)),

@@ -177,7 +177,7 @@ impl Layer {
     pub fn query_answer(&self, gl: &Gl, query: u32, name: u32) -> Option<Answer> {
         let (target, more) = self.queries.more.get(&query)?;
         // Into a buffer object the driver writes by itself.
-        if self.support.version >= (4, 4) && gl.get_integer(c::QUERY_BUFFER_BINDING) != 0 {
+        if self.session.support.version >= (4, 4) && gl.get_integer(c::QUERY_BUFFER_BINDING) != 0 {
             return None;
         }
         let ask = |name| more.iter().map(move |&q| gl.query_object(q, name));

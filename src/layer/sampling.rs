@@ -51,18 +51,21 @@ pub(super) fn grid(
 impl Layer {
     pub(super) fn grid(&self) -> Grid {
         grid(
-            self.config,
-            self.fitted.as_ref().unwrap_or(&self.config.display),
+            self.session.config,
+            self.session
+                .fitted
+                .as_ref()
+                .unwrap_or(&self.session.config.display),
             self.output(),
             &self.placement(),
-            self.detail,
-            self.interleaver.note().is_none(),
+            self.targets.detail,
+            self.targets.interleaver.note().is_none(),
         )
     }
 
     /// Before a draw: the grid has to be able to hold it.
     pub(super) fn hold(&mut self, gl: &Gl, kind: Kind) {
-        let grid = self.atlas.tiles.grid;
+        let grid = self.targets.atlas.tiles.grid;
         if grid.is_full() || !self.state.draws_to_window() {
             return;
         }
@@ -94,7 +97,7 @@ impl Layer {
 
     /// Before a run of a display list; `thin`: it may have lines or points.
     pub(super) fn hold_list(&mut self, gl: &Gl, thin: bool) {
-        if thin && self.atlas.tiles.grid.is_sample_aligned() {
+        if thin && self.targets.atlas.tiles.grid.is_sample_aligned() {
             self.give_up(
                 gl,
                 Detail::Scaled,
@@ -109,36 +112,37 @@ impl Layer {
         let whole = [0, 0, window.width as i32, window.height as i32];
         let part =
             self.state.viewport != whole || self.state.scissor_test && self.state.scissor != whole;
-        if part && self.atlas.tiles.grid.shear != 0.0 {
+        if part && self.targets.atlas.tiles.grid.shear != 0.0 {
             self.give_up(gl, Detail::Scaled, "draws to parts of the window");
         }
     }
 
     /// Only the window's own pixels can hold what comes.
     pub(super) fn hold_everything(&mut self, gl: &Gl, what: &str) {
-        if !self.atlas.tiles.grid.is_full() {
+        if !self.targets.atlas.tiles.grid.is_full() {
             self.give_up(gl, Detail::Full, what);
         }
     }
 
     fn give_up(&mut self, gl: &Gl, detail: Detail, what: &str) {
-        self.detail = detail;
+        self.targets.detail = detail;
         let now = match self.grid() {
             grid if grid.is_full() => "at the size of the window",
             _ => "with fewer pixels, but not lens by lens",
         };
-        self.report
+        self.diagnostics
+            .report
             .note(format!("views are drawn {now}, because the program {what}"));
         self.remake(gl);
     }
 
     /// Before a frame is shown: tiles that are not of the kind or the size that the output needs now are made anew from what is there.
     pub(super) fn refit(&mut self, gl: &Gl) {
-        if self.proving.replays() {
+        if self.diagnostics.proving.replays() {
             return;
         }
         let (grid, size) = self.wanted();
-        let tiles = &self.atlas.tiles;
+        let tiles = &self.targets.atlas.tiles;
         if size != [tiles.width, tiles.height]
             || grid.is_sample_aligned() != tiles.grid.is_sample_aligned()
         {
@@ -148,11 +152,11 @@ impl Layer {
 
     /// After it: the window may have moved, and the next frame is drawn where its lenses are now.
     pub(super) fn realign_tiles(&mut self) {
-        if self.proving.replays() {
+        if self.diagnostics.proving.replays() {
             return;
         }
         let ((grid, size), shown) = (self.wanted(), self.shown());
-        let tiles = &mut self.atlas.tiles;
+        let tiles = &mut self.targets.atlas.tiles;
         if size == [tiles.width, tiles.height] {
             tiles.grid = grid;
         }
@@ -172,11 +176,16 @@ impl Layer {
 
     /// The views that have to be drawn where they are not all the same.
     pub(super) fn wanted_views(&self) -> ViewSet {
-        let captured = self.config.capture.as_ref().map(|capture| capture.what);
+        let captured = self
+            .session
+            .config
+            .capture
+            .as_ref()
+            .map(|capture| capture.what);
         // What is proved is compared view by view.
-        if self.undrawn
-            || self.config.disabled.has(Optimisation::Unseen)
-            || self.config.prove.is_some()
+        if self.targets.undrawn
+            || self.session.config.disabled.has(Optimisation::Unseen)
+            || self.session.config.prove.is_some()
             || captured.is_some_and(|what| what != CaptureWhat::Output)
         {
             return ViewSet::ALL;
@@ -186,9 +195,11 @@ impl Layer {
 
     /// The views that are in the picture.
     fn seen(&self) -> ViewSet {
-        let last = self.config.views - 1;
+        let last = self.session.config.views - 1;
         match self.output() {
-            Output::Panel if self.config.filter == Filter::Nearest => self.interleaver.shown(),
+            Output::Panel if self.session.config.filter == Filter::Nearest => {
+                self.targets.interleaver.shown()
+            }
             Output::Interlaced(_) | Output::Anaglyph(_) | Output::Quad => {
                 [0, last].into_iter().collect()
             }
@@ -208,14 +219,14 @@ impl Layer {
             CaptureWhat::View(view) => [view].into_iter().collect(),
             CaptureWhat::Atlas => ViewSet::ALL,
         };
-        let tiles = &self.atlas.tiles;
-        self.undrawn = (0..tiles.views).any(|view| needed.has(view) && !tiles.draws(view));
-        self.undrawn
+        let tiles = &self.targets.atlas.tiles;
+        self.targets.undrawn = (0..tiles.views).any(|view| needed.has(view) && !tiles.draws(view));
+        self.targets.undrawn
     }
 
     fn wanted(&self) -> (Grid, [u32; 2]) {
-        let tiles = &self.atlas.tiles;
-        match self.config.view_scale {
+        let tiles = &self.targets.atlas.tiles;
+        match self.session.config.view_scale {
             // Nothing changes it.
             ViewScale::Fixed(1.0) => (tiles.grid, [tiles.width, tiles.height]),
             _ => self.grid().fit(tiles.window, tiles.views),

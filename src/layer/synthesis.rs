@@ -229,7 +229,7 @@ impl Layer {
                 self.synthesis.scene = Some(scene);
             }
             Err(what) => {
-                self.fallbacks.add(Reason::Parted(what));
+                self.diagnostics.fallbacks.add(Reason::Parted(what));
                 self.make_views(gl);
             }
         }
@@ -248,7 +248,9 @@ impl Layer {
             && scene.begun
             && !((all || colours) && scene.shown)
         {
-            self.fallbacks.add(Reason::Parted("another clear"));
+            self.diagnostics
+                .fallbacks
+                .add(Reason::Parted("another clear"));
             return self.make_views(gl);
         }
         if !all || self.synthesis.done {
@@ -258,10 +260,10 @@ impl Layer {
             // The other views have nothing of what was shown last.
             return self.make_views(gl);
         }
-        let (own, views) = (self.atlas.tiles.own(), self.config.views);
+        let (own, views) = (self.targets.atlas.tiles.own(), self.session.config.views);
         let count = self.synthesis.number();
         let sources = count.map(|count| Sources::spread(own, views, count));
-        let before = self.atlas.tiles.shown;
+        let before = self.targets.atlas.tiles.shown;
         let mut drawn = sources.iter().flat_map(Sources::iter);
         if !colours && drawn.any(|view| view != own && !before.has(view)) {
             // A view that joins them has nothing to be drawn on, unless it is made first.
@@ -276,7 +278,7 @@ impl Layer {
             clear: gl.get_floats::<1>(c::DEPTH_CLEAR_VALUE)[0],
             ..Scene::default()
         });
-        self.atlas.tiles.shown = self.shown();
+        self.targets.atlas.tiles.shown = self.shown();
         self.begin_reference(gl);
     }
 
@@ -290,19 +292,19 @@ impl Layer {
 
     /// Views that are drawn where none is made.
     fn needed(&self) -> u32 {
-        let (wanted, own) = (self.wanted_views(), self.atlas.tiles.own());
-        let needed = (0..self.config.views).filter(|&view| view == own || wanted.has(view));
+        let (wanted, own) = (self.wanted_views(), self.targets.atlas.tiles.own());
+        let needed = (0..self.session.config.views).filter(|&view| view == own || wanted.has(view));
         needed.count() as u32
     }
 
     fn may_synthesise(&self) -> bool {
-        self.config.prove.is_none()
-            && self.atlas.depth != 0
-            && self.atlas.tiles.grid.is_full()
-            && !self.atlas.has_front()
-            && self.accumulated.buffer.is_none()
+        self.session.config.prove.is_none()
+            && self.targets.atlas.depth != 0
+            && self.targets.atlas.tiles.grid.is_full()
+            && !self.targets.atlas.has_front()
+            && self.targets.accumulated.buffer.is_none()
             && !self.has_copies()
-            && !self.live.flat
+            && !self.session.live.flat
             && self.synthesis.number().is_none_or(|n| n < self.needed())
     }
 
@@ -324,7 +326,7 @@ impl Layer {
         if self.state.classification.stipple {
             return Err("draws with a stipple of the screen's");
         }
-        if matches!(kind, Kind::Accum | Kind::Pixels) || !self.sampled.is_empty() {
+        if matches!(kind, Kind::Accum | Kind::Pixels) || !self.variants.sampled.is_empty() {
             return Err("pictures and pixels");
         }
         if self.state.viewport_kind() != Viewport::Main {
@@ -384,13 +386,13 @@ impl Layer {
             return;
         };
         self.synthesis.done = true;
-        self.atlas.tiles.shown = self.shown();
+        self.targets.atlas.tiles.shown = self.shown();
         self.queries.pause(gl);
         self.queries.lift_condition(gl);
         let saved = Saved::take(gl, self.state.compatibility);
         self.reading(gl, BACK, |layer| match scene.mapping {
             Some(mapping) if layer.has_pyramid(gl) => layer.make_of(gl, &scene, &mapping),
-            _ => layer.atlas.share_own(gl),
+            _ => layer.targets.atlas.share_own(gl),
         });
         saved.restore(gl);
         self.rebind(gl);
@@ -403,13 +405,13 @@ impl Layer {
         let disparities = self.disparities(scene, mapping);
         self.resolve_sources(gl);
         self.take_samples(gl, scene, mapping);
-        let (sources, own) = (self.synthesis.sources, self.atlas.tiles.own());
+        let (sources, own) = (self.synthesis.sources, self.targets.atlas.tiles.own());
         match sources {
-            Some(sources) => self.atlas.copy_to_pyramid(gl, sources.iter()),
-            None => self.atlas.copy_to_pyramid(gl, [own].into_iter()),
+            Some(sources) => self.targets.atlas.copy_to_pyramid(gl, sources.iter()),
+            None => self.targets.atlas.copy_to_pyramid(gl, [own].into_iter()),
         }
         let Some(textures) = self.measure(gl, &disparities, true) else {
-            return self.atlas.share_own(gl);
+            return self.targets.atlas.share_own(gl);
         };
         let Some(passes) = &self.synthesis.passes else {
             return;
@@ -425,8 +427,8 @@ impl Layer {
         if srgb {
             gl.enable_srgb(true);
         }
-        passes.views(gl, &mut self.atlas, &disparities, &textures);
-        self.report.synthesised(false);
+        passes.views(gl, &mut self.targets.atlas, &disparities, &textures);
+        self.diagnostics.report.synthesised(false);
         if srgb {
             gl.enable_srgb(false);
         }
@@ -437,19 +439,22 @@ impl Layer {
 
     /// Makes the textures where they are not there.
     fn has_pyramid(&mut self, gl: &Gl) -> bool {
-        if self.synthesis.passes.is_none() || self.atlas.pyramid(false).is_some() {
+        if self.synthesis.passes.is_none() || self.targets.atlas.pyramid(false).is_some() {
             return self.synthesis.passes.is_some();
         }
-        let (names, window) = (&mut self.names, &self.state.window);
+        let (names, window) = (&mut self.targets.names, &self.state.window);
         let layers = match &self.synthesis.number {
             Number::One => 1,
             Number::Fixed(count) => (*count).min(Sources::MOST),
-            Number::Governed(_) => Sources::MOST.min(self.config.views),
+            Number::Governed(_) => Sources::MOST.min(self.session.config.views),
         };
-        let made = keep_bindings(gl, || self.atlas.make_pyramid(gl, names, window, layers));
+        let made = keep_bindings(gl, || {
+            self.targets.atlas.make_pyramid(gl, names, window, layers)
+        });
         if !made {
             self.synthesis.passes = None;
-            self.report
+            self.diagnostics
+                .report
                 .note("all views are drawn: the driver draws to no textures of floats".into());
         }
         made
@@ -460,10 +465,10 @@ impl Layer {
         let sources = self.synthesis.sources;
         let views = match sources {
             Some(sources) => sources.iter().collect(),
-            None => self.atlas.tiles.own_alone(),
+            None => self.targets.atlas.tiles.own_alone(),
         };
         let both = c::COLOR_BUFFER_BIT | c::DEPTH_BUFFER_BIT;
-        self.atlas.resolve(gl, &views, both);
+        self.targets.atlas.resolve(gl, &views, both);
     }
 
     /// Learns of the views that are drawn, or of their copies, what others need of them; and the map for the next frame.
@@ -474,11 +479,12 @@ impl Layer {
         copied: bool,
     ) -> Option<PyramidTextures> {
         self.synthesis.drew = disparities.sources.map(|sources| sources.count());
-        let mut textures = self.atlas.pyramid(copied)?;
+        let mut textures = self.targets.atlas.pyramid(copied)?;
         let passes = self.synthesis.passes.as_ref()?;
-        passes.measure(gl, &mut self.atlas, disparities, &textures);
+        passes.measure(gl, &mut self.targets.atlas, disparities, &textures);
         self.map_distortion(gl, disparities);
         textures.reference = self
+            .targets
             .atlas
             .reference()
             .filter(|_| self.synthesis.reference.on);
@@ -499,9 +505,9 @@ impl Layer {
     fn disparities(&self, scene: &Scene, mapping: &DisparityMapping) -> Disparities {
         let far = Self::far(mapping);
         let [scale, offset] = self.disparity_line(mapping);
-        let tiles = &self.atlas.tiles;
-        let own = self.rig.position(tiles.own());
-        let baselines = [self.rig.position(0) - own, 1.0].map(|place| place * far.signum());
+        let tiles = &self.targets.atlas.tiles;
+        let own = self.cameras.rig.position(tiles.own());
+        let baselines = [self.cameras.rig.position(0) - own, 1.0].map(|place| place * far.signum());
         let step = 0.5f64.powi(self.state.window.bits[4].min(24) as i32);
         let before = scene.before.map(|(mapping, to)| {
             let [scale, offset] = self.disparity_line(&mapping);
@@ -524,7 +530,7 @@ impl Layer {
             aim: (0, 0),
             sources: self.synthesis.sources,
             places: Places::Tiles,
-            marked: self.config.marks_holes,
+            marked: self.session.config.marks_holes,
             reach: REACH,
         }
     }
@@ -535,18 +541,23 @@ impl Layer {
         let Some(scene) = self.synthesis.scene else {
             return;
         };
-        let captured = self.config.capture.as_ref().map(|capture| capture.what);
+        let captured = self
+            .session
+            .config
+            .capture
+            .as_ref()
+            .map(|capture| capture.what);
         let straight = self.output() == Output::Panel
-            && self.config.filter == Filter::Nearest
+            && self.session.config.filter == Filter::Nearest
             && captured.is_none_or(|what| what == CaptureWhat::Output)
-            && !self.undrawn;
+            && !self.targets.undrawn;
         match scene.mapping {
             Some(mapping) if straight && self.has_pyramid(gl) => {
                 let disparities = self.disparities(&scene, &mapping);
                 self.resolve_sources(gl);
                 if let Some(textures) = self.measure(gl, &disparities, false) {
                     self.synthesis.pyramid = Some((textures, disparities));
-                    self.report.synthesised(true);
+                    self.diagnostics.report.synthesised(true);
                 }
             }
             _ => self.make_views(gl),

@@ -13,8 +13,8 @@ use crate::volume::{Before, Head, Samples};
 impl Layer {
     /// Whether this frame's are to be written.
     fn wants_samples(&self) -> bool {
-        let frame = self.report.frames() + 1;
-        self.config.capture.as_ref().is_some_and(|wanted| {
+        let frame = self.diagnostics.report.frames() + 1;
+        self.session.config.capture.as_ref().is_some_and(|wanted| {
             wanted.what == CaptureWhat::Samples && (wanted.first..=wanted.last).contains(&frame)
         })
     }
@@ -22,21 +22,21 @@ impl Layer {
     /// The state is as [`crate::present::Saved::take`] leaves it; changes the read framebuffer.
     pub(super) fn take_samples(&mut self, gl: &Gl, scene: &Scene, mapping: &DisparityMapping) {
         self.synthesis.samples = None;
-        let reference = self.atlas.reference_framebuffer();
+        let reference = self.targets.atlas.reference_framebuffer();
         let (Some(reference), true) = (
             reference.filter(|_| self.synthesis.reference.on),
             self.wants_samples(),
         ) else {
             return;
         };
-        let tiles = &self.atlas.tiles;
+        let tiles = &self.targets.atlas.tiles;
         let [width, height] = [tiles.width, tiles.height];
         let depths = |x: i32| -> Vec<f32> {
             let depth = |d: &u32| (f64::from(*d) / f64::from(u32::MAX)) as f32;
             upright(&gl.read_depth32(x, 0, width, height), width, depth)
         };
-        let own = tile(gl, &self.atlas, tiles.own()).into_raw();
-        let (_, x) = self.atlas.readable(tiles.own());
+        let own = tile(gl, &self.targets.atlas, tiles.own()).into_raw();
+        let (_, x) = self.targets.atlas.readable(tiles.own());
         let own = (own, depths(x));
         gl.bind_framebuffer(c::READ_FRAMEBUFFER, reference);
         let reference = (read_rgb(gl, 0, 0, width, height).into_raw(), depths(0));

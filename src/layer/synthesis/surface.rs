@@ -55,7 +55,7 @@ impl Layer {
                 gl.positions_sum(first..first.checked_add(count.unsigned_abs())?)?
             }
             // An index that ends a primitive is that of no vertex.
-            Primitives::Elements { .. } if self.support.restarts(gl) => return None,
+            Primitives::Elements { .. } if self.session.support.restarts(gl) => return None,
             Primitives::Elements { kind, indices, .. } => {
                 let indices = gl.own_indices(count.unsigned_abs(), kind, indices)?;
                 gl.positions_sum(indices)?

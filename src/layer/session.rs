@@ -1,0 +1,23 @@
+//! What holds for as long as a context is under the layer: what the user wants, what the driver can, who shares its objects.
+
+use super::{Group, OnScreen, Support, auto};
+use crate::config::{Config, Live};
+use crate::display::Display;
+use crate::plan::Capabilities;
+use std::sync::Arc;
+
+/// A context's settings and support.
+#[derive(Debug)]
+pub(super) struct Session {
+    pub(super) config: &'static Config,
+    pub(super) support: Support,
+    pub(super) capabilities: Capabilities,
+    pub(super) group: Arc<Group>,
+    /// What the user changes while the program runs.
+    pub(super) live: Live,
+    /// Where the window lies; none where the window system does not tell.
+    pub(super) on_screen: Option<OnScreen>,
+    /// The display with other numbers of its sheet, once they have been changed.
+    pub(super) fitted: Option<Display>,
+    pub(super) auto: Option<auto::Auto>,
+}
