@@ -9,6 +9,7 @@ use crate::rewrite::{
 use crate::state::Text;
 use std::borrow::Cow;
 use std::ffi::{CStr, CString};
+use std::sync::Arc;
 
 /// How a variant draws the views.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -29,7 +30,7 @@ pub enum Drawn {
     /// Its vertices are placed by the projection matrix of fixed function, which the layer moves.
     ByMatrix,
     /// A variant shifts its vertices.
-    ByVariant(Variant),
+    ByVariant(Arc<Variant>),
 }
 
 /// Why a program has no variant. Its draws are the same in all views.
@@ -199,13 +200,8 @@ pub fn drawn(gl: &Gl, program: u32, texts: &[Text], kind: VariantKind) -> Result
     let name = gl
         .link_at(&shaders, &attributes, &outputs)
         .map_err(NoVariant::Driver)?;
-    Ok(Drawn::ByVariant(Variant::of(
-        gl,
-        program,
-        name,
-        &shift,
-        place.as_ref(),
-    )))
+    let variant = Variant::of(gl, program, name, &shift, place.as_ref());
+    Ok(Drawn::ByVariant(Arc::new(variant)))
 }
 
 fn locations(actives: Vec<Active>, location: impl Fn(&CStr) -> i32) -> Vec<(CString, u32)> {

@@ -1,6 +1,7 @@
 //! glAccum and glClear: the accumulation buffer of framebuffer 0, which the atlas does not have.
 
 use super::Layer;
+use super::draw::Request;
 use crate::accumulation::{Accumulation, Operation, Region};
 use crate::atlas::ViewSet;
 use crate::gl::{Gl, consts as c};
@@ -70,7 +71,7 @@ impl Layer {
             _ => false,
         };
         if self.accumulates(gl) && !nothing {
-            self.plan(gl, Kind::Accum);
+            self.decide(gl, &Request::of(Kind::Accum));
             self.accumulate(gl, operation);
         }
     }

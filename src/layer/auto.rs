@@ -104,8 +104,8 @@ impl Layer {
                 .note(format!("auto: {found} is the fastest here"));
         }
         let next = auto.trial.strategy();
-        if next != self.session.capabilities.strategy && !self.diagnostics.proving.replays() {
-            self.session.capabilities.strategy = next;
+        if next != self.session.strategy && !self.diagnostics.proving.replays() {
+            self.session.strategy = next;
             self.remake(gl);
         }
     }

@@ -31,7 +31,7 @@ impl Layer {
         }
         if split {
             self.split(gl, read);
-            self.differ(gl, false);
+            self.differ(gl);
         }
         self.state.refresh(gl);
         self.hold_everything(gl, "copies pictures into the window");

@@ -2,16 +2,13 @@
 
 use super::comfort::Comfort;
 use crate::config::{Config, Live, Projection};
-use crate::plan::{Classifier, Rig, Shear};
+use crate::plan::{Classifier, Shear};
 
-/// The cameras of the views, and what tells the program's camera from other matrices.
+/// What places the cameras of the views, and what tells the program's camera from other matrices.
 #[derive(Debug)]
 pub(super) struct Cameras {
-    pub(super) rig: Rig,
     pub(super) classifier: Classifier,
     pub(super) comfort: Comfort,
-    /// A of the camera that the window is drawn with, for telling it from a lamp's.
-    pub(super) lens: Option<f64>,
     /// The shift under which the raster position was set; none where it is one of the window.
     pub(super) raster: Option<Shear>,
     /// The projection under which the raster position was set; none where glWindowPos did it.
@@ -22,7 +19,6 @@ impl Cameras {
     /// Nothing has been drawn. `program` is the name of the program's file.
     pub(super) fn new(config: &Config, live: &Live, program: Option<&str>) -> Self {
         Cameras {
-            rig: Rig::new(config.views, live.camera, config.profile.focal_depth),
             classifier: Classifier::new(
                 &config.profile,
                 Some(live.hud_depth),
@@ -30,7 +26,6 @@ impl Cameras {
                 config.explain.is_some(),
             ),
             comfort: Comfort::new(config, live.camera),
-            lens: None,
             raster: None,
             raster_placed: Projection::None,
         }

@@ -1,14 +1,14 @@
 //! Cameras by what is in the depth buffer, and what disparities there are: which depths are looked at, and when.
 
 use super::{Layer, keep_bindings};
-use crate::config::{Camera, Class, Config, DepthState, Viewport};
+use crate::config::{Camera, Config};
 use crate::display::Budget;
 use crate::gl::{Gl, consts as c};
+use crate::plan::decide::DepthWatch;
 use crate::plan::depths::{DepthMapping, Distances};
-use crate::plan::{Classed, DepthMappings, Kind, Ramp, comfort, parallax};
+use crate::plan::{DepthMappings, comfort, parallax};
 use crate::present::Saved;
 use crate::report::Disparity;
-use crate::state::Touch;
 
 /// What is known of the frame's depths.
 #[derive(Debug)]
@@ -18,15 +18,7 @@ pub(super) struct Comfort {
     cameras: comfort::Comfort,
     /// Found, and in force from the next frame on.
     next: Option<(f64, f64)>,
-    mappings: DepthMappings,
-    /// Something of the frame has been drawn.
-    begun: bool,
-    /// The scene has been drawn since the last picture was taken.
-    pending: bool,
-    /// The last projection of the frame's scene.
-    projection: Option<[f32; 16]>,
-    /// Something flat has written depths since the scene.
-    spoilt: bool,
+    pub(super) mappings: DepthMappings,
     /// Pictures of this frame, and those of the one before that were not read yet.
     taken: Vec<Taken>,
     sent: Vec<Taken>,
@@ -53,16 +45,17 @@ impl Comfort {
             cameras: comfort::Comfort::new(None),
             next: None,
             mappings: DepthMappings::default(),
-            begun: false,
-            pending: false,
-            projection: None,
-            spoilt: false,
             taken: Vec::new(),
             sent: Vec::new(),
             stale: false,
         };
         comfort.change(config, camera);
         comfort
+    }
+
+    /// Whether depths are looked at.
+    pub(super) fn looks(&self) -> bool {
+        self.on
     }
 
     /// Other cameras are asked for.
@@ -86,63 +79,9 @@ impl Comfort {
 }
 
 impl Layer {
-    /// Takes note of a draw that is about to be made, and a picture of the depths where it would spoil them.
-    pub(super) fn watch_depths(&mut self, gl: &Gl, kind: Kind, classed: &Classed) {
-        let looked_at =
-            self.cameras.comfort.on && !self.session.live.flat && self.state.list.is_none();
-        // Depths elsewhere are not those of the window.
-        if !looked_at || self.state.framebuffers.draw != 0 {
-            return;
-        }
-        if !std::mem::replace(&mut self.cameras.comfort.begun, true) {
-            self.begin_frame(gl);
-        }
-        match (kind, classed.class) {
-            (Kind::Accum | Kind::Clear { depths: false, .. }, _) | (_, Class::OffScreen) => {}
-            (Kind::Clear { .. }, _) => {
-                self.save_depths(gl);
-                // A part of the window that is cleared has a picture of its own.
-                if !self.state.scissor_test {
-                    self.cameras.comfort.mappings.clear();
-                    self.cameras.comfort.spoilt = false;
-                }
-            }
-            (_, Class::Sky) => self.cameras.comfort.mappings.sky = true,
-            (_, Class::Flat) => {
-                if self.cameras.comfort.pending {
-                    self.state.read_classification(gl, Touch::DEPTH);
-                    if self.state.classification.depth == DepthState::On {
-                        self.save_depths(gl);
-                        self.cameras.comfort.spoilt = true;
-                    }
-                }
-            }
-            (_, Class::Scene) => {
-                self.state
-                    .read_classification(gl, Touch::RANGE | Touch::DEPTH);
-                let viewport = self.state.viewport_kind();
-                let [matrix, p] = self.projections();
-                if viewport == Viewport::Main && kind != Kind::Pixels {
-                    self.cameras.comfort.projection = Some(p);
-                }
-                if self.state.classification.depth != DepthState::On {
-                    return;
-                }
-                let look = &self.state.classification;
-                if let Some(ramp) = Ramp::of(&matrix, look.depths, look.zero_to_one) {
-                    self.cameras.comfort.pending |= viewport == Viewport::Main;
-                    self.cameras
-                        .comfort
-                        .mappings
-                        .drawn(ramp, &p, classed.focal, viewport);
-                }
-            }
-        }
-    }
-
     /// Looks at the depths of the frame before, if they are there already: with a driver that is a frame behind they are not, and
     /// wait until the end of this frame.
-    fn begin_frame(&mut self, gl: &Gl) {
+    pub(super) fn begin_frame(&mut self, gl: &Gl) {
         if self.cameras.comfort.sent.is_empty() || !self.targets.atlas.depths_are_there(gl) {
             return;
         }
@@ -157,16 +96,13 @@ impl Layer {
             let budget = self.budget().px / self.half_width();
             if let Some(cameras) = self.cameras.comfort.next {
                 let farthest = self.cameras.comfort.cameras.farthest(cameras, budget);
-                self.cameras.rig.set_measured(cameras, farthest);
+                self.known.rig.set_measured(cameras, farthest);
             }
         }
     }
 
     /// Within a frame, before what is about to be drawn or cleared.
-    fn save_depths(&mut self, gl: &Gl) {
-        if !self.cameras.comfort.pending || self.cameras.comfort.spoilt {
-            return;
-        }
+    pub(super) fn save_depths(&mut self, gl: &Gl) {
         self.queries.pause(gl);
         self.queries.lift_condition(gl);
         let saved = Saved::take(gl, self.state.compatibility);
@@ -179,7 +115,7 @@ impl Layer {
 
     /// The state is as [`Saved::take`] leaves it.
     fn take_depths(&mut self, gl: &Gl) {
-        self.cameras.comfort.pending = false;
+        self.known.depths.pending = false;
         if self.state.window.bits[4] == 0 || self.cameras.comfort.mappings.is_empty() {
             return;
         }
@@ -199,7 +135,7 @@ impl Layer {
                 frame: self.diagnostics.report.frames() + 1,
                 cameras: way.and_then(|p| self.cameras(&p)),
                 sky: way
-                    .and_then(|p| self.cameras.rig.sky(&p))
+                    .and_then(|p| self.known.rig.sky(&p))
                     .map_or(0.0, |shear| shear.separation(1.0) * self.half_width()),
                 mappings,
                 clear,
@@ -213,7 +149,7 @@ impl Layer {
         if !self.cameras.comfort.on {
             return;
         }
-        if self.cameras.comfort.pending && !self.cameras.comfort.spoilt {
+        if self.known.depths.pending && !self.known.depths.spoilt {
             self.take_depths(gl);
         }
         if self.cameras.comfort.taken.is_empty() {
@@ -228,11 +164,7 @@ impl Layer {
         }
         if measured
             && self.cameras.comfort.next.is_none()
-            && let Some(p) = self
-                .cameras
-                .comfort
-                .projection
-                .filter(|p| !parallax::flat(p))
+            && let Some(p) = self.known.depths.projection.filter(|p| !parallax::flat(p))
         {
             let (_, scale) = parallax::lens(&p);
             let planes = parallax::planes(&p).map(|distance| distance * scale);
@@ -240,11 +172,8 @@ impl Layer {
             self.find_cameras(&p, &seen);
         }
         self.set_measured_cameras();
-        self.cameras.comfort.begun = false;
+        self.known.depths = DepthWatch::default();
         self.cameras.comfort.mappings = DepthMappings::default();
-        self.cameras.comfort.projection = None;
-        self.cameras.comfort.pending = false;
-        self.cameras.comfort.spoilt = false;
     }
 
     fn read_depths(&mut self, gl: &Gl) {
@@ -272,10 +201,7 @@ impl Layer {
 
     /// Separation and convergence that a projection is drawn with.
     fn cameras(&self, p: &[f32; 16]) -> Option<(f64, f64)> {
-        self.cameras
-            .rig
-            .shear(p)
-            .map(|s| (s.separation(1.0), s.conv))
+        self.known.rig.shear(p).map(|s| (s.separation(1.0), s.conv))
     }
 
     /// What the display can show between neighbouring views.

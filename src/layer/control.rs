@@ -50,7 +50,7 @@ impl Layer {
             display.set_lens(lens);
         }
         self.session.live = live;
-        self.cameras.rig.change(live.camera, live.flat);
+        self.known.rig.change(live.camera, live.flat);
         self.cameras.classifier.change_hud_depth(live.hud_depth);
     }
 
@@ -71,7 +71,7 @@ impl Layer {
                 let live = self.session.live.with(
                     self.session.config,
                     &changes,
-                    self.cameras.rig.latched(),
+                    self.known.rig.latched(),
                 )?;
                 let chosen = live.output != self.session.live.output;
                 if chosen && live.output == Output::Quad && !self.state.window.stereo {
@@ -109,7 +109,7 @@ impl Layer {
     ) -> Result<Result<Answer, Capture>, ControlError> {
         // The next one, counted from 1.
         let frame = self.diagnostics.report.frames() + 1;
-        let orders = key.orders(self.session.live, self.cameras.rig.latched(), || {
+        let orders = key.orders(self.session.live, self.known.rig.latched(), || {
             picture(frame)
         });
         let outcome = orders
@@ -135,7 +135,7 @@ impl Layer {
         put(OptionId::HudDepth, self.session.live.hud_depth.into());
         let measured = matches!(self.session.live.camera, Camera::Measured(_));
         put(OptionId::AutoDepth, u8::from(measured).into());
-        let cameras = self.session.live.cameras(self.cameras.rig.latched());
+        let cameras = self.session.live.cameras(self.known.rig.latched());
         for (id, value) in cameras.into_iter().flatten() {
             put(id, value.into());
         }
@@ -161,7 +161,7 @@ impl Layer {
                 _ if LensPart::named(&name).is_some() => {
                     "the display is no slanted lens sheet; see `manyview displays show`"
                 }
-                Camera::Auto | Camera::Measured(_) if self.cameras.rig.latched().is_none() => {
+                Camera::Auto | Camera::Measured(_) if self.known.rig.latched().is_none() => {
                     "the program has drawn nothing in perspective yet, so the cameras are not chosen"
                 }
                 Camera::Eye { .. } => {

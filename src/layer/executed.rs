@@ -2,10 +2,12 @@
 //! others.
 
 use super::Layer;
+use super::draw::{Decided, Request};
 use crate::atlas::Surface;
 use crate::draw::{Current, enter_own, others};
 use crate::gl::{Gl, consts as c};
 use crate::offscreen::Target;
+use crate::plan::decide::Demand;
 use crate::plan::{Kind, Method, Shear};
 use crate::state::Effect;
 
@@ -24,8 +26,11 @@ pub(super) struct Own {
 impl Layer {
     /// Before the driver begins the list of a run that draws.
     pub(super) fn start_own(&mut self, gl: &Gl) {
-        self.hold_everything(gl, "draws while it compiles a display list");
-        let plan = self.plan(gl, Kind::List);
+        let request = Request {
+            demand: Demand::Everything("draws while it compiles a display list"),
+            ..Request::of(Kind::List)
+        };
+        let Decided { plan, .. } = self.decide(gl, &request);
         self.queries.drawn();
         let framebuffer = self.state.framebuffers.draw;
         let mut target = self
@@ -42,7 +47,7 @@ impl Layer {
             Some(target) => target,
             None => &mut self.targets.atlas,
         };
-        enter_own(gl, surface, &self.state, &self.cameras.rig, shear);
+        enter_own(gl, surface, &self.state, &self.known.rig, shear);
         self.lists.executed = Some(Own {
             shear,
             everywhere,
@@ -69,7 +74,7 @@ impl Layer {
             gl,
             surface,
             &self.state,
-            &self.cameras.rig,
+            &self.known.rig,
             own.shear,
             own.everywhere,
             &mut |view| {

@@ -7,7 +7,7 @@ use super::Layer;
 use crate::config::{Capture, Class, DepthRange, Explain, Word};
 use crate::gl::{Gl, consts as c};
 use crate::plan::class::Target;
-use crate::plan::{Classed, Facts, Kind};
+use crate::plan::{Classed, Kind, Traits};
 use crate::rewrite::{self, Amplifier, Options, Stage};
 use crate::state::Linked;
 use image::{Rgb, RgbImage};
@@ -36,7 +36,7 @@ pub(super) struct Explained {
     owner: Vec<Option<Class>>,
     /// The draw that has been made since `view`: its class, nothing for a clear.
     last: Option<Option<Class>>,
-    draws: Vec<(Facts, Classed)>,
+    draws: Vec<(Traits, Classed)>,
     began: Instant,
     complete: bool,
 }
@@ -78,7 +78,7 @@ impl Layer {
     }
 
     /// A draw is about to be made.
-    pub(super) fn explain_this(&mut self, facts: &Facts, classed: &Classed) {
+    pub(super) fn explain_this(&mut self, facts: &Traits, classed: &Classed) {
         if self.explains().is_none() {
             return;
         }
@@ -286,7 +286,7 @@ fn target(target: Target) -> String {
 }
 
 /// What a draw does with the depth buffer, and with which part of it, in words.
-fn depth(facts: &Facts) -> String {
+fn depth(facts: &Traits) -> String {
     let word = facts.depth_state.word();
     match facts.range {
         DepthRange::Whole => word.to_owned(),

@@ -1,6 +1,6 @@
 //! The end of a frame: interleave, capture, report.
 
-use super::{Frame, Layer, OnScreen};
+use super::{Layer, OnScreen};
 use crate::atlas::ViewSet;
 use crate::config::{Capture, CaptureWhat, Output};
 use crate::display::{Placement, QuiltName};
@@ -10,6 +10,17 @@ use crate::present::{Saved, capture};
 use crate::state::{BACK, FRONT};
 use image::RgbImage;
 use std::path::PathBuf;
+
+/// What has happened in the frame so far.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Frame {
+    /// The list that is called.
+    pub(super) list: Option<u32>,
+    /// Something was drawn that is to be shown.
+    pub(super) drawn: bool,
+    /// A draw since the last swap was made by another strategy than replay.
+    pub(super) amplifies: bool,
+}
 
 impl Layer {
     /// Shows the frame in the true framebuffer 0. The caller swaps or flushes after it; nothing of the program's state
@@ -63,10 +74,9 @@ impl Layer {
             self.enter_mono(gl);
         }
         self.realign_tiles();
-        self.frame = Frame {
-            amplifies: self.frame.amplifies,
-            ..Frame::default()
-        };
+        self.frame.drawn = false;
+        self.frame.list = None;
+        self.known.frame = Default::default();
     }
 
     /// Draws the picture into the true framebuffer 0 and captures what is wanted.
@@ -146,7 +156,7 @@ impl Layer {
     fn own_depth(&self, gl: &Gl) -> Depth {
         let tiles = &self.targets.atlas.tiles;
         let (width, height) = (tiles.width, tiles.height);
-        let reversed = self.frame.nearer_is_larger.unwrap_or(false);
+        let reversed = self.known.frame.nearer_is_larger.unwrap_or(false);
         let mut values = Vec::with_capacity(width as usize * height as usize);
         if self.targets.atlas.depth != 0 {
             self.targets.atlas.resolve(

@@ -1,5 +1,6 @@
 //! The program's framebuffer 0: bound, drawn to, read from and asked about.
 
+use super::draw::Request;
 use super::{Layer, as_they_are, keep_bindings};
 use crate::atlas::Atlas;
 use crate::gl::{Gl, consts as c};
@@ -430,7 +431,7 @@ impl Layer {
         {
             return self.draw(gl, Kind::Pixels, call);
         }
-        self.plan(gl, Kind::Pixels);
+        self.decide(gl, &Request::of(Kind::Pixels));
         self.in_proof(gl, |layer| layer.copy_views(gl, call));
         self.copy_views(gl, call);
     }

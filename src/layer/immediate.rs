@@ -1,13 +1,14 @@
 //! Immediate mode: recorded between glBegin and glEnd, then drawn in all views.
 
 use super::Layer;
+use super::draw::{Decided, Draw, Execution, Request, Send};
 use super::lists::touch_current_values;
-use crate::atlas::ViewSet;
+use crate::atlas::{Tiles, ViewSet};
 use crate::config::Optimisation;
-use crate::draw::{Current, Drawing, ReplayHazard};
+use crate::draw::{Drawing, ReplayHazard};
 use crate::gl::consts as c;
 use crate::gl::{Ends, Gl, Recording};
-use crate::plan::{Bounds, Kind, Method, Plan};
+use crate::plan::{Bounds, Kind, Plan};
 use crate::state::{Begin, Command, Effect, Immediate, Touch};
 
 /// Calls between glBegin and glEnd from which on a display list pays: measured on llvmpipe 22.3 with 8 views, a frame with it takes
@@ -60,66 +61,49 @@ impl Layer {
         let Begin::Recorded(mode) = std::mem::replace(&mut self.state.begin, Begin::Outside) else {
             return;
         };
-        let plan = self.plan(gl, Kind::Begin(mode));
+        let Decided { plan, images } = self.decide(gl, &Request::of(Kind::Begin(mode)));
         let hazard = match self.lists.immediate.must_restore() {
             Effect::NONE => ReplayHazard::None,
             effects => ReplayHazard::Current(effects),
         };
         let recording = std::mem::take(&mut self.lists.recording);
-        let amplified = match plan.method {
-            Method::Instanced | Method::Geometry if self.lists.ends == Ends::default() => {
-                self.amplify(gl, &plan, mode, self.lists.immediate.changes_material())
-            }
-            _ => None,
-        };
         let ends = self.lists.ends;
-        match amplified {
-            Some(how) => {
-                self.prove(gl, plan.shear, hazard, &mut |_| {
-                    gl.replay(mode, &recording, ends);
-                });
-                // Several calls (many views, several layers) each start from the same current values.
-                let current = match hazard {
-                    ReplayHazard::Current(e) => Current::take(gl, e, false),
-                    _ => Current::default(),
-                };
-                let mut first = true;
-                self.amplified(gl, &plan, &how, &mut |_| {
-                    if !std::mem::take(&mut first) {
-                        current.put(gl);
-                    }
-                    gl.replay(how.mode, &recording, ends);
-                });
+        let sets = self.lists.immediate.sets();
+        let mut list = None;
+        let drawing = Drawing {
+            mode: Some(mode),
+            vertices: recording.calls() as u64,
+            cuts: [c::TRIANGLES, c::QUADS].contains(&mode),
+            material: self.lists.immediate.changes_material(),
+        };
+        let whole = ends == Ends::default();
+        let execution = self.choose(gl, &plan, &drawing, whole);
+        let mut views = None;
+        if let Execution::Replay = execution {
+            let seeing = self.seeing(gl, mode, &plan, &recording);
+            list = self.stream(gl, mode, &recording, hazard, seeing);
+            views = Some(seeing);
+        }
+        let mut send = |how| match (how, list) {
+            (Send::InMode(mode), _) => gl.replay(mode, &recording, ends),
+            (_, Some(list)) => {
+                touch_current_values(gl, sets);
+                gl.call_list(list);
             }
-            None if plan.method == Method::Once => {
-                self.once(gl, &mut || gl.replay(mode, &recording, ends));
-            }
-            None => {
-                let all = self.targets.atlas.tiles.shown;
-                self.targets.atlas.tiles.shown = self.seeing(gl, mode, &plan, &recording);
-                let surface = Drawing {
-                    mode: Some(mode),
-                    vertices: recording.calls() as u64,
-                    cuts: [c::TRIANGLES, c::QUADS].contains(&mode),
-                    material: self.lists.immediate.changes_material(),
-                };
-                self.draw_to_reference(gl, &plan, hazard, surface, &mut |mode| {
-                    gl.replay(mode, &recording, ends);
-                });
-                let streamed = self.stream(gl, mode, &recording, hazard);
-                let sets = self.lists.immediate.sets();
-                self.replay(gl, &plan, hazard, &mut |_| match streamed {
-                    Some(list) => {
-                        touch_current_values(gl, sets);
-                        gl.call_list(list);
-                    }
-                    None => gl.replay(mode, &recording, ends),
-                });
-                if let Some(list) = streamed {
-                    self.drop_list(gl, list);
-                }
-                self.targets.atlas.tiles.shown = all;
-            }
+            (_, None) => gl.replay(mode, &recording, ends),
+        };
+        let mut draw = Draw {
+            plan: &plan,
+            images: &images,
+            hazard,
+            drawing,
+            amplifiable: whole,
+            views,
+            send: &mut send,
+        };
+        self.execute_by(gl, &mut draw, &execution);
+        if let Some(list) = list {
+            self.drop_list(gl, list);
         }
         self.lists.recording = recording;
         if self.lists.immediate.changes_material() {
@@ -157,7 +141,7 @@ impl Layer {
         let modelview = gl.get_floats::<16>(c::MODELVIEW_MATRIX);
         let sees = |view: &u32| {
             let p = plan.shear.map_or(state.projection, |shear| {
-                shear.projection(&state.projection, self.cameras.rig.position(*view))
+                shear.projection(&state.projection, self.known.rig.position(*view))
             });
             !bounds.outside(&[0, 1, 3].map(|row| product_row(&p, &modelview, row)))
         };
@@ -177,11 +161,18 @@ impl Layer {
         mode: u32,
         recording: &Recording,
         hazard: ReplayHazard,
+        views: ViewSet,
     ) -> Option<u32> {
         let sets = self.lists.immediate.sets();
         let pays = !self.session.config.disabled.has(Optimisation::Lists)
             && recording.calls() >= MANY
-            && self.targets.atlas.tiles.order().count() >= SEVERAL;
+            && Tiles {
+                shown: views,
+                ..self.targets.atlas.tiles
+            }
+            .order()
+            .count()
+                >= SEVERAL;
         let as_it_is = hazard == ReplayHazard::None
             && self.lists.ends == Ends::default()
             && !sets.has(Effect::UNKNOWN | Effect::ATTRIB | Effect::MATERIAL);

@@ -1,10 +1,11 @@
 //! Display lists: compiled in runs, executed run by run.
 
 use super::Layer;
-use super::drawing::UNKNOWN;
+use super::draw::{Decided, Draw, Request, UNKNOWN};
 use crate::draw::{Drawing, ReplayHazard};
 use crate::gl::{Gl, consts as c, slot};
-use crate::plan::{Kind, Method};
+use crate::plan::Kind;
+use crate::plan::decide::Demand;
 use crate::state::{Begin, Body, Command, Compiling, Effect, Run, Segment, Start, Touch};
 
 /// GL_MAX_LIST_NESTING is at least 64; deeper calls are ignored by the driver too.
@@ -222,8 +223,13 @@ impl Layer {
             let primitives = segments().all(|s| s.primitives);
             let thin = segments().any(|s| s.thin);
             let material = segments().any(|s| s.immediate.changes_material());
-            let drawing = (current, primitives, thin, material);
-            return self.run(gl, run, touch, drawing, &mut || {
+            let content = Content {
+                current,
+                primitives,
+                thin,
+                material,
+            };
+            return self.run(gl, run, touch, content, &mut || {
                 touch_current_values(gl, current);
                 call();
             });
@@ -310,12 +316,12 @@ impl Layer {
                     gl,
                     run,
                     segment.touch,
-                    (
-                        segment.immediate.must_restore(),
-                        segment.primitives,
-                        segment.thin,
-                        segment.immediate.changes_material(),
-                    ),
+                    Content {
+                        current: segment.immediate.must_restore(),
+                        primitives: segment.primitives,
+                        thin: segment.thin,
+                        material: segment.immediate.changes_material(),
+                    },
                     &mut || {
                         touch_current_values(gl, sets);
                         gl.call_list(segment.name);
@@ -384,31 +390,48 @@ impl Layer {
 
     /// A list of which only the driver knows what is in it.
     fn unknown_list(&mut self, gl: &Gl, call: &mut dyn FnMut()) {
-        self.hold_everything(gl, "calls display lists that were compiled elsewhere");
-        let plan = self.plan(gl, Kind::List);
-        if plan.method == Method::Once {
-            self.once(gl, call);
-        } else {
-            let hazard = ReplayHazard::Anything {
-                rects: true,
-                projection: true,
-                current: Effect::NONE,
-            };
-            self.replay(gl, &plan, hazard, &mut |_| call());
-        }
+        let request = Request {
+            demand: Demand::Everything("calls display lists that were compiled elsewhere"),
+            ..Request::of(Kind::List)
+        };
+        let hazard = ReplayHazard::Anything {
+            rects: true,
+            projection: true,
+            current: Effect::NONE,
+        };
+        self.draw_list(gl, &request, hazard, UNKNOWN, false, call);
         self.state.touched = Touch::ALL;
     }
 
-    /// Executes one run, or several of a kind. `drawing`: the current values that it starts from and changes, and whether it is
-    /// nothing but primitives, with lines and points among them, with changes of the material.
-    fn run(
+    /// A draw of something compiled, which is sent as it is; `surfaces`: there is nothing else in it.
+    fn draw_list(
         &mut self,
         gl: &Gl,
-        run: Run,
-        touch: Touch,
-        drawing: (Effect, bool, bool, bool),
+        request: &Request,
+        hazard: ReplayHazard,
+        drawing: Drawing,
+        surfaces: bool,
         call: &mut dyn FnMut(),
     ) {
+        let Decided { mut plan, images } = self.decide(gl, request);
+        // What else changes the state is not in the generated shaders, and lines have no place in the reference image.
+        plan.reference = plan.reference.filter(|_| surfaces);
+        self.execute(
+            gl,
+            &mut Draw {
+                plan: &plan,
+                images: &images,
+                hazard,
+                drawing,
+                amplifiable: false,
+                views: None,
+                send: &mut |_| call(),
+            },
+        );
+    }
+
+    /// Executes one run, or several of a kind.
+    fn run(&mut self, gl: &Gl, run: Run, touch: Touch, content: Content, call: &mut dyn FnMut()) {
         match run {
             Run::Open
             | Run::State
@@ -421,42 +444,7 @@ impl Layer {
             | Run::EndQuery(_)
             | Run::DrawBuffers
             | Run::ReadBuffer(_) => call(),
-            Run::Draw => {
-                // The list changes the current matrix, and that is the projection.
-                let projection =
-                    touch.has(Touch::MATRIX) && self.state.matrix_mode == c::PROJECTION;
-                if projection || touch.has(Touch::RECTS) {
-                    self.hold_everything(
-                        gl,
-                        "changes the projection or the viewport in a display list",
-                    );
-                } else {
-                    self.hold_list(gl, drawing.2);
-                }
-                let plan = self.plan(gl, Kind::List);
-                if plan.method == Method::Once {
-                    self.once(gl, call);
-                    return self.state.touch(touch);
-                }
-                let hazard = match drawing {
-                    (Effect::NONE, true, ..) => ReplayHazard::None,
-                    (current, true, ..) => ReplayHazard::Current(current),
-                    (current, false, ..) => ReplayHazard::Anything {
-                        rects: touch.has(Touch::RECTS),
-                        projection,
-                        current,
-                    },
-                };
-                // What else changes the state is not in the generated shaders.
-                if let (_, true, false, material) = drawing {
-                    let surface = Drawing {
-                        material,
-                        ..UNKNOWN
-                    };
-                    self.draw_to_reference(gl, &plan, hazard, surface, &mut |_| call());
-                }
-                self.replay(gl, &plan, hazard, &mut |_| call());
-            }
+            Run::Draw => self.draw_run(gl, touch, content, call),
             Run::Clear => self.draw(
                 gl,
                 Kind::Clear {
@@ -477,6 +465,50 @@ impl Layer {
             self.placed_in_window();
         }
     }
+
+    fn draw_run(&mut self, gl: &Gl, touch: Touch, content: Content, call: &mut dyn FnMut()) {
+        // The list changes the current matrix, and that is the projection.
+        let projection = touch.has(Touch::MATRIX) && self.state.matrix_mode == c::PROJECTION;
+        let rects = touch.has(Touch::RECTS);
+        let request = Request {
+            demand: match (projection || rects, content.thin) {
+                (true, _) => {
+                    Demand::Everything("changes the projection or the viewport in a display list")
+                }
+                (false, true) => Demand::Thin,
+                (false, false) => Demand::None,
+            },
+            ..Request::of(Kind::List)
+        };
+        let hazard = match (content.current, content.primitives) {
+            (Effect::NONE, true) => ReplayHazard::None,
+            (current, true) => ReplayHazard::Current(current),
+            (current, false) => ReplayHazard::Anything {
+                rects,
+                projection,
+                current,
+            },
+        };
+        let drawing = Drawing {
+            material: content.material,
+            ..UNKNOWN
+        };
+        let surfaces = content.primitives && !content.thin;
+        self.draw_list(gl, &request, hazard, drawing, surfaces, call);
+    }
+}
+
+/// What is in runs that draw.
+#[derive(Clone, Copy, Debug)]
+struct Content {
+    /// The current values that they start from and change.
+    current: Effect,
+    /// Nothing but primitives.
+    primitives: bool,
+    /// Lines and points among them.
+    thin: bool,
+    /// Changes of the material among them.
+    material: bool,
 }
 
 /// Before the driver's call of a list that sets current values. One of them, whichever, has to have been set by a call since the last

@@ -5,20 +5,18 @@ mod accumulate;
 mod auto;
 mod blits;
 mod cameras;
-mod classing;
 mod comfort;
 mod compute;
 mod control;
 mod copies;
 mod diagnostics;
-mod drawing;
+mod draw;
 mod executed;
 mod explain;
 mod frame;
 mod framebuffer;
 mod frames;
 mod immediate;
-mod instances;
 mod lists;
 mod mono;
 mod occlusion;
@@ -37,7 +35,7 @@ mod targets;
 mod variants;
 
 pub use control::Pictured;
-pub use drawing::Primitives;
+pub use draw::Primitives;
 pub use frames::Frames;
 pub use lists::is_scaled;
 pub use queries::Answer;
@@ -49,13 +47,14 @@ use crate::draw::{Driver, Programs};
 use crate::gl::{Gl, consts as c};
 use crate::interleave::Interleaver;
 use crate::offscreen::{Images, Offscreen, SharedImages};
-use crate::plan::Capabilities;
+use crate::plan::Rig;
+use crate::plan::decide::{Detail, Known, Mono};
 use crate::present::Saved;
 use crate::report::{Proof, Report};
 use crate::state::{BACK, Lists, State, Window};
 use cameras::Cameras;
-use classing::Frame;
 use diagnostics::Diagnostics;
+use frame::Frame;
 use recordings::Recordings;
 use session::Session;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -114,6 +113,7 @@ pub struct Layer {
     synthesis: synthesis::Synthesis,
     lists: Recordings,
     cameras: Cameras,
+    known: Known,
     frame: Frame,
     queries: queries::Queries,
     diagnostics: Diagnostics,
@@ -188,12 +188,7 @@ impl Layer {
         .filter_map(|(strategy, there)| there.then_some(strategy))
         .collect();
         let auto = auto::Auto::new(gl, config, program.as_deref(), &all);
-        let capabilities = Capabilities {
-            strategy: auto.as_ref().map_or(config.strategy, auto::Auto::strategy),
-            instanced: support.instanced(),
-            geometry: support.geometry(),
-            together: false,
-        };
+        let strategy = auto.as_ref().map_or(config.strategy, auto::Auto::strategy);
         let (synthesis, note) = synthesis::Synthesis::new(gl, config, support.glsl);
         note.into_iter().for_each(|note| report.note(note));
         let interleaver = Interleaver::new(gl, &mut names, support.glsl, config.synthesis());
@@ -205,9 +200,9 @@ impl Layer {
         orphans::delete_orphans(gl, &group);
         let live = Live::new(config);
         let detail = if support.viewports {
-            sampling::Detail::SampleAligned
+            Detail::SampleAligned
         } else {
-            sampling::Detail::Full
+            Detail::Full
         };
         if support.es && config.view_scale != ViewScale::Fixed(1.0) {
             report.note("views are drawn at the size of the window, because the program has shaders of its own".into());
@@ -222,15 +217,7 @@ impl Layer {
             detail,
             shader,
         );
-        let atlas = make_atlas(
-            gl,
-            &mut names,
-            config,
-            &state,
-            &support,
-            grid,
-            capabilities.strategy,
-        )?;
+        let atlas = make_atlas(gl, &mut names, config, &state, &support, grid, strategy)?;
         let offscreen = Offscreen::new(
             gl,
             config.views,
@@ -242,7 +229,7 @@ impl Layer {
             session: Session {
                 config,
                 support,
-                capabilities,
+                strategy,
                 group,
                 live,
                 on_screen: None,
@@ -257,13 +244,18 @@ impl Layer {
                 accumulated: accumulate::Accumulated::default(),
                 interleaver,
                 detail,
-                mono: mono::MonoFrames::default(),
+                stuck: false,
                 undrawn: false,
                 pushed: Vec::new(),
             },
             variants: Variants::new(programs, driver),
             synthesis,
             lists: Recordings::default(),
+            known: Known::new(Rig::new(
+                config.views,
+                live.camera,
+                config.profile.focal_depth,
+            )),
             frame: Frame::default(),
             queries: queries::Queries::default(),
             diagnostics: Diagnostics::new(report),
@@ -280,13 +272,13 @@ impl Layer {
             return Ok(());
         }
         self.drop_proof(gl);
-        self.targets.mono = mono::MonoFrames::default();
+        self.known.mono = Mono::default();
         self.forget_scene();
         self.state.window.width = width;
         self.state.window.height = height;
         let grid = self.grid();
         let (names, config, state) = (&mut self.targets.names, self.session.config, &self.state);
-        let strategy = self.session.capabilities.strategy;
+        let strategy = self.session.strategy;
         let atlas = make_atlas(
             gl,
             names,
@@ -411,7 +403,7 @@ impl Layer {
         self.leave_mono(gl);
         let grid = self.grid();
         let (names, config, state) = (&mut self.targets.names, self.session.config, &self.state);
-        let strategy = self.session.capabilities.strategy;
+        let strategy = self.session.strategy;
         let Ok(mut atlas) = make_atlas(
             gl,
             names,

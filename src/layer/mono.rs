@@ -4,96 +4,22 @@
 use super::{Layer, as_they_are};
 use crate::config::{CaptureWhat, Filter, Optimisation, Output};
 use crate::gl::{Gl, consts as c};
-use crate::plan::{Kind, Method, Plan};
+use crate::plan::decide::ALL_BUFFERS;
 use crate::state::BACK;
-
-const COLOURS_AND_DEPTHS: u32 = c::COLOR_BUFFER_BIT | c::DEPTH_BUFFER_BIT;
-const EVERYTHING: u32 = COLOURS_AND_DEPTHS | c::STENCIL_BUFFER_BIT;
-
-/// What the views have in common.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct MonoFrames {
-    /// The buffers, as bits of glClear, that are the same in all views.
-    same: u32,
-    /// Only the program's own view is drawn.
-    active: bool,
-}
-
-impl Default for MonoFrames {
-    /// A new window's contents are undefined, so they may well be the same.
-    fn default() -> Self {
-        MonoFrames {
-            same: EVERYTHING,
-            active: false,
-        }
-    }
-}
-
-impl MonoFrames {
-    /// A draw went to the program's own view only.
-    pub(super) fn lose(&mut self) {
-        if !self.active {
-            self.same = 0;
-        }
-    }
-}
 
 impl Layer {
     /// Whether the frame is drawn in the program's own view only.
     pub(super) fn is_mono(&self) -> bool {
-        self.targets.mono.active
+        self.known.mono.active
     }
 
-    /// Before a draw that is planned.
-    pub(super) fn watch_mono(&mut self, gl: &Gl, kind: Kind, plan: &Plan) {
-        if plan.method == Method::Once || self.synthesis.is_on() || !self.state.draws_to_window() {
-            return;
-        }
-        if let Kind::Clear { whole, .. } = kind {
-            return self.cleared(gl, whole);
-        }
-        // The raster position stands for a point of the scene.
-        let placed = kind == Kind::Pixels && self.cameras.raster.is_some();
-        if plan.shear.is_some()
-            || placed
-            || matches!(kind, Kind::Accum)
-            || !self.variants.sampled.is_empty()
-            || (kind == Kind::List && self.has_copies())
-        {
-            self.differ(gl, kind == Kind::List);
-        }
-    }
-
-    /// What is drawn next depends on the view. `list`: it may change the state of the stencil test itself.
-    pub(super) fn differ(&mut self, gl: &Gl, list: bool) {
+    /// Something that depends on the view is copied to the window next.
+    pub(super) fn differ(&mut self, gl: &Gl) {
         self.leave_mono(gl);
-        let same = &mut self.targets.mono.same;
-        *same &= !COLOURS_AND_DEPTHS;
-        if *same != 0 && (list || gl.is_enabled(c::STENCIL_TEST)) {
-            *same = 0;
-        }
-    }
-
-    /// A clear, of these buffers for certain.
-    fn cleared(&mut self, gl: &Gl, buffers: u32) {
-        let new = buffers & EVERYTHING & !self.targets.mono.same;
-        if new == 0 || self.state.scissor_test || self.targets.atlas.has_front() {
-            return;
-        }
-        let written = [
-            (
-                c::COLOR_BUFFER_BIT,
-                gl.get_integers::<4>(c::COLOR_WRITEMASK) == [1; 4],
-            ),
-            (c::DEPTH_BUFFER_BIT, gl.get_integer(c::DEPTH_WRITEMASK) != 0),
-            (
-                c::STENCIL_BUFFER_BIT,
-                gl.get_integer(c::STENCIL_WRITEMASK) & 0xFF == 0xFF,
-            ),
-        ];
-        for (bit, _) in written.iter().filter(|(bit, all)| new & bit != 0 && *all) {
-            self.targets.mono.same |= bit;
-        }
+        let stencil = self.known.mono.same & c::STENCIL_BUFFER_BIT != 0;
+        self.known
+            .mono
+            .differ(stencil && gl.is_enabled(c::STENCIL_TEST));
     }
 
     /// The other views get what the program's own one has, and are drawn again.
@@ -102,8 +28,9 @@ impl Layer {
         self.draw_all_views(gl);
     }
 
-    fn draw_all_views(&mut self, gl: &Gl) {
-        if !std::mem::take(&mut self.targets.mono.active) {
+    /// The other views get what the program's own one has.
+    pub(super) fn draw_all_views(&mut self, gl: &Gl) {
+        if !std::mem::take(&mut self.known.mono.active) {
             return;
         }
         self.targets.atlas.tiles.shown = self.shown();
@@ -121,7 +48,7 @@ impl Layer {
     pub(super) fn enter_mono(&mut self, gl: &Gl) {
         let mono = self.may_enter_mono();
         if mono {
-            self.targets.mono.active = true;
+            self.known.mono.active = true;
         } else {
             self.draw_all_views(gl);
         }
@@ -134,7 +61,7 @@ impl Layer {
             .capture
             .as_ref()
             .map(|capture| capture.what);
-        self.targets.mono.same == EVERYTHING
+        self.known.mono.same == ALL_BUFFERS
             && self.session.config.views > 1
             && self.session.config.strategy.disocclusion_source().is_none()
             && !self.session.config.disabled.has(Optimisation::MonoFrames)

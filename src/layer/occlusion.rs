@@ -6,14 +6,14 @@
 //!
 //! Draws that cannot be distorted are missing there: what they hide stays unknown, as it is without this strategy.
 
+use super::draw::{Draw, Send};
 use super::programs::{Entered, VariantUse};
-use super::synthesis::DisparityMapping;
 use super::{Layer, keep_bindings};
 use crate::config::Word;
-use crate::draw::{Drawing, Rays, ReplayHazard, draw_to_reference};
+use crate::draw::{Drawing, Rays, draw_to_reference};
 use crate::gl::{Gl, consts as c};
 use crate::interleave::Disparities;
-use crate::plan::{Flat, Kind, Plan, Reason};
+use crate::plan::{Flat, Reason};
 use crate::present::capture::read_rgb;
 use crate::synthesis::Passes;
 use image::RgbImage;
@@ -30,16 +30,6 @@ pub(super) struct ReferenceImage {
     mapped: bool,
     /// The scene that is being drawn goes to the reference image.
     pub(super) on: bool,
-    /// The next draw goes there.
-    pub(super) next: Option<Next>,
-}
-
-/// A draw that is about to be made.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Next {
-    /// Of the primitives, where that is known.
-    mode: Option<u32>,
-    rays: Rays,
 }
 
 impl Layer {
@@ -57,137 +47,112 @@ impl Layer {
         }
     }
 
-    /// A draw of the scene is about to be made; those of surfaces by fixed function can be distorted, and of programs with shaders all.
-    pub(super) fn expect_reference(&mut self, kind: Kind, mapping: &DisparityMapping) {
-        let mode = match kind {
-            Kind::Begin(mode) | Kind::Arrays(mode) | Kind::Elements(mode) => Some(mode),
-            Kind::Other | Kind::List => None,
-            _ => return,
-        };
-        // A list is drawn there if it has nothing but surfaces.
-        let surfaces = || match mode {
-            Some(mode) => (c::TRIANGLES..=c::POLYGON).contains(&mode),
-            None => kind == Kind::List,
-        };
-        let distorts = self.synthesis.reference.on
-            && match (self.state.program, self.state.pipeline) {
-                (0, 0) => self.state.compatibility && surfaces(),
-                (program, _) => program != 0,
-            };
-        let map = self
-            .targets
-            .atlas
-            .reference()
-            .map(|reference| reference.map);
-        if let (true, Some(map)) = (distorts, map) {
-            let [near, far] = self.state.classification.depths;
-            let (middle, half) = match self.state.classification.zero_to_one {
-                true => (near, far - near),
-                false => ((near + far) / 2.0, (far - near) / 2.0),
-            };
-            let [scale, offset] = self.disparity_line(mapping).map(|v| v as f32);
-            let rays = Rays {
-                map,
-                disparities: [scale * half, scale * middle + offset],
-            };
-            self.synthesis.reference.next = Some(Next { mode, rays });
-        }
-    }
-
-    /// Before such a draw, if it is one; `drawing` is without its mode. `call` makes it in a mode.
-    pub(super) fn draw_to_reference(
-        &mut self,
-        gl: &Gl,
-        plan: &Plan,
-        hazard: ReplayHazard,
-        drawing: Drawing,
-        call: &mut dyn FnMut(u32),
-    ) {
-        let Some(next) = self.synthesis.reference.next.take() else {
+    /// Makes a draw in the reference image, if it has one there.
+    pub(super) fn draw_to_reference(&mut self, gl: &Gl, draw: &mut Draw) {
+        let Some(next) = draw.plan.reference else {
             return;
         };
         let drawing = Drawing {
             mode: next.mode,
-            ..drawing
+            ..draw.drawing
         };
-        if self.state.program != 0 {
-            return self.draw_variant_to_reference(gl, plan, hazard, &drawing, &next.rays, call);
+        let rays = Rays {
+            map: next.map.0,
+            disparities: next.disparities,
+        };
+        let drawn = match self.state.program {
+            0 => self.draw_surface_to_reference(gl, draw, &drawing, &rays),
+            _ => self.draw_variant_to_reference(gl, draw, &drawing, &rays),
+        };
+        match drawn {
+            Ok(()) => {
+                let class = draw.plan.class.word();
+                self.diagnostics.report.draw("reference", class);
+            }
+            Err(reason) => self.diagnostics.fallbacks.add(reason),
         }
+    }
+
+    /// Such a draw by fixed function, with a generated program.
+    fn draw_surface_to_reference(
+        &mut self,
+        gl: &Gl,
+        draw: &mut Draw,
+        drawing: &Drawing,
+        rays: &Rays,
+    ) -> Result<(), Reason> {
         self.read_fixed(gl);
         let Some(fixed) = self.variants.fixed else {
-            return;
+            return Ok(());
         };
+        let (shear, hazard, send) = (draw.plan.shear, draw.hazard, &mut *draw.send);
         self.queries.pause(gl);
         let drawn = self.unblended(gl, |layer| {
             layer.variants.programs.draw_to_reference(
                 gl,
                 &mut layer.targets.atlas,
                 &layer.state,
-                &layer.cameras.rig,
-                plan.shear,
+                &layer.known.rig,
+                shear,
                 &fixed,
-                &drawing,
+                drawing,
                 hazard,
-                &next.rays,
-                call,
+                rays,
+                &mut |mode| send(Send::InMode(mode)),
             )
         });
-        self.diagnostics
-            .report
-            .shaders(self.variants.programs.compiled);
-        match drawn {
-            Ok(()) => self.diagnostics.report.draw("reference", plan.class.word()),
-            Err(reason) => self.diagnostics.fallbacks.add(reason),
-        }
+        let compiled = self.variants.programs.compiled;
+        self.diagnostics.report.shaders(compiled);
         self.queries.resume(gl);
+        drawn
     }
 
     /// Such a draw with the program's own shaders.
     fn draw_variant_to_reference(
         &mut self,
         gl: &Gl,
-        plan: &Plan,
-        hazard: ReplayHazard,
+        draw: &mut Draw,
         drawing: &Drawing,
         rays: &Rays,
-        call: &mut dyn FnMut(u32),
-    ) {
-        let (program, rig) = (self.state.program, self.cameras.rig);
-        if let Err(why) = self.link_distorting(gl, program) {
-            return self.diagnostics.fallbacks.add(Reason::NoReference(why));
-        }
+    ) -> Result<(), Reason> {
+        let (program, rig) = (self.state.program, self.known.rig);
+        let linked = self.link_distorting(gl, program);
+        linked.map_err(Reason::NoReference)?;
         let units = self.units_of(gl, program);
         let units: Vec<u32> = units.into_iter().map(|(unit, _)| unit).collect();
-        let mut variants = std::mem::take(&mut self.variants.own);
-        if let Some(Entered { variant, .. }) = variants.enter(gl, program, VariantUse::Rays) {
-            self.queries.pause(gl);
-            // What the projection matrix places is shifted by that.
-            let (moved, shifts) = match plan.variant {
-                true => (None, (plan.shear, plan.flat)),
-                false => (plan.shear, (None, Flat::Still)),
-            };
-            let tiles = self.targets.atlas.tiles;
-            variant.set_views(gl, shifts, &[rig.position(tiles.own())], tiles.stride);
-            let mode = drawing.mode.unwrap_or(c::TRIANGLES);
-            self.unblended(gl, |layer| {
-                draw_to_reference(
-                    gl,
-                    &mut layer.targets.atlas,
-                    &layer.state,
-                    &rig,
-                    moved,
-                    (variant, &units),
-                    drawing.vertices,
-                    hazard,
-                    rays,
-                    &mut || call(mode),
-                );
-            });
-            gl.use_program(program);
-            self.diagnostics.report.draw("reference", plan.class.word());
-            self.queries.resume(gl);
-        }
-        self.variants.own = variants;
+        let entered = self.variants.own.enter(gl, program, VariantUse::Rays);
+        let Some(Entered { variant, .. }) = entered else {
+            return Ok(());
+        };
+        self.queries.pause(gl);
+        let plan = draw.plan;
+        // What the projection matrix places is shifted by that.
+        let (moved, shifts) = match plan.variant {
+            true => (None, (plan.shear, plan.flat)),
+            false => (plan.shear, (None, Flat::Still)),
+        };
+        let tiles = self.targets.atlas.tiles;
+        let own = rig.position(tiles.own());
+        variant.set_views(gl, shifts, &[own], tiles.stride);
+        let (hazard, send) = (draw.hazard, &mut *draw.send);
+        let how = drawing.mode.map_or(Send::AsItIs, Send::InMode);
+        self.unblended(gl, |layer| {
+            draw_to_reference(
+                gl,
+                &mut layer.targets.atlas,
+                &layer.state,
+                &rig,
+                moved,
+                (&variant, &units),
+                drawing.vertices,
+                hazard,
+                rays,
+                &mut || send(how),
+            );
+        });
+        gl.use_program(program);
+        self.queries.resume(gl);
+        Ok(())
     }
 
     /// By how much samples are moved is not blended, and written whatever colours the program leaves out.

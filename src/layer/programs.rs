@@ -1,22 +1,21 @@
 //! Programs with shaders of their own: their draws go by a variant that shifts the vertices of each view.
 
 use super::Layer;
-use crate::config::{Class, DepthState, Projection};
+use crate::config::Strategy;
 use crate::draw::{Drawn, NoVariant, Variant, VariantKind, drawn};
-use crate::gl::{Gl, Held, ImageUnit, consts as c};
-use crate::plan::class::Why;
-use crate::plan::{Classed, Flat, Kind, Method, Plan, camera};
+use crate::gl::{Gl, Held, ImageUnit, ProgramName, consts as c};
+use crate::plan::camera;
+use crate::plan::decide::{Linked as Linking, Shaders, VariantFacts};
 use crate::state::{
-    Linked, Matrices, Samplers, Shaders, Touch, link_change, texts, uniform_change,
+    Linked, Matrices, Samplers, Shaders as ProgramTexts, link_change, texts, uniform_change,
 };
 use std::collections::HashMap;
+use std::sync::Arc;
 
 /// The programs that were drawn with, by name.
 #[derive(Debug, Default)]
 pub(super) struct OwnVariants {
     known: HashMap<u32, ProgramRecord>,
-    /// The camera of the last program that had one, for those that have none.
-    camera: Option<[f32; 16]>,
     /// Deleted while in use: such a program lives until another one is in use, and so it must when the layer uses one.
     doomed: Vec<u32>,
 }
@@ -35,9 +34,9 @@ pub(super) enum VariantUse {
 }
 
 /// A variant in use.
-#[derive(Debug)]
-pub(super) struct Entered<'a> {
-    pub(super) variant: &'a Variant,
+#[derive(Clone, Debug)]
+pub(super) struct Entered {
+    pub(super) variant: Arc<Variant>,
     /// It chooses layers.
     pub(super) layers: bool,
 }
@@ -61,9 +60,9 @@ struct ProgramRecord {
     checked: u64,
     how: Result<Drawn, NoVariant>,
     /// The variants that choose layers, once they have been wanted: for one view, and for all.
-    layered: [Option<Option<Variant>>; 2],
+    layered: [Option<Option<Arc<Variant>>>; 2],
     /// The variant that distorts rays, once it has been wanted.
-    distorting: Option<Result<Variant, NoVariant>>,
+    distorting: Option<Result<Arc<Variant>, NoVariant>>,
     matrices: Matrices,
     samplers: Samplers,
     /// Their units, and the changes of uniforms up to which they are known.
@@ -92,14 +91,14 @@ impl ProgramRecord {
             .into_iter()
             .chain(layered)
             .chain(distorting)
-            .map(Variant::name)
+            .map(|variant| variant.name())
     }
 }
 
 impl OwnVariants {
     /// The variant of a program, in use, with the values of its uniforms; with layers only where one is there that chooses
     /// them.
-    pub(super) fn enter(&mut self, gl: &Gl, program: u32, with: VariantUse) -> Option<Entered<'_>> {
+    pub(super) fn enter(&mut self, gl: &Gl, program: u32, with: VariantUse) -> Option<Entered> {
         let known = self.known.get_mut(&program)?;
         let [alone, layer, instances, rays] = &mut known.followed;
         let [by_layer, by_instances] = known.layered.each_ref().map(|t| t.as_ref()?.as_ref());
@@ -121,6 +120,7 @@ impl OwnVariants {
         if std::mem::replace(followed, change) != change {
             variant.copy_uniforms(gl, program);
         }
+        let variant = variant.clone();
         Some(Entered { variant, layers })
     }
 
@@ -198,76 +198,50 @@ impl Layer {
         }
     }
 
-    fn shaders<R>(&self, ask: impl FnOnce(&mut Shaders) -> R) -> R {
+    fn shaders<R>(&self, ask: impl FnOnce(&mut ProgramTexts) -> R) -> R {
         let mut lists = self.session.group.lists();
         ask(&mut lists.shaders)
     }
 
-    /// How a draw with the program's own shaders goes: `plan` is what fixed function would make of it.
-    pub(super) fn plan_shaders(
-        &mut self,
-        gl: &Gl,
-        kind: Kind,
-        classed: &Classed,
-        plan: Plan,
-    ) -> Plan {
-        let program = self.state.program;
-        let fragments = matches!(kind, Kind::Clear { .. } | Kind::Pixels | Kind::Accum);
-        if plan.method == Method::Once || program == 0 || fragments || self.session.config.views < 2
-        {
-            return plan;
+    /// What is known of a program that is in use; whatever it draws, its variant for one view is what tells.
+    pub(super) fn variant_facts(&mut self, gl: &Gl, program: ProgramName) -> Shaders {
+        if !self.is_known(program.0) {
+            return Shaders::Unlinked(program);
         }
-        self.know(gl, program);
-        let Some(camera) = self.camera_of(gl, program) else {
-            return plan;
+        let Some(camera) = self.camera_of(gl, program.0) else {
+            return Shaders::WithoutVariant(program);
         };
-        let camera = camera.or(self.variants.own.camera);
-        let Some(camera) = camera else {
-            // Menus and what else is flat needs none.
-            if !gl.is_enabled(c::DEPTH_TEST) {
-                return plan;
-            }
-            self.diagnostics.report.note(
-                "no camera was found in the matrices of some of the program's shaders: what they draw is the same in all views".into(),
-            );
-            return plan;
+        // Asked only where all views may be drawn at once.
+        let instances = self.session.strategy == Strategy::Instanced;
+        let divides = instances && self.variants.divides && gl.has_divisors();
+        let Some(known) = self.variants.own.known.get(&program.0) else {
+            return Shaders::Unlinked(program);
         };
-        self.variants.own.camera = Some(camera);
-        self.cameras.rig.latch(&camera);
-        let ruled = matches!(classed.why, Why::Rule(_));
-        let hud = plan.shear.map_or(Flat::Still, Flat::By);
-        let (class, shear, flat) = match classed.class {
-            Class::Flat if ruled => (Class::Flat, plan.shear, hud),
-            Class::Sky => (Class::Sky, self.cameras.rig.sky(&camera), Flat::Still),
-            class => {
-                let shear = match classed.focal {
-                    None => self.cameras.rig.shear(&camera),
-                    Some(focal) => self.cameras.rig.shear_about(&camera, focal),
-                };
-                let flat = match class {
-                    Class::Flat => hud,
-                    _ if self.fills_depths(gl) => Flat::Scene,
-                    _ => Flat::Still,
-                };
-                (Class::Scene, shear, flat)
-            }
+        let linked = |made: &Option<Option<Arc<Variant>>>| match made {
+            None => Linking::Untried,
+            Some(None) => Linking::Refused,
+            Some(Some(_)) => Linking::Yes,
         };
-        Plan {
-            method: Method::Replay,
-            class,
-            shear,
-            variant: true,
-            flat,
-            ..plan
-        }
+        let [to_layer, to_layers] = known.layered.each_ref().map(linked);
+        Shaders::Variant(VariantFacts {
+            program,
+            camera,
+            lost: known.lost,
+            to_layer,
+            to_layers,
+            divides,
+        })
     }
 
-    /// Whether the program in use has a perspective now, and what it draws gets depths: a scene's vertices, wherever they are. What fills
-    /// the screen by such a program has none.
-    fn fills_depths(&mut self, gl: &Gl) -> bool {
-        self.state.read_classification(gl, Touch::DEPTH);
-        let known = self.variants.own.known.get(&self.state.program);
-        self.state.classification.depth == DepthState::On && known.is_some_and(|known| !known.lost)
+    /// Whether a program has a variant that chooses the layer of one view.
+    pub(super) fn chooses_layers(&self, program: u32) -> bool {
+        let known = self.variants.own.known.get(&program);
+        known.is_some_and(|known| matches!(known.layered[0], Some(Some(_))))
+    }
+
+    /// Some attribute is about to advance by instances.
+    pub fn divides(&mut self) {
+        self.variants.divides = true;
     }
 
     /// The camera that a program with a variant has, where it has one; none for other programs.
@@ -332,26 +306,6 @@ impl Layer {
         camera.map_or_else(fixed, |camera| [camera.matrix, camera.projection])
     }
 
-    /// The kind of projection of the program's own shaders; none where that is fixed function's.
-    pub(super) fn looks_through(&mut self, gl: &Gl) -> Option<Projection> {
-        let program = self.state.program;
-        if program == 0 || self.session.config.views < 2 {
-            return None;
-        }
-        self.know(gl, program);
-        self.camera_of(gl, program)?;
-        let lost = self
-            .variants
-            .own
-            .known
-            .get(&program)
-            .is_none_or(|known| known.lost);
-        Some(match lost {
-            true => Projection::None,
-            false => Projection::Perspective,
-        })
-    }
-
     /// The matrices by which a program computes positions from depths, with their locations.
     pub(super) fn unprojections_of(&mut self, gl: &Gl, program: u32) -> Vec<(i32, [f32; 16])> {
         let (change, aspect) = (uniform_change(), self.aspect());
@@ -406,19 +360,31 @@ impl Layer {
         self.shaders(|shaders| shaders.with(sum))
     }
 
-    /// Learns how a program is drawn, once for each of its links.
-    pub(super) fn know(&mut self, gl: &Gl, program: u32) {
+    /// Whether it is known how a program is drawn, since it was linked.
+    fn is_known(&mut self, program: u32) -> bool {
         let checked = link_change();
-        let mut known = self.variants.own.known.get_mut(&program);
-        if known.as_ref().is_some_and(|known| known.checked == checked) {
-            return;
+        let Some(known) = self.variants.own.known.get_mut(&program) else {
+            return false;
+        };
+        if known.checked == checked {
+            return true;
         }
         let linked = self.session.group.lists().shaders.of(program);
-        let link = linked.as_ref().map_or(0, |linked| linked.link);
-        if let Some(known) = known.as_mut().filter(|known| known.link == link) {
+        let same = known.link == linked.map_or(0, |linked| linked.link);
+        if same {
             known.checked = checked;
+        }
+        same
+    }
+
+    /// Learns how a program is drawn, once for each of its links.
+    pub(super) fn know(&mut self, gl: &Gl, program: u32) {
+        if self.is_known(program) {
             return;
         }
+        let checked = link_change();
+        let linked = self.session.group.lists().shaders.of(program);
+        let link = linked.as_ref().map_or(0, |linked| linked.link);
         self.state.keep_errors(gl);
         let how = match &linked {
             Some(linked) => drawn(gl, program, &linked.texts, VariantKind::Alone),
@@ -462,7 +428,7 @@ impl Layer {
 
     /// Makes the variant that distorts rays, once for each link; or why there is none.
     pub(super) fn link_distorting(&mut self, gl: &Gl, program: u32) -> Result<(), String> {
-        let told = |made: &Result<Variant, NoVariant>| match made {
+        let told = |made: &Result<Arc<Variant>, NoVariant>| match made {
             Ok(_) => Ok(()),
             Err(reason) => Err(reason.to_string()),
         };

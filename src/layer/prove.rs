@@ -5,13 +5,14 @@
 //! state and of framebuffer 0 is what it would have seen. Time is not taken in such frames, which are slow, but in some between
 //! them: the same number by the strategy that was chosen and by nothing but replay, in turns.
 
+use super::draw::Images;
 use super::{Layer, explain, frame::tile, keep_bindings, make_atlas};
 use crate::atlas::{Atlas, Grid, ViewSet};
 use crate::config::{Output, Strategy, Word};
 use crate::draw::{ReplayHazard, replay};
 use crate::gl::{Gl, consts as c};
 use crate::metric::triptych;
-use crate::plan::{Facts, Kind, Method, Plan, Shear};
+use crate::plan::{Kind, Method, Plan, Shear, Traits};
 use crate::present::{Saved, capture};
 use crate::report::{Culprit, Difference, Proof, Worst};
 use crate::state::BACK;
@@ -70,7 +71,7 @@ pub(super) struct Proving {
 /// A draw to the window.
 #[derive(Clone, Copy, Debug)]
 struct Drawn {
-    facts: Facts,
+    facts: Traits,
     class: &'static str,
     method: Method,
 }
@@ -117,7 +118,7 @@ impl Search {
             draw: drawn.facts.draw,
             kind: explain::kind(drawn.facts.kind),
             class: drawn.class.to_owned(),
-            method: super::drawing::method_name(drawn.method).to_owned(),
+            method: super::draw::method_name(drawn.method).to_owned(),
             texture: drawn.facts.texture,
             list: drawn.facts.list,
         })
@@ -165,7 +166,7 @@ impl Proving {
 
 impl Layer {
     /// A draw is about to be made.
-    pub(super) fn prove_this(&mut self, gl: &Gl, facts: &Facts, plan: &Plan) {
+    pub(super) fn prove_this(&mut self, gl: &Gl, facts: &Traits, plan: &Plan) {
         let first = match self.diagnostics.proving.now {
             Now::Plain => return,
             Now::Proved if !self.state.draws_to_window() => return,
@@ -208,6 +209,7 @@ impl Layer {
         gl: &Gl,
         shear: Option<Shear>,
         hazard: ReplayHazard,
+        images: &Images,
         call: &mut dyn FnMut(u32),
     ) {
         if !self.diagnostics.proving.proves() {
@@ -216,12 +218,12 @@ impl Layer {
         if !self.state.draws_to_window() {
             return;
         }
-        if !self.variants.sampled.is_empty() {
+        if !images.bound.is_empty() {
             return self.diagnostics.proving.refuse(COPIES);
         }
         let mut sent = true;
         self.in_proof(gl, |layer| {
-            let (atlas, state, rig) = (&mut layer.targets.atlas, &layer.state, &layer.cameras.rig);
+            let (atlas, state, rig) = (&mut layer.targets.atlas, &layer.state, &layer.known.rig);
             sent = replay(gl, atlas, state, rig, shear, hazard, false, call);
         });
         if !sent {
@@ -470,7 +472,7 @@ impl Layer {
         if self.diagnostics.proving.atlas.is_none() {
             let (names, config, state) =
                 (&mut self.targets.names, self.session.config, &self.state);
-            let strategy = self.session.capabilities.strategy;
+            let strategy = self.session.strategy;
             match make_atlas(
                 gl,
                 names,
@@ -539,7 +541,7 @@ impl Layer {
             if full {
                 self.hand_over(gl);
             }
-            self.session.capabilities.strategy = Strategy::Replay;
+            self.session.strategy = Strategy::Replay;
             self.put_other(gl);
         }
     }
@@ -547,7 +549,7 @@ impl Layer {
     /// After a frame by replay alone; `whole`: the frame is at its end.
     fn choose_again(&mut self, gl: &Gl, whole: bool) {
         self.diagnostics.proving.now = Now::Plain;
-        self.session.capabilities.strategy = self.chosen();
+        self.session.strategy = self.chosen();
         let full = |atlas: &Atlas| atlas.tiles.grid.is_full();
         if whole && self.diagnostics.proving.atlas.as_ref().is_some_and(full) {
             self.hand_over(gl);

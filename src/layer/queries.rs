@@ -6,7 +6,6 @@
 
 use super::Layer;
 use crate::gl::{Gl, consts as c};
-use crate::plan::Plan;
 use std::collections::HashMap;
 
 /// Active and ended queries of a context.
@@ -193,18 +192,5 @@ impl Layer {
             }
             _ => return None,
         })
-    }
-
-    /// A draw that counts is replayed: a draw that makes all views at once would count them all.
-    pub(super) fn uncounted(&self, plan: Plan) -> Plan {
-        use crate::plan::{Method, Reason};
-        match plan.method {
-            Method::Instanced | Method::Geometry if self.queries.active() => Plan {
-                method: Method::Replay,
-                reason: Some(Reason::Kind("draws that a query counts")),
-                ..plan
-            },
-            _ => plan,
-        }
     }
 }

@@ -5,21 +5,9 @@ use super::Layer;
 use crate::atlas::{Grid, ViewSet};
 use crate::config::{CaptureWhat, Config, Filter, Optimisation, Output, ViewScale};
 use crate::display::{Display, Placement};
-use crate::gl::{Gl, consts as c};
+use crate::gl::Gl;
 use crate::interleave::Form;
-use crate::plan::Kind;
-
-/// What a program has left of it. Each holds more kinds of draws than the one before.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum Detail {
-    /// Triangles over the whole window.
-    #[default]
-    SampleAligned,
-    /// Anything that has a size in the window's pixels.
-    Scaled,
-    /// Everything.
-    Full,
-}
+use crate::plan::decide::{Demand, Detail};
 
 /// The texels of the views. `shader`: the output is made on the GPU, which can look tiles up by lenses.
 pub(super) fn grid(
@@ -63,77 +51,9 @@ impl Layer {
         )
     }
 
-    /// Before a draw: the grid has to be able to hold it.
-    pub(super) fn hold(&mut self, gl: &Gl, kind: Kind) {
-        let grid = self.targets.atlas.tiles.grid;
-        if grid.is_full() || !self.state.draws_to_window() {
-            return;
-        }
-        match kind {
-            Kind::Pixels => return self.hold_everything(gl, "draws pixels or bitmaps"),
-            Kind::Accum => return self.hold_everything(gl, "uses the accumulation buffer"),
-            Kind::Clear { .. } => return self.hold_rects(gl),
-            _ => {}
-        }
-        if self.state.program != 0 || self.state.pipeline != 0 {
-            return self.hold_everything(gl, "has shaders of its own");
-        }
-        if gl.is_enabled(c::POLYGON_STIPPLE) {
-            return self.hold_everything(gl, "draws stippled polygons");
-        }
-        if grid.is_sample_aligned() {
-            let thin = match kind {
-                Kind::Begin(mode) | Kind::Arrays(mode) | Kind::Elements(mode) => {
-                    mode <= c::LINE_STRIP
-                }
-                _ => false,
-            };
-            if thin || gl.get_integers::<2>(c::POLYGON_MODE) != [c::FILL as i32; 2] {
-                return self.give_up(gl, Detail::Scaled, "draws lines or points");
-            }
-            self.hold_rects(gl);
-        }
-    }
-
-    /// Before a run of a display list; `thin`: it may have lines or points.
-    pub(super) fn hold_list(&mut self, gl: &Gl, thin: bool) {
-        if thin && self.targets.atlas.tiles.grid.is_sample_aligned() {
-            self.give_up(
-                gl,
-                Detail::Scaled,
-                "may draw lines or points in display lists",
-            );
-        }
-    }
-
-    /// Edges of a part of the window cannot be upright in tiles that lean.
-    fn hold_rects(&mut self, gl: &Gl) {
-        let window = &self.state.window;
-        let whole = [0, 0, window.width as i32, window.height as i32];
-        let part =
-            self.state.viewport != whole || self.state.scissor_test && self.state.scissor != whole;
-        if part && self.targets.atlas.tiles.grid.shear != 0.0 {
-            self.give_up(gl, Detail::Scaled, "draws to parts of the window");
-        }
-    }
-
     /// Only the window's own pixels can hold what comes.
-    pub(super) fn hold_everything(&mut self, gl: &Gl, what: &str) {
-        if !self.targets.atlas.tiles.grid.is_full() {
-            self.give_up(gl, Detail::Full, what);
-        }
-    }
-
-    fn give_up(&mut self, gl: &Gl, detail: Detail, what: &str) {
-        self.targets.detail = detail;
-        let now = match self.grid() {
-            grid if grid.is_full() => "at the size of the window",
-            _ => "with fewer pixels, but not lens by lens",
-        };
-        self.diagnostics
-            .report
-            .note(format!("views are drawn {now}, because the program {what}"));
-        self.remake(gl);
+    pub(super) fn hold_everything(&mut self, gl: &Gl, what: &'static str) {
+        self.retreat(gl, Demand::Everything(what));
     }
 
     /// Before a frame is shown: tiles that are not of the kind or the size that the output needs now are made anew from what is there.
@@ -168,7 +88,7 @@ impl Layer {
         if self.is_mono() {
             return [].into_iter().collect();
         }
-        if self.synthesis.is_on() {
+        if self.known.scene.is_some() {
             return self.synthesis.drawn();
         }
         self.wanted_views()

@@ -1,9 +1,9 @@
 //! What holds for as long as a context is under the layer: what the user wants, what the driver can, who shares its objects.
 
 use super::{Group, OnScreen, Support, auto};
-use crate::config::{Config, Live};
+use crate::config::{Config, Live, Strategy};
 use crate::display::Display;
-use crate::plan::Capabilities;
+use crate::plan::decide::has_depths_of_replay;
 use std::sync::Arc;
 
 /// A context's settings and support.
@@ -11,7 +11,8 @@ use std::sync::Arc;
 pub(super) struct Session {
     pub(super) config: &'static Config,
     pub(super) support: Support,
-    pub(super) capabilities: Capabilities,
+    /// In force: what the user asked for, or `auto` has come to.
+    pub(super) strategy: Strategy,
     pub(super) group: Arc<Group>,
     /// What the user changes while the program runs.
     pub(super) live: Live,
@@ -20,4 +21,12 @@ pub(super) struct Session {
     /// The display with other numbers of its sheet, once they have been changed.
     pub(super) fitted: Option<Display>,
     pub(super) auto: Option<auto::Auto>,
+}
+
+impl Session {
+    /// Whether amplified draws have the very depths of replayed ones.
+    pub(super) fn same_depths(&self) -> bool {
+        let distances = self.config.clip.is_some();
+        has_depths_of_replay(self.strategy, self.support.layers(), distances)
+    }
 }

@@ -11,14 +11,13 @@ mod surface;
 use super::occlusion::{REACH, ReferenceImage};
 use super::{Layer, keep_bindings};
 use crate::atlas::{PyramidTextures, ViewSet};
-use crate::config::{
-    CaptureWhat, Class, Config, DepthState, DisocclusionSource, Filter, Output, TrueViews, Viewport,
-};
+use crate::config::{CaptureWhat, Config, DisocclusionSource, Filter, Output, TrueViews};
 use crate::gl::{Gl, consts as c};
 use crate::interleave::{Disparities, Places, Sources};
-use crate::plan::{Classed, Governor, Kind, Method, Plan, Ramp, Reason, Shear};
+use crate::plan::Governor;
+use crate::plan::decide::{DisparityMapping, Scene};
 use crate::present::Saved;
-use crate::state::{BACK, Touch};
+use crate::state::BACK;
 use crate::synthesis::Passes;
 use crate::volume::Samples;
 use surface::Surfaces;
@@ -26,84 +25,17 @@ use surface::Surfaces;
 /// Steps of the depth buffer by which views' depths lie behind what they are computed to be.
 const MARGIN: f64 = 4.0;
 
-/// What has been drawn to the own view since its depths were cleared.
-#[derive(Clone, Copy, Debug, Default)]
-struct Scene {
-    /// What it is projected by.
-    mapping: Option<DisparityMapping>,
-    /// What stands before everything, by the same projection in a part of the depth range, and up to which depth.
-    before: Option<(DisparityMapping, f64)>,
-    /// Something stands infinitely far behind it.
-    sky: bool,
-    /// Something else than a clear has been drawn.
-    begun: bool,
-    /// The depth of what nothing is drawn on.
-    clear: f32,
-    /// It has been shown, and no other view has it.
-    shown: bool,
-}
-
-/// How depths become disparities.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct DisparityMapping {
-    ramp: Ramp,
-    shear: Shear,
-    viewport: [i32; 4],
-}
-
-impl DisparityMapping {
-    fn is_like(&self, other: &DisparityMapping) -> bool {
-        self.ramp.is_like(&other.ramp)
-            && self.viewport == other.viewport
-            && self.shear.conv == other.shear.conv
-            && self.shear.separation(1.0) == other.shear.separation(1.0)
-    }
-}
-
-impl Scene {
-    /// Whether what is projected so belongs to it.
-    fn takes(&mut self, new: DisparityMapping) -> bool {
-        let known = self.mapping.get_or_insert(new);
-        if known.is_like(&new) {
-            return true;
-        }
-        let first = *known;
-        if let Some((before, _)) = self.before {
-            return before.is_like(&new);
-        }
-        if first.viewport != new.viewport
-            || first.shear.separation(1.0) != new.shear.separation(1.0)
-        {
-            return false;
-        }
-        // Either may come first.
-        self.before = match (first.ramp.beyond(&new.ramp), new.ramp.beyond(&first.ramp)) {
-            (Some(depth), _) => Some((new, depth)),
-            (_, Some(depth)) => {
-                self.mapping = Some(new);
-                Some((first, depth))
-            }
-            _ => None,
-        };
-        self.before.is_some()
-    }
-}
-
 /// Synthesised views, not drawn.
 #[derive(Debug, Default)]
 pub(super) struct Synthesis {
     /// Made when the strategy is asked for; none where the driver cannot.
     pub(super) passes: Option<Passes>,
-    /// Only the own view is drawn, or some views.
-    scene: Option<Scene>,
-    /// These, of this scene.
+    /// The views that are drawn of the scene.
     sources: Option<Sources>,
     /// How many they are.
     number: Number,
     /// As many were drawn in this frame.
     drew: Option<u32>,
-    /// The views of this frame are made.
-    done: bool,
     pub(super) reference: ReferenceImage,
     pub(super) surfaces: Surfaces,
     /// While a panel's picture is made straight from the views that are drawn.
@@ -173,9 +105,11 @@ impl Synthesis {
         self.passes.iter().flat_map(Passes::programs)
     }
 
-    /// Whether only some views are drawn.
-    pub(super) fn is_on(&self) -> bool {
-        self.scene.is_some()
+    /// A scene begins.
+    pub(super) fn begin(&mut self, own: u32, views: u32) {
+        self.surfaces.forget();
+        let count = self.number();
+        self.sources = count.map(|count| Sources::spread(own, views, count));
     }
 
     /// They, beside the own one.
@@ -203,93 +137,6 @@ impl Synthesis {
 }
 
 impl Layer {
-    /// Before a draw that is planned: it goes to the views that are drawn alone, or the others are made.
-    pub(super) fn watch_synthesis(&mut self, gl: &Gl, kind: Kind, plan: &Plan, classed: &Classed) {
-        self.synthesis.reference.next = None;
-        let drawn = plan.method != Method::Once && self.state.draws_to_window();
-        if self.synthesis.passes.is_none() || !drawn {
-            return;
-        }
-        if let Kind::Clear { depths, whole } = kind {
-            // Of stencils nothing is made.
-            if depths || whole != c::STENCIL_BUFFER_BIT {
-                self.clear_own(gl, whole);
-            }
-            return;
-        }
-        let Some(mut scene) = self.synthesis.scene else {
-            return;
-        };
-        match self.stays(gl, kind, plan, classed, &mut scene) {
-            Ok(mapping) => {
-                scene.begun = true;
-                if let Some(mapping) = mapping {
-                    self.expect_reference(kind, &mapping);
-                }
-                self.synthesis.scene = Some(scene);
-            }
-            Err(what) => {
-                self.diagnostics.fallbacks.add(Reason::Parted(what));
-                self.make_views(gl);
-            }
-        }
-    }
-
-    /// A clear begins a scene, or ends it.
-    fn clear_own(&mut self, gl: &Gl, whole: u32) {
-        let unscissored = self.clears_all(gl);
-        let all = whole & c::DEPTH_BUFFER_BIT != 0
-            && unscissored
-            && gl.get_integer(c::DEPTH_WRITEMASK) != 0;
-        let colours = whole & c::COLOR_BUFFER_BIT != 0
-            && unscissored
-            && gl.get_integers::<4>(c::COLOR_WRITEMASK) == [1; 4];
-        if let Some(scene) = self.synthesis.scene
-            && scene.begun
-            && !((all || colours) && scene.shown)
-        {
-            self.diagnostics
-                .fallbacks
-                .add(Reason::Parted("another clear"));
-            return self.make_views(gl);
-        }
-        if !all || self.synthesis.done {
-            return;
-        }
-        if !self.may_synthesise() {
-            // The other views have nothing of what was shown last.
-            return self.make_views(gl);
-        }
-        let (own, views) = (self.targets.atlas.tiles.own(), self.session.config.views);
-        let count = self.synthesis.number();
-        let sources = count.map(|count| Sources::spread(own, views, count));
-        let before = self.targets.atlas.tiles.shown;
-        let mut drawn = sources.iter().flat_map(Sources::iter);
-        if !colours && drawn.any(|view| view != own && !before.has(view)) {
-            // A view that joins them has nothing to be drawn on, unless it is made first.
-            return self.make_views(gl);
-        }
-        // What was shown last is no more.
-        self.synthesis.scene = None;
-        self.leave_mono(gl);
-        self.synthesis.surfaces.forget();
-        self.synthesis.sources = sources;
-        self.synthesis.scene = Some(Scene {
-            clear: gl.get_floats::<1>(c::DEPTH_CLEAR_VALUE)[0],
-            ..Scene::default()
-        });
-        self.targets.atlas.tiles.shown = self.shown();
-        self.begin_reference(gl);
-    }
-
-    /// Whether the scissor leaves all of the window.
-    fn clears_all(&self, gl: &Gl) -> bool {
-        let window = [self.state.window.width, self.state.window.height].map(i64::from);
-        let [x, y, width, height] = gl.get_integers::<4>(c::SCISSOR_BOX).map(i64::from);
-        !self.state.scissor_test
-            || (x <= 0 && y <= 0 && x + width >= window[0] && y + height >= window[1])
-    }
-
     /// Views that are drawn where none is made.
     fn needed(&self) -> u32 {
         let (wanted, own) = (self.wanted_views(), self.targets.atlas.tiles.own());
@@ -297,7 +144,8 @@ impl Layer {
         needed.count() as u32
     }
 
-    fn may_synthesise(&self) -> bool {
+    /// Whether atlas, output and settings allow that views are synthesised.
+    pub(super) fn may_synthesise(&self) -> bool {
         self.session.config.prove.is_none()
             && self.targets.atlas.depth != 0
             && self.targets.atlas.tiles.grid.is_full()
@@ -308,84 +156,12 @@ impl Layer {
             && self.synthesis.number().is_none_or(|n| n < self.needed())
     }
 
-    /// What a draw that belongs to the scene is projected by, or what it is instead.
-    fn stays(
-        &mut self,
-        gl: &Gl,
-        kind: Kind,
-        plan: &Plan,
-        classed: &Classed,
-        scene: &mut Scene,
-    ) -> Result<Option<DisparityMapping>, &'static str> {
-        let groups = Touch::RANGE | Touch::DEPTH | Touch::COVER;
-        self.state.read_classification(gl, groups);
-        let depth = self.state.classification.depth;
-        if self.state.classification.stencil {
-            return Err("draws with a stencil test");
-        }
-        if self.state.classification.stipple {
-            return Err("draws with a stipple of the screen's");
-        }
-        if matches!(kind, Kind::Accum | Kind::Pixels) || !self.variants.sampled.is_empty() {
-            return Err("pictures and pixels");
-        }
-        if self.state.viewport_kind() != Viewport::Main {
-            return Err("a picture in the picture");
-        }
-        match plan.class {
-            Class::Sky if depth == DepthState::On => Err("a sky with depths"),
-            Class::Sky if depth == DepthState::Off && scene.mapping.is_some() => {
-                Err("a sky over the scene")
-            }
-            Class::Sky => {
-                scene.sky = true;
-                Ok(None)
-            }
-            Class::Flat if scene.mapping.is_some() => Err("what is flat"),
-            Class::Flat if plan.shear.is_some() || depth == DepthState::On => {
-                Err("what is flat and stands elsewhere than on the panel")
-            }
-            Class::Flat | Class::OffScreen => Ok(None),
-            Class::Scene => {
-                let shear = plan.shear.ok_or("a scene without parallax")?;
-                let [matrix, _] = self.projections();
-                let look = &self.state.classification;
-                let ramp = Ramp::of(&matrix, look.depths, look.zero_to_one);
-                let ramp = ramp.ok_or("a projection without depths")?;
-                // Another pass over what is there has its depths.
-                let (blends, equal) = (look.blends, look.equal);
-                let shown = depth == DepthState::On && !blends;
-                if !shown && !equal && (depth == DepthState::Off || !self.is_over_last(gl)) {
-                    return Err(match blends {
-                        true => "what is transparent",
-                        false => "what has no depths",
-                    });
-                }
-                if shown {
-                    self.capture_surface(gl);
-                }
-                let new = DisparityMapping {
-                    ramp,
-                    shear,
-                    viewport: self.state.viewport,
-                };
-                match scene.takes(new) {
-                    true => Ok(Some(new)),
-                    false if classed.focal.is_some() => {
-                        Err("a part of the scene with zero parallax of its own")
-                    }
-                    false => Err("another projection"),
-                }
-            }
-        }
-    }
-
     /// The views that are shown get what the own one shows, from where they stand; all of them are drawn from now on.
     pub(super) fn make_views(&mut self, gl: &Gl) {
-        let Some(scene) = self.synthesis.scene.take() else {
+        let Some(scene) = self.known.scene.take() else {
             return;
         };
-        self.synthesis.done = true;
+        self.known.synthesised = true;
         self.targets.atlas.tiles.shown = self.shown();
         self.queries.pause(gl);
         self.queries.lift_condition(gl);
@@ -491,26 +267,15 @@ impl Layer {
         Some(textures)
     }
 
-    /// Pixels by which a camera one place further sees what is infinitely far to the side.
-    fn far(mapping: &DisparityMapping) -> f64 {
-        mapping.shear.separation(1.0) * f64::from(mapping.viewport[2]) / 2.0
-    }
-
-    /// Disparities over depths: slope and offset.
-    pub(super) fn disparity_line(&self, mapping: &DisparityMapping) -> [f64; 2] {
-        let size = Self::far(mapping).abs() * mapping.shear.conv;
-        mapping.ramp.line().map(|v| size * v)
-    }
-
     fn disparities(&self, scene: &Scene, mapping: &DisparityMapping) -> Disparities {
-        let far = Self::far(mapping);
-        let [scale, offset] = self.disparity_line(mapping);
+        let far = mapping.far();
+        let [scale, offset] = mapping.line();
         let tiles = &self.targets.atlas.tiles;
-        let own = self.cameras.rig.position(tiles.own());
-        let baselines = [self.cameras.rig.position(0) - own, 1.0].map(|place| place * far.signum());
+        let own = self.known.rig.position(tiles.own());
+        let baselines = [self.known.rig.position(0) - own, 1.0].map(|place| place * far.signum());
         let step = 0.5f64.powi(self.state.window.bits[4].min(24) as i32);
         let before = scene.before.map(|(mapping, to)| {
-            let [scale, offset] = self.disparity_line(&mapping);
+            let [scale, offset] = mapping.line();
             let side = if mapping.ramp.nearer_is_larger() {
                 1.0
             } else {
@@ -538,7 +303,7 @@ impl Layer {
     /// At the end of a frame: what is not made yet is made, or is not needed: the panel's picture comes straight from what is drawn. The
     /// state is as [`Saved::take`] leaves it; changes the framebuffers that are bound.
     pub(super) fn end_scene(&mut self, gl: &Gl) {
-        let Some(scene) = self.synthesis.scene else {
+        let Some(scene) = self.known.scene else {
             return;
         };
         let captured = self
@@ -567,16 +332,16 @@ impl Layer {
     /// After it. A scene that no other view has goes on until it is cleared.
     pub(super) fn leave_scene(&mut self) {
         let straight = self.synthesis.pyramid.take().is_some();
-        self.synthesis.scene = self.synthesis.scene.filter(|_| straight);
-        if let Some(scene) = &mut self.synthesis.scene {
+        self.known.scene = self.known.scene.filter(|_| straight);
+        if let Some(scene) = &mut self.known.scene {
             scene.shown = true;
         }
-        self.synthesis.done = false;
+        self.known.synthesised = false;
     }
 
     /// The tiles are others.
     pub(super) fn forget_scene(&mut self) {
-        self.synthesis.scene = None;
+        self.known.scene = None;
         self.synthesis.reference = ReferenceImage::default();
     }
 }

@@ -3,6 +3,7 @@
 use super::programs::OwnVariants;
 use crate::draw::{Driver, FixedState, Programs};
 use crate::offscreen::Bound;
+use std::sync::Arc;
 
 /// Programs of the layer's, and what is known of the state that they read.
 #[derive(Debug)]
@@ -14,12 +15,10 @@ pub(super) struct Variants {
     pub(super) driver: Driver,
     /// Rewritten from the program's own.
     pub(super) own: OwnVariants,
-    /// What the draw samples that is being made, as far as the views differ in it.
-    pub(super) sampled: Vec<Bound>,
+    /// What the last draw sampled, as far as the views differ in it.
+    pub(super) sampled: Arc<[Bound]>,
     /// The program, and the changes of uniforms and images, up to which that is known.
     pub(super) sampled_by: Option<(u32, u64, u64)>,
-    /// The matrices by which the program computes positions from depths, with their locations.
-    pub(super) unprojections: Vec<(i32, [f32; 16])>,
     /// The program has attributes that advance by instances.
     pub(super) divides: bool,
 }
@@ -31,9 +30,8 @@ impl Variants {
             fixed: None,
             driver,
             own: OwnVariants::default(),
-            sampled: Vec::new(),
+            sampled: Arc::default(),
             sampled_by: None,
-            unprojections: Vec::new(),
             divides: false,
         }
     }

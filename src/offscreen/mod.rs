@@ -219,6 +219,11 @@ impl Offscreen {
         self.target(gl, framebuffer).refused
     }
 
+    /// The views are not to have framebuffers of their own.
+    pub fn refuse(&mut self, gl: &Gl, framebuffer: u32) {
+        self.target(gl, framebuffer).refused = true;
+    }
+
     /// What is known of a framebuffer of the program's.
     pub fn target(&mut self, gl: &Gl, framebuffer: u32) -> &mut Target {
         let target = self.targets.entry(framebuffer);

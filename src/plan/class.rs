@@ -9,7 +9,7 @@ use crate::state::{State, Touch};
 
 /// What there is to know about a draw.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Facts {
+pub struct Traits {
     /// What the program draws with.
     pub kind: Kind,
     /// Where it goes.
@@ -155,7 +155,7 @@ impl Classifier {
         self.hud_depth = depth;
     }
 
-    /// The groups of state that a draw's class may depend on, beside those that every draw needs. `first` as in [`Facts`].
+    /// The groups of state that a draw's class may depend on, beside those that every draw needs. `first` as in [`Traits`].
     pub fn needs(&self, kind: Kind, projection: Projection, first: bool) -> Touch {
         if matches!(kind, Kind::Clear { .. } | Kind::Accum) {
             return Touch::NONE;
@@ -191,7 +191,7 @@ impl Classifier {
     }
 
     /// What a draw is.
-    pub fn class(&self, facts: &Facts) -> Classed {
+    pub fn class(&self, facts: &Traits) -> Classed {
         let classed = |class, why| Classed {
             class,
             depth: 0.0,
@@ -247,11 +247,11 @@ impl Classifier {
 
 /// A sky is turned with the camera but stays around it; it writes no depth, so it comes before what does. The identity is no sky:
 /// programs that move vertices themselves draw everything with it.
-fn is_sky(facts: &Facts) -> bool {
+fn is_sky(facts: &Traits) -> bool {
     facts.first && facts.centred && facts.turns && facts.depth_state != DepthState::On
 }
 
-fn matches(rule: &Rule, facts: &Facts) -> bool {
+fn matches(rule: &Rule, facts: &Traits) -> bool {
     let any = |names: &[u32], name: Option<u32>| {
         names.is_empty() || name.is_some_and(|name| names.contains(&name))
     };
@@ -269,11 +269,11 @@ fn matches(rule: &Rule, facts: &Facts) -> bool {
             .is_none_or(|(first, last)| (first..=last).contains(&facts.draw))
 }
 
-impl Facts {
+impl Traits {
     /// From the state, of which [`Classifier::needs`] has been read; what is not in it is left at its least.
-    pub fn of(kind: Kind, state: &State) -> Facts {
+    pub fn of(kind: Kind, state: &State) -> Traits {
         let p = &state.projection;
-        Facts {
+        Traits {
             kind,
             target: match state.framebuffers.draw {
                 _ if state.draws_to_window() => Target::Window,

@@ -4,9 +4,9 @@
 
 use super::super::Layer;
 use super::super::frame::tile;
-use super::{DisparityMapping, Scene};
 use crate::config::CaptureWhat;
 use crate::gl::{Gl, consts as c};
+use crate::plan::decide::{DisparityMapping, Scene};
 use crate::present::capture::read_rgb;
 use crate::volume::{Before, Head, Samples};
 

@@ -24,25 +24,23 @@ pub(in crate::layer) struct Surface {
     sides: (bool, [i32; 2], [i32; 2]),
 }
 
-/// The draw that is planned, and the last surface.
+/// The last surface that was drawn.
 #[derive(Debug, Default)]
 pub(in crate::layer) struct Surfaces {
-    /// What is drawn next, if it is known.
-    pub(in crate::layer) next: Option<Primitives>,
     last: Option<Surface>,
 }
 
 impl Surfaces {
     /// What was drawn is no more.
-    pub(super) fn forget(&mut self) {
+    pub(in crate::layer) fn forget(&mut self) {
         self.last = None;
     }
 }
 
 impl Layer {
-    /// The surface that is drawn next, where that can be told.
-    fn surface(&mut self, gl: &Gl) -> Option<Surface> {
-        let next = self.synthesis.surfaces.next?;
+    /// The surface of a draw, where that can be told.
+    fn surface(&mut self, gl: &Gl, next: Option<Primitives>) -> Option<Surface> {
+        let next = next?;
         let (Primitives::Arrays { mode, count, .. } | Primitives::Elements { mode, count, .. }) =
             next;
         let fixed = self.state.compatibility && self.state.program == 0 && self.state.pipeline == 0;
@@ -80,16 +78,16 @@ impl Layer {
     }
 
     /// Whether a draw is another pass over the last surface: it shows only where that is seen.
-    pub(super) fn is_over_last(&mut self, gl: &Gl) -> bool {
+    pub(in crate::layer) fn is_over_last(&mut self, gl: &Gl, next: Option<Primitives>) -> bool {
         let tests = [c::LEQUAL, c::EQUAL, c::GEQUAL];
         self.synthesis.surfaces.last.is_some()
             && tests.contains(&(gl.get_integer(c::DEPTH_FUNC) as u32))
-            && self.surface(gl) == self.synthesis.surfaces.last
+            && self.surface(gl, next) == self.synthesis.surfaces.last
     }
 
     /// A draw with depths of its own goes to the scene.
-    pub(super) fn capture_surface(&mut self, gl: &Gl) {
+    pub(in crate::layer) fn capture_surface(&mut self, gl: &Gl, next: Option<Primitives>) {
         let whole = self.state.compatibility && !gl.is_enabled(c::ALPHA_TEST);
-        self.synthesis.surfaces.last = if whole { self.surface(gl) } else { None };
+        self.synthesis.surfaces.last = if whole { self.surface(gl, next) } else { None };
     }
 }

@@ -9,8 +9,8 @@ fn classifier(profile: &str) -> Classifier {
     Classifier::new(&profile, None, Some("room"), false)
 }
 
-fn facts() -> Facts {
-    Facts {
+fn facts() -> Traits {
+    Traits {
         kind: Kind::Begin(7),
         target: Target::Window,
         draw: 5,
@@ -29,7 +29,7 @@ fn facts() -> Facts {
     }
 }
 
-fn class(classifier: &Classifier, facts: Facts) -> (Class, Why) {
+fn class(classifier: &Classifier, facts: Traits) -> (Class, Why) {
     let classed = classifier.class(&facts);
     (classed.class, classed.why)
 }
@@ -37,7 +37,7 @@ fn class(classifier: &Classifier, facts: Facts) -> (Class, Why) {
 #[test]
 fn the_state_tells_what_a_draw_is() {
     let c = classifier("");
-    let sky = Facts {
+    let sky = Traits {
         depth_state: DepthState::Off,
         turns: true,
         ..facts()
@@ -45,7 +45,7 @@ fn the_state_tells_what_a_draw_is() {
     let cases = [
         (facts(), Class::Scene, Why::Perspective),
         (
-            Facts {
+            Traits {
                 projection: Projection::Orthographic,
                 ..facts()
             },
@@ -53,7 +53,7 @@ fn the_state_tells_what_a_draw_is() {
             Why::Orthographic,
         ),
         (
-            Facts {
+            Traits {
                 projection: Projection::None,
                 ..facts()
             },
@@ -61,7 +61,7 @@ fn the_state_tells_what_a_draw_is() {
             Why::NoProjection,
         ),
         (
-            Facts {
+            Traits {
                 kind: Kind::Pixels,
                 ..facts()
             },
@@ -69,7 +69,7 @@ fn the_state_tells_what_a_draw_is() {
             Why::Raster,
         ),
         (
-            Facts {
+            Traits {
                 kind: Kind::Pixels,
                 raster: Projection::Perspective,
                 projection: Projection::Orthographic,
@@ -79,7 +79,7 @@ fn the_state_tells_what_a_draw_is() {
             Why::Raster,
         ),
         (
-            Facts {
+            Traits {
                 kind: Kind::Clear {
                     depths: true,
                     whole: 0,
@@ -90,7 +90,7 @@ fn the_state_tells_what_a_draw_is() {
             Why::Whole,
         ),
         (
-            Facts {
+            Traits {
                 target: Target::Framebuffer(4),
                 ..sky
             },
@@ -98,7 +98,7 @@ fn the_state_tells_what_a_draw_is() {
             Why::Framebuffer(4),
         ),
         (
-            Facts {
+            Traits {
                 target: Target::Nothing,
                 ..sky
             },
@@ -107,7 +107,7 @@ fn the_state_tells_what_a_draw_is() {
         ),
         (sky, Class::Sky, Why::Around),
         (
-            Facts {
+            Traits {
                 range: DepthRange::Far,
                 first: false,
                 ..facts()
@@ -116,7 +116,7 @@ fn the_state_tells_what_a_draw_is() {
             Why::Behind,
         ),
         (
-            Facts {
+            Traits {
                 range: DepthRange::Far,
                 projection: Projection::Orthographic,
                 ..facts()
@@ -125,7 +125,7 @@ fn the_state_tells_what_a_draw_is() {
             Why::Orthographic,
         ),
         (
-            Facts {
+            Traits {
                 range: DepthRange::Near,
                 ..facts()
             },
@@ -133,7 +133,7 @@ fn the_state_tells_what_a_draw_is() {
             Why::Perspective,
         ),
         (
-            Facts {
+            Traits {
                 depth_state: DepthState::TestOnly,
                 ..sky
             },
@@ -146,19 +146,19 @@ fn the_state_tells_what_a_draw_is() {
     }
     // Whatever is not like a sky in every respect is scene.
     for near in [
-        Facts {
+        Traits {
             depth_state: DepthState::On,
             ..sky
         },
-        Facts {
+        Traits {
             turns: false,
             ..sky
         },
-        Facts {
+        Traits {
             centred: false,
             ..sky
         },
-        Facts {
+        Traits {
             first: false,
             ..sky
         },
@@ -194,47 +194,47 @@ fn the_first_rule_whose_every_key_matches_decides() {
     let why = |facts| c.class(&facts).why;
     assert_eq!(why(facts()), Why::Rule(7));
     assert_eq!(c.class(&facts()).focal, None);
-    let near = Facts {
+    let near = Traits {
         range: DepthRange::Near,
         ..facts()
     };
     assert_eq!((why(near), c.class(&near).focal), (Why::Rule(6), Some(2.0)));
-    let inset = Facts {
+    let inset = Traits {
         viewport: Viewport::Inset,
         ..near
     };
     assert_eq!(why(inset), Why::Rule(5));
-    let flat = Facts {
+    let flat = Traits {
         projection: Projection::Orthographic,
         ..facts()
     };
     assert_eq!((why(flat), c.class(&flat).depth), (Why::Rule(2), -0.5));
-    let other_texture = Facts { texture: 2, ..flat };
+    let other_texture = Traits { texture: 2, ..flat };
     assert_eq!(why(other_texture), Why::Rule(7));
-    let list = Facts {
+    let list = Traits {
         list: Some(9),
         ..facts()
     };
     assert_eq!(why(list), Why::Rule(3));
-    let late = Facts {
+    let late = Traits {
         draw: 12,
         ..facts()
     };
     assert_eq!((why(late), c.class(&late).depth), (Why::Rule(4), 0.5));
-    let late_flat = Facts { draw: 12, ..flat };
+    let late_flat = Traits { draw: 12, ..flat };
     assert_eq!(
-        why(Facts {
+        why(Traits {
             texture: 0,
             ..late_flat
         }),
         Why::Rule(4)
     );
-    let outside = Facts {
+    let outside = Traits {
         depth_state: DepthState::Off,
         draw: 12,
         ..flat
     };
-    let classed = c.class(&Facts {
+    let classed = c.class(&Traits {
         texture: 0,
         ..outside
     });
@@ -273,21 +273,21 @@ fn state_is_asked_for_only_where_it_may_decide() {
 fn a_suggested_rule_is_one_that_matches_and_changes_the_class() {
     let all = [
         facts(),
-        Facts {
+        Traits {
             texture: 0,
             ..facts()
         },
-        Facts {
+        Traits {
             projection: Projection::Orthographic,
             depth_state: DepthState::Off,
             ..facts()
         },
-        Facts {
+        Traits {
             range: DepthRange::Far,
             viewport: Viewport::Inset,
             ..facts()
         },
-        Facts {
+        Traits {
             list: Some(7),
             turns: true,
             depth_state: DepthState::TestOnly,
@@ -319,7 +319,7 @@ fn rules_know_shaders_and_passes() {
         ]"#,
     );
     let why = |target, program, shader| {
-        let facts = Facts {
+        let facts = Traits {
             target,
             program,
             shader,
@@ -338,7 +338,7 @@ fn rules_know_shaders_and_passes() {
     let other = why(Target::Framebuffer(6), 2, 255);
     assert_eq!(other, (Class::OffScreen, Why::Framebuffer(6)));
     let line = |target, shader| {
-        let facts = Facts {
+        let facts = Traits {
             target,
             shader,
             texture: 0,

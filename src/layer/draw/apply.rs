@@ -1,0 +1,87 @@
+//! Apply: what has to be done before a draw, so that targets and variants are ready.
+
+use super::super::Layer;
+use super::Request;
+use crate::gl::Gl;
+use crate::plan::decide::{Demand, Detail, Effect, Preparation, Scene, retreat};
+
+impl Layer {
+    /// A command asks for another grid than its kind does.
+    pub(in crate::layer) fn retreat(&mut self, gl: &Gl, demand: Demand) {
+        let grid = self.targets.atlas.tiles.grid;
+        if let Some((detail, why)) = retreat(demand, grid.is_full(), grid.is_sample_aligned()) {
+            self.give_up(gl, detail, why);
+        }
+    }
+
+    /// Does what changes the facts. Whether it could be done is a fact afterwards.
+    pub(super) fn prepare(&mut self, gl: &Gl, preparation: Preparation) {
+        match preparation {
+            Preparation::Remake(detail, why) => self.give_up(gl, detail, why),
+            Preparation::LinkVariant(program) => self.know(gl, program.0),
+            Preparation::LinkLayers { program, all } => {
+                self.know_layers(gl, program.0, all);
+            }
+            Preparation::Split(framebuffer) => {
+                if !self.split(gl, framebuffer.0) {
+                    self.targets.offscreen.refuse(gl, framebuffer.0);
+                }
+            }
+            Preparation::MeasureDepths => {
+                self.known.depths.begun = true;
+                self.begin_frame(gl);
+            }
+        }
+    }
+
+    /// Does the rest, in order. What is known is still that of before.
+    pub(super) fn apply(&mut self, gl: &Gl, request: &Request, effects: Vec<Effect>) {
+        for effect in effects {
+            match effect {
+                Effect::TakeDepths => self.save_depths(gl),
+                Effect::MapDepths {
+                    ramp,
+                    projection,
+                    focal,
+                    viewport,
+                } => {
+                    let mappings = &mut self.cameras.comfort.mappings;
+                    mappings.drawn(ramp, &projection, focal, viewport);
+                }
+                Effect::MapSky => self.cameras.comfort.mappings.sky = true,
+                Effect::ForgetDepths => self.cameras.comfort.mappings.clear(),
+                Effect::BeginScene { depth } => self.begin_scene(gl, depth),
+                Effect::CaptureSurface => self.capture_surface(gl, request.primitives),
+                Effect::SynthesiseViews => self.make_views(gl),
+                Effect::LeaveMono => self.draw_all_views(gl),
+                Effect::Fallback(reason) => self.diagnostics.fallbacks.add(reason),
+                Effect::Note(sentence) => self.diagnostics.report.note(sentence.into()),
+            }
+        }
+    }
+
+    /// A grid that holds less is given up for the rest of the run, and the atlas made anew.
+    pub(in crate::layer) fn give_up(&mut self, gl: &Gl, detail: Detail, what: &str) {
+        self.targets.detail = detail;
+        let now = match self.grid() {
+            grid if grid.is_full() => "at the size of the window",
+            _ => "with fewer pixels, but not lens by lens",
+        };
+        self.diagnostics
+            .report
+            .note(format!("views are drawn {now}, because the program {what}"));
+        self.targets.stuck = !self.remake(gl);
+    }
+
+    /// A clear has begun a scene that is drawn to some views only.
+    fn begin_scene(&mut self, gl: &Gl, depth: f32) {
+        self.synthesis
+            .begin(self.targets.atlas.tiles.own(), self.session.config.views);
+        self.known.scene = Some(Scene {
+            clear: depth,
+            ..Scene::default()
+        });
+        self.targets.atlas.tiles.shown = self.shown();
+        self.begin_reference(gl);
+    }
+}

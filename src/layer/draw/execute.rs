@@ -1,0 +1,354 @@
+//! Execute: one [`Draw`] to the driver, by the method that was decided, or by replay where that cannot be had after all.
+
+use super::super::Layer;
+use super::super::programs::{Entered, VariantUse};
+use super::super::targets::Targets;
+use super::{Draw, Images, Send};
+use crate::atlas::{Surface, Tiles};
+use crate::draw::{
+    Amplified, Current, Drawing, FixedState, Programs, ReplayHazard, Variant, replay,
+};
+use crate::gl::{Gl, consts as c};
+use crate::offscreen::Target;
+use crate::plan::{Method, Plan, Shear, camera};
+use crate::state::Touch;
+
+/// How a draw goes, once it is known what can be had.
+#[allow(
+    clippy::large_enum_variant,
+    reason = "one at a time, on the stack; a box would be an allocation for each draw"
+)]
+pub(in crate::layer) enum Execution {
+    /// To the driver as it is.
+    Once,
+    /// View by view.
+    Replay,
+    /// By a variant of the program's own shaders, an instance for each view.
+    Instances,
+    /// By a generated program.
+    Amplified(Amplified),
+}
+
+impl Layer {
+    /// Makes a draw.
+    pub(in crate::layer) fn execute(&mut self, gl: &Gl, draw: &mut Draw) {
+        let execution = self.choose(gl, draw.plan, &draw.drawing, draw.amplifiable);
+        self.execute_by(gl, draw, &execution);
+    }
+
+    /// Finds what can be had for a draw, and counts it. `amplifiable`: in another mode or several times at once it is the same.
+    pub(in crate::layer) fn choose(
+        &mut self,
+        gl: &Gl,
+        plan: &Plan,
+        drawing: &Drawing,
+        amplifiable: bool,
+    ) -> Execution {
+        match (plan.method, drawing.mode) {
+            (Method::Once, _) => Execution::Once,
+            (Method::Replay, _) => Execution::Replay,
+            (Method::Instanced, Some(_)) if plan.variant => Execution::Instances,
+            (Method::Instanced | Method::Geometry, Some(mode)) if amplifiable => {
+                let how = self.amplify(gl, plan, mode, drawing.material);
+                how.map_or(Execution::Replay, Execution::Amplified)
+            }
+            (Method::Instanced | Method::Geometry, _) => {
+                self.count_draw(Method::Replay, plan);
+                Execution::Replay
+            }
+        }
+    }
+
+    /// Makes a draw by what was found.
+    pub(in crate::layer) fn execute_by(&mut self, gl: &Gl, draw: &mut Draw, execution: &Execution) {
+        match execution {
+            Execution::Once => self.once(gl, draw.images, &mut || (draw.send)(Send::AsItIs)),
+            Execution::Replay => self.replay_in(gl, draw),
+            Execution::Instances => self.draw_instances(gl, draw),
+            Execution::Amplified(how) => self.draw_amplified(gl, draw, how),
+        }
+    }
+
+    /// The call once, in the program's own view only.
+    fn once(&mut self, gl: &Gl, images: &Images, call: &mut dyn FnMut()) {
+        if self.has_copies() && (!images.bound.is_empty() || self.state.transform_feedback) {
+            self.write_back_textures(gl);
+        }
+        // What is fed back or hit is not drawn, and is told in the program's own viewport.
+        if self.state.draws_to_window() && self.state.render_mode == c::RENDER {
+            // The tiles beside it are others' views.
+            self.scissored(gl, self.targets.atlas.tiles.own(), 0, call);
+        } else {
+            call();
+        }
+    }
+
+    /// View by view, in those that may see it; and to the reference image.
+    fn replay_in(&mut self, gl: &Gl, draw: &mut Draw) {
+        let all = self.targets.atlas.tiles.shown;
+        self.targets.atlas.tiles.shown = draw.views.unwrap_or(all);
+        if draw.plan.reference.is_some() {
+            self.draw_to_reference(gl, draw);
+        }
+        self.replay(gl, draw);
+        self.targets.atlas.tiles.shown = all;
+    }
+
+    fn replay(&mut self, gl: &Gl, draw: &mut Draw) {
+        let framebuffer = self.state.framebuffers.draw;
+        let shown = self.wanted_views();
+        match self.targets.offscreen.take(framebuffer, shown) {
+            Some(target) => self.replay_aside(gl, draw, target),
+            None => self.replay_by(gl, draw, None, VariantUse::Views),
+        }
+    }
+
+    /// To a framebuffer that each view has its own of: to the layers of one where a variant chooses among them.
+    fn replay_aside(&mut self, gl: &Gl, draw: &mut Draw, mut target: Target) {
+        let layered = target.layered();
+        let clears = draw.hazard == ReplayHazard::Clear;
+        let chooses = draw.plan.variant && self.chooses_layers(self.state.program);
+        let layered = layered.filter(|_| clears || chooses);
+        if let Some(name) = layered {
+            gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, name);
+        }
+        target.take_layers(layered.is_some());
+        match layered {
+            // All layers at once.
+            Some(_) if !draw.plan.variant => (draw.send)(Send::AsItIs),
+            Some(_) => self.replay_by(gl, draw, Some(&mut target), VariantUse::Layers),
+            None => self.replay_by(gl, draw, Some(&mut target), VariantUse::Views),
+        }
+        gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, self.state.framebuffers.draw);
+        self.targets.offscreen.drawn_to(&target);
+        self.targets.offscreen.put(target);
+    }
+
+    /// To a target that each view has its own of, or the window; by the variant where the plan says so.
+    fn replay_by(
+        &mut self,
+        gl: &Gl,
+        draw: &mut Draw,
+        target: Option<&mut Target>,
+        with: VariantUse,
+    ) {
+        let (plan, program) = (draw.plan, self.state.program);
+        let entered = match plan.variant {
+            true => self.variants.own.enter(gl, program, with),
+            false => None,
+        };
+        let (rig, own) = (self.known.rig, self.targets.atlas.tiles);
+        let tiles = target.as_ref().map_or(own, |target| target.tiles());
+        let shear = plan.shear.filter(|_| !plan.variant);
+        let prepare = |view: u32| {
+            if let Some(Entered { variant, layers }) = &entered {
+                let place = rig.position(view);
+                set_view(gl, variant, draw.images, plan, place, tiles.stride);
+                if *layers {
+                    variant.set_layers(gl, &[tiles.slot(view)]);
+                }
+            }
+        };
+        let send = &mut *draw.send;
+        let mut call = |view: u32| {
+            prepare(view);
+            send(Send::AsItIs);
+        };
+        self.prove(gl, shear, draw.hazard, draw.images, &mut call);
+        let sent = self.send_views(gl, target, shear, draw.hazard, draw.images, &mut call);
+        if entered.is_some() {
+            gl.use_program(program);
+        }
+        if !sent {
+            self.known.mono.lose();
+            self.diagnostics.report.note(
+                "the program's attribute stack was full: some draws are in its own view only"
+                    .into(),
+            );
+        }
+    }
+
+    /// Sends a draw for each view with its images. Of what queries count, only the own view is counted.
+    fn send_views(
+        &mut self,
+        gl: &Gl,
+        target: Option<&mut Target>,
+        shear: Option<Shear>,
+        hazard: ReplayHazard,
+        images: &Images,
+        call: &mut dyn FnMut(u32),
+    ) -> bool {
+        let Layer {
+            targets,
+            state,
+            known,
+            queries,
+            ..
+        } = self;
+        let Targets {
+            atlas, offscreen, ..
+        } = targets;
+        let surface: &mut dyn Surface = match target {
+            Some(target) => target,
+            None => atlas,
+        };
+        let (own, mut paused) = (surface.tiles().own(), true);
+        queries.pause(gl);
+        let each = &mut |view| {
+            if view == own && std::mem::take(&mut paused) {
+                queries.resume(gl);
+            }
+            offscreen.bind(gl, &images.bound, view);
+            call(view);
+        };
+        let sent = replay(gl, surface, state, &known.rig, shear, hazard, true, each);
+        offscreen.unbind(gl, &images.bound);
+        sent
+    }
+
+    /// All views at once, by a variant that has an instance for each and chooses its layer.
+    fn draw_instances(&mut self, gl: &Gl, draw: &mut Draw) {
+        let (plan, program, rig) = (draw.plan, self.state.program, self.known.rig);
+        let framebuffer = self.state.framebuffers.draw;
+        let shifts = (plan.shear, plan.flat);
+        if self.diagnostics.proving.atlas().is_some()
+            && let Some(Entered { variant, .. }) =
+                self.variants.own.enter(gl, program, VariantUse::Views)
+        {
+            let stride = self.targets.atlas.tiles.stride;
+            let send = &mut *draw.send;
+            self.prove(gl, None, ReplayHazard::None, draw.images, &mut |view| {
+                variant.set_views(gl, shifts, &[rig.position(view)], stride);
+                send(Send::AsItIs);
+            });
+        }
+        let shown = self.wanted_views();
+        let target = self.targets.offscreen.take(framebuffer, shown);
+        let own = self.targets.atlas.tiles;
+        let tiles = target.as_ref().map_or(own, |target| target.tiles());
+        let entered = self.variants.own.enter(gl, program, VariantUse::Instances);
+        if let (Some(Entered { variant, .. }), Some(mode)) = (entered, draw.drawing.mode) {
+            let count = set_all_views(gl, &variant, plan, &rig, &tiles);
+            match target.as_ref().and_then(|target| target.layered()) {
+                Some(name) => gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, name),
+                None => self.targets.atlas.bind_layered(gl),
+            }
+            (draw.send)(Send::Instances { mode, count });
+        } else {
+            (draw.send)(Send::AsItIs);
+        }
+        gl.use_program(program);
+        match target {
+            Some(target) => {
+                gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, framebuffer);
+                self.targets.offscreen.drawn_to(&target);
+                self.targets.offscreen.put(target);
+            }
+            None => self.targets.atlas.bind_row(gl, 0),
+        }
+        self.frame.amplifies = true;
+        self.count_draw(Method::Instanced, plan);
+    }
+
+    /// Reads the state of fixed function, where it is not known.
+    pub(in crate::layer) fn read_fixed(&mut self, gl: &Gl) {
+        let (touched, samples) = (self.state.touched, self.state.window.samples);
+        if touched.has(Touch::FIXED) || self.variants.fixed.is_none() {
+            self.variants.fixed = Some(FixedState::read(gl, self.variants.driver, samples));
+        } else if touched.has(Touch::MATERIAL)
+            && let Some(fixed) = &mut self.variants.fixed
+        {
+            fixed.reread_material(gl);
+        }
+        self.state.touched = touched.without(Touch::FIXED | Touch::MATERIAL);
+    }
+
+    /// Prepares an amplified draw and counts it; `None`: it has to be replayed, and the reason is counted.
+    fn amplify(&mut self, gl: &Gl, plan: &Plan, mode: u32, material: bool) -> Option<Amplified> {
+        self.read_fixed(gl);
+        let atlas = &self.targets.atlas;
+        let fixed = self.variants.fixed.as_ref()?;
+        let programs = &mut self.variants.programs;
+        let how = Programs::allow(&self.state, atlas)
+            .and_then(|()| programs.prepare(gl, plan.method, mode, fixed, material, atlas));
+        self.diagnostics.report.shaders(programs.compiled);
+        match how {
+            Ok(how) => {
+                self.frame.amplifies = true;
+                self.count_draw(plan.method, plan);
+                Some(how)
+            }
+            Err(reason) => {
+                self.diagnostics.proving.replayed();
+                self.count_draw(Method::Replay, plan);
+                self.diagnostics.fallbacks.add(reason);
+                None
+            }
+        }
+    }
+
+    /// By a generated program, in one call or a few.
+    fn draw_amplified(&mut self, gl: &Gl, draw: &mut Draw, how: &Amplified) {
+        let (plan, send) = (draw.plan, &mut *draw.send);
+        self.prove(gl, plan.shear, draw.hazard, draw.images, &mut |_| {
+            send(Send::AsItIs);
+        });
+        // Several calls (many views, several layers) each start from the same current values.
+        let current = match draw.hazard {
+            ReplayHazard::Current(e) => Current::take(gl, e, false),
+            _ => Current::default(),
+        };
+        let instanced = plan.method == Method::Instanced;
+        let mut first = true;
+        let mut call = |count: u32| {
+            if !std::mem::take(&mut first) {
+                current.put(gl);
+            }
+            let mode = how.mode;
+            send(match instanced {
+                true => Send::Instances { mode, count },
+                false => Send::InMode(mode),
+            });
+        };
+        let Some(fixed) = &self.variants.fixed else {
+            return;
+        };
+        self.variants.programs.draw(
+            gl,
+            &mut self.targets.atlas,
+            &self.state,
+            &self.known.rig,
+            plan.shear,
+            fixed,
+            how,
+            &mut call,
+        );
+    }
+}
+
+/// Gives a variant in use what one view has: its shift, and the matrices that take depths back, at the view's place.
+fn set_view(gl: &Gl, variant: &Variant, images: &Images, plan: &Plan, place: f64, stride: u32) {
+    variant.set_views(gl, (plan.shear, plan.flat), &[place], stride);
+    for (location, m) in images.unprojections.iter() {
+        let moved = plan
+            .shear
+            .map(|shear| camera::unprojection(m, &shear, place));
+        variant.set_matrix(gl, *location, &moved.unwrap_or(*m));
+    }
+}
+
+/// Gives a variant in use all views that are drawn, each with its layer; answers how many they are.
+fn set_all_views(
+    gl: &Gl,
+    variant: &Variant,
+    plan: &Plan,
+    rig: &crate::plan::Rig,
+    tiles: &Tiles,
+) -> u32 {
+    let views: Vec<u32> = tiles.order().collect();
+    let places: Vec<f64> = views.iter().map(|&view| rig.position(view)).collect();
+    let layers: Vec<u32> = views.iter().map(|&view| tiles.slot(view)).collect();
+    variant.set_views(gl, (plan.shear, plan.flat), &places, tiles.stride);
+    variant.set_layers(gl, &layers);
+    views.len() as u32
+}

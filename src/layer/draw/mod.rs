@@ -1,0 +1,251 @@
+//! The path of a draw: observe → decide → apply → execute → observers.
+//!
+//! A hook calls [`Layer::draw`], [`Layer::primitives`] or one of their kin with a [`Request`]. `observe` reads the state that a decision depends
+//! on; [`crate::plan::decide`] decides; `apply` does what has to be done before; `execute` sends one [`Draw`] to the driver; `observers` tell of it.
+
+mod apply;
+mod corners;
+mod execute;
+mod observe;
+mod observers;
+mod primitives;
+
+pub(super) use execute::Execution;
+pub use primitives::Primitives;
+
+use super::Layer;
+use crate::atlas::ViewSet;
+use crate::config::Class;
+use crate::draw::{Drawing, ReplayHazard};
+use crate::gl::Gl;
+use crate::offscreen::Bound;
+use crate::plan::decide::Demand;
+use crate::plan::{Kind, Method, Plan, decide};
+use crate::state::{Command, Run, Touch};
+use std::sync::Arc;
+
+/// Times that a command is observed and decided at most: each preparation changes a fact, and there are fewer kinds of them.
+const ROUNDS: usize = 12;
+
+/// What a hook asks for.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Request {
+    pub(super) kind: Kind,
+    /// The draw, where it is one from arrays.
+    pub(super) primitives: Option<Primitives>,
+    pub(super) demand: Demand,
+}
+
+impl Request {
+    pub(super) fn of(kind: Kind) -> Self {
+        Request {
+            kind,
+            primitives: None,
+            demand: Demand::None,
+        }
+    }
+}
+
+/// Images that each view has its own of.
+#[derive(Clone, Debug)]
+pub(super) struct Images {
+    /// Those that the draw reads.
+    pub(super) bound: Arc<[Bound]>,
+    /// The matrices by which the program computes positions from their depths, with their locations.
+    pub(super) unprojections: Arc<[(i32, [f32; 16])]>,
+}
+
+/// A command that was decided, and for which everything is ready.
+#[derive(Clone, Debug)]
+pub(super) struct Decided {
+    pub(super) plan: Plan,
+    pub(super) images: Images,
+}
+
+/// How the driver is to be sent a draw.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Send {
+    /// As the program does.
+    AsItIs,
+    /// With another primitive mode.
+    InMode(u32),
+    /// Several times at once.
+    Instances {
+        /// The primitive mode.
+        mode: u32,
+        /// Number of instances.
+        count: u32,
+    },
+}
+
+/// A draw on its way to the driver: all its arguments.
+pub(super) struct Draw<'a> {
+    pub(super) plan: &'a Plan,
+    pub(super) images: &'a Images,
+    /// What its second sending would start from.
+    pub(super) hazard: ReplayHazard,
+    /// What it is made of.
+    pub(super) drawing: Drawing,
+    /// Sent to the driver in another mode or several times it is the same.
+    pub(super) amplifiable: bool,
+    /// Those of the drawn views that may see some of it; none: all.
+    pub(super) views: Option<ViewSet>,
+    pub(super) send: &'a mut dyn FnMut(Send),
+}
+
+/// A draw of which nothing is known.
+pub(super) const UNKNOWN: Drawing = Drawing {
+    mode: None,
+    vertices: 0,
+    cuts: false,
+    material: false,
+};
+
+/// The key of the report for a method.
+pub(super) fn method_name(m: Method) -> &'static str {
+    match m {
+        Method::Once => "once",
+        Method::Replay => "replay",
+        Method::Instanced => "instanced",
+        Method::Geometry => "geometry",
+    }
+}
+
+/// The run of a display list that a draw belongs to.
+fn run(kind: Kind) -> Run {
+    match kind {
+        Kind::Clear { .. } => Run::Clear,
+        Kind::Pixels => Run::Raster,
+        Kind::Begin(_)
+        | Kind::Arrays(_)
+        | Kind::Elements(_)
+        | Kind::Other
+        | Kind::List
+        | Kind::Accum => Run::Draw,
+    }
+}
+
+impl Layer {
+    /// Any draw that the driver can be asked to make again; `call` makes it.
+    pub fn draw(&mut self, gl: &Gl, kind: Kind, call: &mut dyn FnMut()) {
+        if self.compiles() {
+            self.compile(gl, Command::Of(run(kind)), Touch::NONE);
+            return call();
+        }
+        let Decided { mut plan, images } = self.decide(gl, &Request::of(kind));
+        let hazard = match kind {
+            Kind::Clear { .. } => ReplayHazard::Clear,
+            // The position moves, and the projection matters no more.
+            Kind::Pixels if plan.class == Class::Scene => {
+                plan.shear = None;
+                ReplayHazard::Raster(self.cameras.raster)
+            }
+            Kind::Pixels => ReplayHazard::Raster(plan.shear.take()),
+            _ => ReplayHazard::None,
+        };
+        self.execute(
+            gl,
+            &mut Draw {
+                plan: &plan,
+                images: &images,
+                hazard,
+                drawing: UNKNOWN,
+                amplifiable: false,
+                views: None,
+                send: &mut |_| call(),
+            },
+        );
+    }
+
+    /// A draw from arrays; `call` is the program's own.
+    pub fn primitives(&mut self, gl: &Gl, primitives: Primitives, call: &mut dyn FnMut()) {
+        let kind = match primitives {
+            Primitives::Arrays { mode, .. } => Kind::Arrays(mode),
+            Primitives::Elements { mode, .. } => Kind::Elements(mode),
+        };
+        if self.compiles() {
+            return self.draw(gl, kind, call);
+        }
+        let request = Request {
+            primitives: Some(primitives),
+            ..Request::of(kind)
+        };
+        let Decided { plan, images } = self.decide(gl, &request);
+        let drawing = match plan.reference.is_some() {
+            true => primitives.drawing(gl, &self.session.support),
+            false => Drawing {
+                mode: Some(primitives.mode()),
+                ..UNKNOWN
+            },
+        };
+        self.execute(
+            gl,
+            &mut Draw {
+                plan: &plan,
+                images: &images,
+                hazard: ReplayHazard::None,
+                drawing,
+                amplifiable: true,
+                views: None,
+                send: &mut |how| primitives.send(gl, how, call),
+            },
+        );
+    }
+
+    /// Observes, decides and applies: the draw can be made.
+    pub(super) fn decide(&mut self, gl: &Gl, request: &Request) -> Decided {
+        self.explain_last(gl);
+        self.state.refresh(gl);
+        self.retreat(gl, request.demand);
+        for _ in 0..ROUNDS {
+            let (facts, images) = self.observe(gl, request);
+            match decide(&facts, &self.known, &self.settings()) {
+                Ok(decision) => {
+                    self.apply(gl, request, decision.effects);
+                    self.known = decision.known;
+                    self.observe_decision(gl, &facts, &decision.plan);
+                    let plan = decision.plan;
+                    return Decided { plan, images };
+                }
+                Err(preparation) => self.prepare(gl, preparation),
+            }
+        }
+        self.undecided(gl, request)
+    }
+
+    /// What nothing could be prepared for is drawn once: the program goes on.
+    fn undecided(&mut self, gl: &Gl, request: &Request) -> Decided {
+        self.diagnostics.report.note(
+            "some draws are in the program's own view only: what they need was never ready".into(),
+        );
+        let (facts, images) = self.observe(gl, request);
+        self.known.mono.lose();
+        Decided {
+            plan: Plan::once(&facts),
+            images,
+        }
+    }
+
+    /// glRasterPos, after the driver's own: the position stands for a point of the scene and moves with the view.
+    pub fn placed_raster(&mut self, gl: &Gl) {
+        self.state.refresh(gl);
+        self.cameras.raster = self.known.rig.shear(&self.state.projection);
+        self.cameras.raster_placed = self.state.projection_kind();
+    }
+
+    /// glWindowPos: the position is one of the window.
+    pub fn placed_in_window(&mut self) {
+        self.cameras.raster = None;
+        self.cameras.raster_placed = crate::config::Projection::None;
+    }
+
+    /// State groups that a command touches; false where it is compiled into a list instead.
+    #[inline]
+    pub fn touch(&mut self, groups: Touch) -> bool {
+        if self.state.list.is_some() {
+            return false;
+        }
+        self.state.touch(groups);
+        true
+    }
+}

@@ -1,0 +1,291 @@
+//! Observe: the state that a decision depends on, read where a command has touched it, as [`Facts`].
+
+use super::super::Layer;
+use super::{Images, Request};
+use crate::config::{Output, Projection};
+use crate::gl::{FramebufferName, Gl, ProgramName, TextureName, consts as c};
+use crate::interleave::Sources;
+use crate::plan::class::{Classed, Target, Traits};
+use crate::plan::decide::{
+    ClearFacts, Destination, GridFacts, Linked, Projections, Rects, Settings, Shaders,
+    SynthesisFacts, is_over_candidate, needs,
+};
+use crate::plan::{Facts, Kind};
+use crate::state::Touch;
+use std::sync::Arc;
+
+impl Layer {
+    /// What the user and the driver have settled.
+    pub(super) fn settings(&self) -> Settings {
+        let support = &self.session.support;
+        Settings {
+            strategy: self.session.strategy,
+            instanced: support.instanced(),
+            geometry: support.geometry(),
+            same_depths: self.session.same_depths(),
+            views: self.session.config.views,
+            shows_depth: self.output() == Output::Rgbd,
+            measures_depths: self.cameras.comfort.looks() && !self.session.live.flat,
+            synthesises: self.synthesis.passes.is_some(),
+        }
+    }
+
+    /// One command and the state that it finds; [`crate::state::State::refresh`] has been called.
+    pub(super) fn observe(&mut self, gl: &Gl, request: &Request) -> (Facts, Images) {
+        let kind = request.kind;
+        let whole = matches!(kind, Kind::Clear { .. } | Kind::Accum);
+        let shaders = self.observe_shaders(gl, whole);
+        let (target, lens) = self.target(gl, &shaders);
+        let traits = self.traits(gl, kind, target, &shaders);
+        let classed = self.cameras.classifier.class(&traits);
+        let settings = self.settings();
+        let groups = needs(kind, &classed, &shaders, &self.known, &settings);
+        self.state.read_classification(gl, groups);
+        let images = match whole || matches!(shaders, Shaders::Unlinked(_)) {
+            true => Images::none(),
+            false => self.observe_images(gl),
+        };
+        let reads_views = !images.bound.is_empty();
+        let mut facts = Facts {
+            traits,
+            classed,
+            projections: self.observe_projections(lens),
+            rects: self.observe_rects(),
+            shaders,
+            state: self.state.classification,
+            destination: self.observe_destination(gl, &shaders),
+            grid: self.observe_grid(gl, kind),
+            clear: ClearFacts::default(),
+            synthesis: SynthesisFacts::default(),
+            counted: self.queries.active(),
+            reads_views,
+        };
+        if let Kind::Clear { whole, .. } = kind {
+            facts.clear = self.observe_clear(gl, whole, &settings);
+        }
+        if settings.synthesises && facts.destination.is_window() {
+            facts.synthesis = self.observe_synthesis(gl, request, &facts, &classed);
+        }
+        (facts, images)
+    }
+
+    fn observe_projections(&self, lens: Option<f64>) -> Projections {
+        let [matrix, scene] = self.projections();
+        Projections {
+            fixed: self.state.projection,
+            matrix,
+            scene,
+            lens,
+            raster_moves: self.cameras.raster.is_some(),
+        }
+    }
+
+    fn observe_rects(&self) -> Rects {
+        let state = &self.state;
+        Rects {
+            viewport: state.viewport,
+            scissor: state.scissor_test.then_some(state.scissor),
+            window: [state.window.width, state.window.height],
+        }
+    }
+
+    /// What the draw is classed by.
+    fn traits(&mut self, gl: &Gl, kind: Kind, target: Target, shaders: &Shaders) -> Traits {
+        let shown = matches!(target, Target::Window | Target::Pass(_));
+        let clear = matches!(kind, Kind::Clear { .. } | Kind::Accum);
+        let counts = !clear && self.state.list.is_none();
+        let first = !self.known.frame.deep || clear && shown;
+        let projection = match shaders {
+            Shaders::Variant(variant) if shown && !clear && variant.lost => Projection::None,
+            Shaders::Variant(_) if shown && !clear => Projection::Perspective,
+            _ => self.state.projection_kind(),
+        };
+        let classifier = &self.cameras.classifier;
+        if shown {
+            let needs = classifier.needs(kind, projection, first);
+            self.state.read_classification(gl, needs);
+            let depth = self.state.classification.depth;
+            if classifier.needs_modelview(projection, first, depth) && !clear {
+                self.state.read_classification(gl, Touch::MODELVIEW);
+            }
+        }
+        let (program, shader) = match self.state.program {
+            0 => (0, 0),
+            program if classifier.needs_shader() => self.told_of(program),
+            _ => (0, 0),
+        };
+        Traits {
+            target,
+            program,
+            shader,
+            draw: self.known.frame.draws + u32::from(counts),
+            list: self.frame.list,
+            raster: self.cameras.raster_placed,
+            first,
+            projection,
+            ..Traits::of(kind, &self.state)
+        }
+    }
+
+    fn observe_shaders(&mut self, gl: &Gl, whole: bool) -> Shaders {
+        let program = self.state.program;
+        if program == 0 {
+            return match self.state.pipeline {
+                0 => Shaders::Fixed,
+                _ => Shaders::Pipeline,
+            };
+        }
+        let window = self.state.framebuffers.draw == 0;
+        let relevant = self.session.config.views > 1 && self.state.makes_pictures();
+        if !relevant || whole && window {
+            return Shaders::WithoutVariant(ProgramName(program));
+        }
+        self.variant_facts(gl, ProgramName(program))
+    }
+
+    /// What is drawn to. The views of a framebuffer of the program's matter only where there are several.
+    fn observe_destination(&mut self, gl: &Gl, shaders: &Shaders) -> Destination {
+        let framebuffer = self.state.framebuffers.draw;
+        let picture = self.state.makes_pictures();
+        let own = framebuffer != 0 && picture && self.session.config.views > 1;
+        let offscreen = &mut self.targets.offscreen;
+        let split = match own {
+            true if offscreen.is_made(gl, framebuffer) => Linked::Yes,
+            true if offscreen.is_refused(gl, framebuffer) => Linked::Refused,
+            _ => Linked::Untried,
+        };
+        let variant = matches!(shaders, Shaders::Variant(_));
+        let tiles = &self.targets.atlas.tiles;
+        Destination {
+            framebuffer: FramebufferName(framebuffer),
+            picture,
+            differs: own && offscreen.is_split(gl, framebuffer),
+            split,
+            layered: variant
+                && match own {
+                    true => offscreen.target(gl, framebuffer).layered().is_some(),
+                    false => {
+                        tiles.columns == 1
+                            && tiles.grid.is_full()
+                            && self.targets.atlas.layered().is_some()
+                    }
+                },
+            front: self.targets.atlas.has_front(),
+            copies: !offscreen.is_empty(),
+        }
+    }
+
+    /// Tiles with other samples than the window's pixels, unless no other atlas can be had.
+    fn observe_grid(&self, gl: &Gl, kind: Kind) -> Option<GridFacts> {
+        let grid = self.targets.atlas.tiles.grid;
+        if grid.is_full() || self.targets.stuck || !self.state.draws_to_window() {
+            return None;
+        }
+        let fixed = self.state.program == 0 && self.state.pipeline == 0;
+        let surfaces = fixed && !matches!(kind, Kind::Clear { .. } | Kind::Accum | Kind::Pixels);
+        let stippled = surfaces && gl.is_enabled(c::POLYGON_STIPPLE);
+        let aligned = grid.is_sample_aligned();
+        let asks = surfaces && aligned && !stippled;
+        Some(GridFacts {
+            aligned,
+            leans: grid.shear != 0.0,
+            stippled,
+            outlined: asks && gl.get_integers::<2>(c::POLYGON_MODE) != [c::FILL as i32; 2],
+        })
+    }
+
+    fn observe_clear(&self, gl: &Gl, whole: u32, settings: &Settings) -> ClearFacts {
+        if !self.state.draws_to_window() {
+            return ClearFacts::default();
+        }
+        let mut wanted = self.known.mono.may_share(whole);
+        if settings.synthesises {
+            wanted |= whole & (c::COLOR_BUFFER_BIT | c::DEPTH_BUFFER_BIT);
+        }
+        let mut writable = 0;
+        if wanted & c::COLOR_BUFFER_BIT != 0 && gl.get_integers::<4>(c::COLOR_WRITEMASK) == [1; 4] {
+            writable |= c::COLOR_BUFFER_BIT;
+        }
+        if wanted & c::DEPTH_BUFFER_BIT != 0 && gl.get_integer(c::DEPTH_WRITEMASK) != 0 {
+            writable |= c::DEPTH_BUFFER_BIT;
+        }
+        if wanted & c::STENCIL_BUFFER_BIT != 0
+            && gl.get_integer(c::STENCIL_WRITEMASK) & 0xFF == 0xFF
+        {
+            writable |= c::STENCIL_BUFFER_BIT;
+        }
+        ClearFacts {
+            writable,
+            unscissored: self.clears_all(),
+            depth: match settings.synthesises {
+                true => gl.get_floats::<1>(c::DEPTH_CLEAR_VALUE)[0],
+                false => 1.0,
+            },
+        }
+    }
+
+    /// Whether the scissor leaves all of the window.
+    fn clears_all(&self) -> bool {
+        let window = [self.state.window.width, self.state.window.height].map(i64::from);
+        let [x, y, width, height] = self.state.scissor.map(i64::from);
+        !self.state.scissor_test
+            || (x <= 0 && y <= 0 && x + width >= window[0] && y + height >= window[1])
+    }
+
+    fn observe_synthesis(
+        &mut self,
+        gl: &Gl,
+        request: &Request,
+        facts: &Facts,
+        classed: &Classed,
+    ) -> SynthesisFacts {
+        let clear = matches!(request.kind, Kind::Clear { .. });
+        let begun = self.known.scene.is_some();
+        let map = self.targets.atlas.reference().map(|r| TextureName(r.map));
+        let over = begun && !clear && is_over_candidate(facts);
+        debug_assert_eq!(facts.classed, *classed);
+        SynthesisFacts {
+            possible: clear && self.may_synthesise(),
+            joins: clear && self.joins(),
+            over_last: over && self.is_over_last(gl, request.primitives),
+            reference: map.filter(|_| self.synthesis.reference.on),
+            fixed_function: self.state.compatibility,
+        }
+    }
+
+    /// Whether a view would be drawn from a clear on that nothing was drawn to before.
+    fn joins(&self) -> bool {
+        let (own, views) = (self.targets.atlas.tiles.own(), self.session.config.views);
+        let count = self.synthesis.number();
+        let sources = count.map(|count| Sources::spread(own, views, count));
+        let before = self.targets.atlas.tiles.shown;
+        let mut drawn = sources.iter().flat_map(Sources::iter);
+        drawn.any(|view| view != own && !before.has(view))
+    }
+
+    /// The images that a draw reads and that the views differ in.
+    fn observe_images(&mut self, gl: &Gl) -> Images {
+        if self.session.config.views < 2 || !self.state.makes_pictures() {
+            return Images::none();
+        }
+        let bound = self.sampled(gl);
+        // Depths of a view are of its own camera.
+        let unprojections = match bound.is_empty() {
+            true => Arc::default(),
+            false => self.unprojections_of(gl, self.state.program).into(),
+        };
+        Images {
+            bound,
+            unprojections,
+        }
+    }
+}
+
+impl Images {
+    fn none() -> Self {
+        Images {
+            bound: Arc::default(),
+            unprojections: Arc::default(),
+        }
+    }
+}

@@ -1,0 +1,40 @@
+//! Observers: those who tell of a draw, and change nothing of it.
+
+use super::super::Layer;
+use super::method_name;
+use crate::config::Word;
+use crate::gl::Gl;
+use crate::plan::class::{Classed, Why};
+use crate::plan::{Facts, Method, Plan};
+
+impl Layer {
+    /// A draw is decided and about to be made.
+    pub(super) fn observe_decision(&mut self, gl: &Gl, facts: &Facts, plan: &Plan) {
+        let told = match facts.classed.why {
+            Why::Rule(_) => facts.classed,
+            _ if plan.variant => Classed {
+                class: plan.class,
+                why: Why::Shaders,
+                ..facts.classed
+            },
+            _ => facts.classed,
+        };
+        self.explain_this(&facts.traits, &told);
+        self.prove_this(gl, &facts.traits, plan);
+        if plan.method == Method::Once {
+            self.queries.drawn();
+        } else {
+            self.frame.drawn = true;
+        }
+        // An amplified draw is counted when it is known that it can be made.
+        if matches!(plan.method, Method::Once | Method::Replay) {
+            self.count_draw(plan.method, plan);
+        }
+    }
+
+    /// A draw went by a method.
+    pub(super) fn count_draw(&mut self, method: Method, plan: &Plan) {
+        let report = &mut self.diagnostics.report;
+        report.draw(method_name(method), plan.class.word());
+    }
+}

@@ -1,0 +1,78 @@
+//! Which depths are worth a picture: those of the scene, before something spoils them.
+
+use super::{Effect, Facts, Known, Preparation, Settings};
+use crate::config::{Class, DepthState, Viewport};
+use crate::plan::{Kind, Ramp};
+
+fn looked_at(facts: &Facts, settings: &Settings) -> bool {
+    // Depths elsewhere are not those of the window.
+    settings.measures_depths && facts.destination.is_window()
+}
+
+/// Before the first command of a frame.
+pub(super) fn begin(facts: &Facts, known: &Known, settings: &Settings) -> Result<(), Preparation> {
+    match looked_at(facts, settings) && !known.depths.begun {
+        true => Err(Preparation::MeasureDepths),
+        false => Ok(()),
+    }
+}
+
+/// Takes note of a command, and of a picture to be taken before it.
+pub(super) fn watch(
+    facts: &Facts,
+    known: &mut Known,
+    settings: &Settings,
+    effects: &mut Vec<Effect>,
+) {
+    if !looked_at(facts, settings) {
+        return;
+    }
+    let depths = &mut known.depths;
+    let take = |depths: &mut super::DepthWatch, effects: &mut Vec<Effect>| {
+        if depths.pending && !depths.spoilt {
+            depths.pending = false;
+            effects.push(Effect::TakeDepths);
+        }
+    };
+    match (facts.traits.kind, facts.classed.class) {
+        (Kind::Accum | Kind::Clear { depths: false, .. }, _) | (_, Class::OffScreen) => {}
+        (Kind::Clear { .. }, _) => {
+            take(depths, effects);
+            // A part of the window that is cleared has a picture of its own.
+            if facts.rects.scissor.is_none() {
+                depths.spoilt = false;
+                effects.push(Effect::ForgetDepths);
+            }
+        }
+        (_, Class::Sky) => effects.push(Effect::MapSky),
+        (_, Class::Flat) => {
+            if depths.pending && facts.state.depth == DepthState::On {
+                take(depths, effects);
+                depths.spoilt = true;
+            }
+        }
+        (kind, Class::Scene) => {
+            let viewport = facts.traits.viewport;
+            if viewport == Viewport::Main && kind != Kind::Pixels {
+                depths.projection = Some(facts.projections.scene);
+            }
+            if facts.state.depth != DepthState::On {
+                return;
+            }
+            let ramp = Ramp::of(
+                &facts.projections.matrix,
+                facts.state.depths,
+                facts.state.zero_to_one,
+            );
+            if let Some(ramp) = ramp {
+                depths.pending |= viewport == Viewport::Main;
+                effects.push(Effect::MapDepths {
+                    ramp,
+                    projection: facts.projections.scene,
+                    focal: facts.classed.focal,
+                    viewport,
+                });
+            }
+        }
+    }
+}

@@ -1,0 +1,151 @@
+//! Decides one command: facts and what is known in; a plan, the effects before it, and what is known from then on out. Calls no GL.
+//!
+//! One rule a file. A rule reads [`Facts`], reads and changes [`Known`], and may ask for a [`Preparation`] where a fact is missing.
+#![forbid(unsafe_code)]
+
+mod depths;
+mod effect;
+mod facts;
+mod grid;
+mod known;
+mod mono;
+mod pass;
+mod plan;
+mod scene;
+mod shaders;
+mod synthesis;
+#[cfg(test)]
+mod tests;
+
+pub use effect::{Detail, Effect, Preparation};
+pub use facts::{
+    ClearFacts, Destination, Facts, GridFacts, Linked, Projections, Rects, Shaders, SynthesisFacts,
+    VariantFacts,
+};
+pub use grid::{Demand, retreat};
+pub use known::{DepthWatch, Frame, Known, Settings};
+pub use mono::{ALL_BUFFERS, Mono};
+pub use plan::{Flat, Method, Plan, Reason, ReferenceDraw};
+pub use scene::{DisparityMapping, Scene};
+pub use synthesis::is_over_candidate;
+
+use super::Kind;
+use super::class::Classed;
+use crate::config::{Class, Projection, Strategy};
+use crate::state::Touch;
+
+/// One command, decided.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Decision {
+    /// How it is drawn.
+    pub plan: Plan,
+    /// What is done before, in this order.
+    pub effects: Vec<Effect>,
+    /// What is known from now on.
+    pub known: Known,
+}
+
+/// Decides. The error is what has to be prepared first; the command is then to be observed and decided again.
+///
+/// # Errors
+/// A [`Preparation`], each at most once for a command.
+pub fn decide(facts: &Facts, known: &Known, settings: &Settings) -> Result<Decision, Preparation> {
+    let mut known = *known;
+    let mut effects = Vec::new();
+    if let Some((detail, why)) = grid::demanded(facts) {
+        return Err(Preparation::Remake(detail, why));
+    }
+    if let Shaders::Unlinked(program) = facts.shaders
+        && settings.views > 1
+    {
+        return Err(Preparation::LinkVariant(program));
+    }
+    depths::begin(facts, &known, settings)?;
+    scene::observe(facts, &mut known, settings);
+    depths::watch(facts, &mut known, settings, &mut effects);
+    watch_equal_depths(facts, &mut known, settings);
+    let plan = plan::of_fixed_function(facts, &known, settings);
+    let plan = shaders::plan(facts, &mut known, settings, plan, &mut effects);
+    let plan = plan::uncounted(facts, plan);
+    let plan = pass::plan(facts, settings, plan)?;
+    let mut plan = shaders::all_at_once(facts, &known, settings, plan)?;
+    synthesis::watch(facts, &mut known, settings, &mut plan, &mut effects);
+    mono::watch(facts, &mut known, &plan, &mut effects);
+    if let Some(reason) = &plan.reason {
+        effects.push(Effect::Fallback(reason.clone()));
+    }
+    Ok(Decision {
+        plan,
+        effects,
+        known,
+    })
+}
+
+/// The groups of state that a decision reads beside those of the class, once the class is known.
+pub fn needs(
+    kind: Kind,
+    classed: &Classed,
+    shaders: &Shaders,
+    known: &Known,
+    settings: &Settings,
+) -> Touch {
+    let mut needs = Touch::NONE;
+    let mut add = |wanted: bool, groups: Touch| {
+        if wanted {
+            needs = needs | groups;
+        }
+    };
+    let scene = classed.class == Class::Scene;
+    let clear = matches!(kind, Kind::Clear { .. } | Kind::Accum);
+    let direction = settings.shows_depth && known.frame.nearer_is_larger.is_none();
+    add(scene && direction, Touch::RANGE);
+    add(
+        scene && settings.measures_depths,
+        Touch::RANGE | Touch::DEPTH,
+    );
+    let flat = classed.class == Class::Flat && !clear;
+    add(
+        flat && settings.measures_depths && known.depths.pending,
+        Touch::DEPTH,
+    );
+    add(!settings.same_depths && !known.together, Touch::DEPTH);
+    let variant = matches!(shaders, Shaders::Variant(_));
+    add(variant && !clear, Touch::DEPTH);
+    let synthesises = settings.synthesises && known.scene.is_some() && !clear;
+    add(synthesises, Touch::RANGE | Touch::DEPTH | Touch::COVER);
+    add(mono::asks_stencil(known), Touch::COVER);
+    needs
+}
+
+/// Some draws of a program are always replayed, such as those of display lists. Instances in layers have the very depths that
+/// these have; views beside each other and what comes out of a geometry shader do not, so from the first draw with GL_EQUAL on
+/// all draws go the same way. A pass before that one, in the program's first frame, is not drawn again.
+fn watch_equal_depths(facts: &Facts, known: &mut Known, settings: &Settings) {
+    if !settings.same_depths && !known.together && facts.destination.is_window() {
+        known.together = facts.state.equal;
+    }
+}
+
+/// Whether a strategy draws with the depths of replay: `layers`, the driver chooses layers in a vertex shader; `distances`, views beside
+/// each other were asked for by name.
+pub fn has_depths_of_replay(strategy: Strategy, layers: bool, distances: bool) -> bool {
+    match strategy {
+        Strategy::Replay
+        | Strategy::Auto
+        | Strategy::DepthImage
+        | Strategy::Occlusion
+        | Strategy::Hybrid => true,
+        Strategy::Instanced => layers && !distances,
+        Strategy::Geometry => false,
+    }
+}
+
+/// Whether a command writes whole buffers rather than primitives.
+fn is_whole(kind: Kind) -> bool {
+    matches!(kind, Kind::Clear { .. } | Kind::Accum)
+}
+
+/// Whether something in perspective writes depth for the first time: before it there may be a sky.
+fn is_perspective(facts: &Facts) -> bool {
+    facts.traits.projection == Projection::Perspective
+}

@@ -1,0 +1,55 @@
+//! Where each view has its own images of what a draw samples or draws to, it is replayed; a framebuffer gets them when something that
+//! depends on the view is drawn to it.
+
+use super::{Facts, Flat, Linked, Method, Plan, Preparation, Reason, Settings, Shaders, is_whole};
+use crate::config::Class;
+
+/// What becomes of a plan by the images that the draw reads and the framebuffer that it goes to.
+pub(super) fn plan(facts: &Facts, settings: &Settings, plan: Plan) -> Result<Plan, Preparation> {
+    let destination = &facts.destination;
+    if settings.views < 2 || !destination.picture {
+        return Ok(plan);
+    }
+    let mut plan = plan;
+    if facts.reads_views {
+        // A picture of a view stands where that view has it.
+        if plan.flat != Flat::Scene {
+            plan.flat = Flat::Still;
+        }
+        if plan.class == Class::Flat {
+            plan.shear = None;
+        }
+        if matches!(plan.method, Method::Instanced | Method::Geometry) {
+            plan.method = Method::Replay;
+            plan.reason = Some(Reason::Kind(
+                "draws with a texture that each view has its own of",
+            ));
+        }
+    }
+    if destination.framebuffer.is_zero() {
+        return Ok(plan);
+    }
+    let whole = is_whole(facts.traits.kind);
+    let depends = plan.method != Method::Once && !whole && plan.shear.is_some();
+    let split = match (
+        facts.reads_views || depends || destination.differs,
+        destination.split,
+    ) {
+        (true, Linked::Untried) => return Err(Preparation::Split(destination.framebuffer)),
+        (wanted, split) => wanted && split == Linked::Yes,
+    };
+    if split
+        && plan.variant
+        && destination.layered
+        && let Shaders::Variant(variant) = facts.shaders
+        && variant.to_layer == Linked::Untried
+    {
+        return Err(Preparation::LinkLayers {
+            program: variant.program,
+            all: false,
+        });
+    }
+    plan.method = if split { Method::Replay } else { Method::Once };
+    plan.reason = None;
+    Ok(plan)
+}

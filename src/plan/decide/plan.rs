@@ -1,0 +1,211 @@
+//! How a draw goes: which views, which parallax, which strategy.
+
+use super::{Facts, Known, Rects, Settings};
+use crate::config::{Class, Strategy, Viewport};
+use crate::gl::TextureName;
+use crate::plan::{Kind, Shear};
+
+/// Why a draw did not go by the strategy that was asked for. The texts are keys of the report.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Reason {
+    /// Only replay knows this kind of draw.
+    Kind(&'static str),
+    /// The program's own shaders.
+    Program,
+    /// The generator of shaders says no.
+    Fixed(crate::fixed::Unsupported),
+    /// The driver lacks something.
+    Driver(&'static str),
+    /// The driver refused a generated shader.
+    Compile,
+    /// A draw that an occlusion camera's rays do not meet.
+    NoReference(String),
+    /// Views were made of the scene before something that has to be drawn in each.
+    Parted(&'static str),
+}
+
+impl core::fmt::Display for Reason {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        match self {
+            Reason::Kind(what) => write!(f, "{what} are replayed"),
+            Reason::Program => f.write_str("the program's own shaders are replayed"),
+            Reason::Fixed(u) => write!(f, "{u}"),
+            Reason::Driver(what) => write!(f, "the driver has no {what}"),
+            Reason::Compile => f.write_str("the driver refused the generated shader"),
+            Reason::NoReference(why) => {
+                write!(f, "a program draws nothing to the reference image: {why}")
+            }
+            Reason::Parted(what) => write!(f, "views are made before {what}"),
+        }
+    }
+}
+
+/// How the views are drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Method {
+    /// The call goes to the driver once, as it is.
+    Once,
+    /// The call once per view.
+    Replay,
+    /// One instanced draw.
+    Instanced,
+    /// One draw through a geometry shader.
+    Geometry,
+}
+
+/// One draw, decided.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Plan {
+    /// How.
+    pub method: Method,
+    /// What the draw is.
+    pub class: Class,
+    /// The shift of the views; none for what is the same in all of them.
+    pub shear: Option<Shear>,
+    /// It goes by a variant of the program's own shaders.
+    pub variant: bool,
+    /// Under a variant, what has a w of 1 in clip space.
+    pub flat: Flat,
+    /// Why not by the strategy asked for.
+    pub reason: Option<Reason>,
+    /// It goes to the reference image of an occlusion camera as well.
+    pub reference: Option<ReferenceDraw>,
+}
+
+impl Plan {
+    /// The command goes to the driver once, as it is.
+    pub fn once(facts: &Facts) -> Plan {
+        Plan {
+            method: Method::Once,
+            class: facts.classed.class,
+            shear: None,
+            variant: false,
+            flat: Flat::Still,
+            reason: None,
+            reference: None,
+        }
+    }
+}
+
+/// A draw to the reference image, by distorted rays (see [`crate::synthesis`]).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ReferenceDraw {
+    /// Of the primitives, where that is known.
+    pub mode: Option<u32>,
+    /// The distortion map.
+    pub map: TextureName,
+    /// Disparities over z in NDC, in pixels: factor, and what is added.
+    pub disparities: [f32; 2],
+}
+
+/// What vertices are whose w is 1 in clip space: the vertex stage of a program can draw the scene with them, or what has no depth.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Flat {
+    /// The same in all views.
+    Still,
+    /// Shifted as a whole, such as the HUD.
+    By(Shear),
+    /// A part of the scene like any other.
+    Scene,
+}
+
+/// A draw by fixed function: what its class makes of it, and the strategy that was asked for.
+pub(super) fn of_fixed_function(facts: &Facts, known: &Known, settings: &Settings) -> Plan {
+    let (kind, classed, rig) = (facts.traits.kind, &facts.classed, &known.rig);
+    let class = classed.class;
+    let plan = Plan::once(facts);
+    if class == Class::OffScreen {
+        return plan;
+    }
+    let p = &facts.projections.fixed;
+    let shear = match class {
+        _ if super::is_whole(kind) => None,
+        Class::Scene => match classed.focal {
+            None => rig.shear(p),
+            Some(focal) => rig.shear_about(p, focal),
+        },
+        Class::Sky => rig.sky(p),
+        Class::Flat => {
+            let magnified = magnified(facts.traits.viewport, &facts.rects);
+            rig.at_depth(p, classed.depth * magnified)
+        }
+        Class::OffScreen => None,
+    };
+    let (method, reason) = match method(facts, known, settings) {
+        Ok(method) => (method, None),
+        Err(reason) => (Method::Replay, reason),
+    };
+    Plan {
+        method,
+        shear,
+        reason,
+        ..plan
+    }
+}
+
+/// What a shift of the window's is in a small viewport of it: a picture in the picture stands where the display around it does.
+fn magnified(viewport: Viewport, rects: &Rects) -> f64 {
+    match viewport {
+        Viewport::Main => 1.0,
+        Viewport::Inset => f64::from(rects.window[0]) / f64::from(rects.viewport[2].max(1)),
+    }
+}
+
+/// The strategy that was asked for. The error is the reason to replay, where it is worth a word.
+fn method(facts: &Facts, known: &Known, settings: &Settings) -> Result<Method, Option<Reason>> {
+    let kind = facts.traits.kind;
+    let wish = match settings.strategy {
+        // `auto` is in force as one of the others, and what no view is made of is drawn in each.
+        Strategy::Replay
+        | Strategy::Auto
+        | Strategy::DepthImage
+        | Strategy::Occlusion
+        | Strategy::Hybrid => {
+            return Err(None);
+        }
+        Strategy::Geometry => Method::Geometry,
+        Strategy::Instanced => Method::Instanced,
+    };
+    match kind {
+        Kind::Clear { .. } | Kind::Pixels | Kind::Accum => return Err(None),
+        _ if known.together => {
+            return Err(Some(Reason::Kind(
+                "draws of a program whose passes have to meet in every pixel (GL_EQUAL)",
+            )));
+        }
+        Kind::List => return Err(Some(Reason::Kind("display lists"))),
+        Kind::Other => {
+            return Err(Some(Reason::Kind(
+                "rectangles, evaluators, multi-draws and instanced draws",
+            )));
+        }
+        Kind::Begin(_) if wish == Method::Instanced => {
+            return Err(Some(Reason::Kind("immediate-mode draws under `instanced`")));
+        }
+        _ => {}
+    }
+    if facts.shaders.programmed() {
+        return Err(Some(Reason::Program));
+    }
+    match wish {
+        Method::Instanced if !settings.instanced => Err(Some(Reason::Driver(
+            "instancing with clip distances in compatibility shaders (GLSL 1.50)",
+        ))),
+        Method::Geometry if !settings.geometry => Err(Some(Reason::Driver(
+            "geometry shaders in compatibility contexts (GLSL 1.50)",
+        ))),
+        m => Ok(m),
+    }
+}
+
+/// A draw that counts is replayed: a draw that makes all views at once would count them all.
+pub(super) fn uncounted(facts: &Facts, plan: Plan) -> Plan {
+    match plan.method {
+        Method::Instanced | Method::Geometry if facts.counted => Plan {
+            method: Method::Replay,
+            reason: Some(Reason::Kind("draws that a query counts")),
+            ..plan
+        },
+        _ => plan,
+    }
+}

@@ -1,0 +1,104 @@
+//! Draws with the program's own shaders go by a variant, which shifts the vertices of each view.
+
+use super::{
+    Effect, Facts, Flat, Known, Linked, Method, Plan, Preparation, Settings, Shaders, VariantFacts,
+};
+use crate::config::{Class, DepthState, Strategy};
+use crate::plan::Kind;
+use crate::plan::class::Why;
+
+const NO_CAMERA: &str = "no camera was found in the matrices of some of the program's shaders: what they draw is the same in all views";
+
+/// How a draw with the program's own shaders goes: `plan` is what fixed function would make of it.
+pub(super) fn plan(
+    facts: &Facts,
+    known: &mut Known,
+    settings: &Settings,
+    plan: Plan,
+    effects: &mut Vec<Effect>,
+) -> Plan {
+    let kind = facts.traits.kind;
+    let fragments = matches!(kind, Kind::Clear { .. } | Kind::Pixels | Kind::Accum);
+    if plan.method == Method::Once || fragments || settings.views < 2 {
+        return plan;
+    }
+    let Shaders::Variant(variant) = &facts.shaders else {
+        return plan;
+    };
+    let Some(camera) = variant.camera.or(known.camera) else {
+        // Menus and what else is flat needs none.
+        if facts.state.depth != DepthState::Off {
+            effects.push(Effect::Note(NO_CAMERA));
+        }
+        return plan;
+    };
+    known.camera = Some(camera);
+    known.rig.latch(&camera);
+    let ruled = matches!(facts.classed.why, Why::Rule(_));
+    let hud = plan.shear.map_or(Flat::Still, Flat::By);
+    let (class, shear, flat) = match facts.classed.class {
+        Class::Flat if ruled => (Class::Flat, plan.shear, hud),
+        Class::Sky => (Class::Sky, known.rig.sky(&camera), Flat::Still),
+        class => {
+            let shear = match facts.classed.focal {
+                None => known.rig.shear(&camera),
+                Some(focal) => known.rig.shear_about(&camera, focal),
+            };
+            let flat = match class {
+                Class::Flat => hud,
+                _ if fills_depths(facts, variant) => Flat::Scene,
+                _ => Flat::Still,
+            };
+            (Class::Scene, shear, flat)
+        }
+    };
+    Plan {
+        method: Method::Replay,
+        class,
+        shear,
+        variant: true,
+        flat,
+        ..plan
+    }
+}
+
+/// Whether the program in use has a perspective now, and what it draws gets depths: a scene's vertices, wherever they are. What fills
+/// the screen by such a program has none.
+fn fills_depths(facts: &Facts, variant: &VariantFacts) -> bool {
+    facts.state.depth == DepthState::On && !variant.lost
+}
+
+/// Whether a draw that goes by a variant takes all views by instances. Not where each view samples a texture of its own, or the program
+/// counts what is drawn.
+pub(super) fn all_at_once(
+    facts: &Facts,
+    known: &Known,
+    settings: &Settings,
+    plan: Plan,
+) -> Result<Plan, Preparation> {
+    let Shaders::Variant(variant) = &facts.shaders else {
+        return Ok(plan);
+    };
+    let wanted = settings.strategy == Strategy::Instanced
+        && plan.variant
+        && plan.method == Method::Replay
+        && matches!(facts.traits.kind, Kind::Arrays(_) | Kind::Elements(_))
+        && !facts.reads_views
+        && !facts.counted
+        && !known.together;
+    if !wanted || !facts.destination.layered || variant.divides {
+        return Ok(plan);
+    }
+    match variant.to_layers {
+        Linked::Untried => Err(Preparation::LinkLayers {
+            program: variant.program,
+            all: true,
+        }),
+        Linked::Refused => Ok(plan),
+        Linked::Yes => Ok(Plan {
+            method: Method::Instanced,
+            reason: None,
+            ..plan
+        }),
+    }
+}

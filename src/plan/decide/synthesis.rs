@@ -1,0 +1,203 @@
+//! Which draws belong to a scene that is drawn to some views only; before anything else the other views are synthesised.
+
+use super::{DisparityMapping, Effect, Facts, Known, Method, Plan, Reason, ReferenceDraw, Scene};
+use super::{Settings, Shaders};
+use crate::config::{Class, DepthState, Viewport};
+use crate::gl::{TextureName, consts as c};
+use crate::plan::{Kind, Ramp};
+
+/// Before a command that is planned: it goes to the views that are drawn, or the others are synthesised first.
+pub(super) fn watch(
+    facts: &Facts,
+    known: &mut Known,
+    settings: &Settings,
+    plan: &mut Plan,
+    effects: &mut Vec<Effect>,
+) {
+    let drawn = plan.method != Method::Once && facts.destination.is_window();
+    if !settings.synthesises || !drawn {
+        return;
+    }
+    if let Kind::Clear { depths, whole } = facts.traits.kind {
+        // Of stencils nothing is made.
+        if depths || whole != c::STENCIL_BUFFER_BIT {
+            clear(facts, known, whole, effects);
+        }
+        return;
+    }
+    let Some(mut scene) = known.scene else {
+        return;
+    };
+    match belongs(facts, plan, &mut scene, effects) {
+        Ok(mapping) => {
+            scene.begun = true;
+            known.scene = Some(scene);
+            let rays = mapping.zip(facts.synthesis.reference);
+            plan.reference = rays.and_then(|(mapping, map)| reference(facts, &mapping, map));
+        }
+        Err(NotOfScene(what)) => {
+            effects.push(Effect::Fallback(Reason::Parted(what)));
+            synthesise(known, effects);
+        }
+    }
+}
+
+/// Why a draw is not one of the scene; a part of a sentence of the report.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct NotOfScene(&'static str);
+
+fn synthesise(known: &mut Known, effects: &mut Vec<Effect>) {
+    if known.scene.take().is_some() {
+        known.synthesised = true;
+        effects.push(Effect::SynthesiseViews);
+    }
+}
+
+/// A clear begins a scene, or ends it.
+fn clear(facts: &Facts, known: &mut Known, whole: u32, effects: &mut Vec<Effect>) {
+    let writes =
+        |buffer: u32| whole & facts.clear.writable & buffer != 0 && facts.clear.unscissored;
+    let all = writes(c::DEPTH_BUFFER_BIT);
+    let colours = writes(c::COLOR_BUFFER_BIT);
+    if let Some(scene) = known.scene
+        && scene.begun
+        && !((all || colours) && scene.shown)
+    {
+        effects.push(Effect::Fallback(Reason::Parted("another clear")));
+        return synthesise(known, effects);
+    }
+    if !all || known.synthesised {
+        return;
+    }
+    // The other views have nothing of what was shown last; nor has a view that joins those that are drawn anything to be drawn on.
+    if !facts.synthesis.possible || (!colours && facts.synthesis.joins) {
+        return synthesise(known, effects);
+    }
+    // What was shown last is no more.
+    if std::mem::take(&mut known.mono.active) {
+        effects.push(Effect::LeaveMono);
+    }
+    known.scene = Some(Scene {
+        clear: facts.clear.depth,
+        ..Scene::default()
+    });
+    effects.push(Effect::BeginScene {
+        depth: facts.clear.depth,
+    });
+}
+
+/// Whether a draw may be another pass over the last surface, so that its vertices have to be compared.
+pub fn is_over_candidate(facts: &Facts) -> bool {
+    let state = &facts.state;
+    let shown = state.depth == DepthState::On && !state.blends;
+    facts.classed.class == Class::Scene && !shown && !state.equal && state.depth != DepthState::Off
+}
+
+/// What a draw that belongs to the scene is projected by, or what it is instead.
+fn belongs(
+    facts: &Facts,
+    plan: &Plan,
+    scene: &mut Scene,
+    effects: &mut Vec<Effect>,
+) -> Result<Option<DisparityMapping>, NotOfScene> {
+    let (kind, depth) = (facts.traits.kind, facts.state.depth);
+    let no = |what| Err(NotOfScene(what));
+    if facts.state.stencil {
+        return no("draws with a stencil test");
+    }
+    if facts.state.stipple {
+        return no("draws with a stipple of the screen's");
+    }
+    if matches!(kind, Kind::Accum | Kind::Pixels) || facts.reads_views {
+        return no("pictures and pixels");
+    }
+    if facts.traits.viewport != Viewport::Main {
+        return no("a picture in the picture");
+    }
+    match plan.class {
+        Class::Sky if depth == DepthState::On => no("a sky with depths"),
+        Class::Sky if depth == DepthState::Off && scene.mapping.is_some() => {
+            no("a sky over the scene")
+        }
+        Class::Sky => {
+            scene.sky = true;
+            Ok(None)
+        }
+        Class::Flat if scene.mapping.is_some() => no("what is flat"),
+        Class::Flat if plan.shear.is_some() || depth == DepthState::On => {
+            no("what is flat and stands elsewhere than on the panel")
+        }
+        Class::Flat | Class::OffScreen => Ok(None),
+        Class::Scene => of_scene(facts, plan, scene, effects).map(Some),
+    }
+}
+
+fn of_scene(
+    facts: &Facts,
+    plan: &Plan,
+    scene: &mut Scene,
+    effects: &mut Vec<Effect>,
+) -> Result<DisparityMapping, NotOfScene> {
+    let shear = plan.shear.ok_or(NotOfScene("a scene without parallax"))?;
+    let state = &facts.state;
+    let ramp = Ramp::of(&facts.projections.matrix, state.depths, state.zero_to_one);
+    let ramp = ramp.ok_or(NotOfScene("a projection without depths"))?;
+    let shown = state.depth == DepthState::On && !state.blends;
+    // Another pass over what is there has its depths.
+    let over = state.depth != DepthState::Off && facts.synthesis.over_last;
+    if !shown && !state.equal && !over {
+        return Err(NotOfScene(match state.blends {
+            true => "what is transparent",
+            false => "what has no depths",
+        }));
+    }
+    if shown {
+        effects.push(Effect::CaptureSurface);
+    }
+    let new = DisparityMapping {
+        ramp,
+        shear,
+        viewport: facts.rects.viewport,
+    };
+    match scene.takes(new) {
+        true => Ok(new),
+        false if facts.classed.focal.is_some() => Err(NotOfScene(
+            "a part of the scene with zero parallax of its own",
+        )),
+        false => Err(NotOfScene("another projection")),
+    }
+}
+
+/// The draw to the reference image: of surfaces by fixed function, and of whatever a program with shaders draws.
+fn reference(facts: &Facts, mapping: &DisparityMapping, map: TextureName) -> Option<ReferenceDraw> {
+    let kind = facts.traits.kind;
+    let mode = match kind {
+        Kind::Begin(mode) | Kind::Arrays(mode) | Kind::Elements(mode) => Some(mode),
+        Kind::Other | Kind::List => None,
+        _ => return None,
+    };
+    // A list is drawn there if it has nothing but surfaces.
+    let surfaces = || match mode {
+        Some(mode) => (c::TRIANGLES..=c::POLYGON).contains(&mode),
+        None => kind == Kind::List,
+    };
+    let distorts = match facts.shaders {
+        Shaders::Fixed => facts.synthesis.fixed_function && surfaces(),
+        Shaders::Pipeline => false,
+        _ => true,
+    };
+    if !distorts {
+        return None;
+    }
+    let [near, far] = facts.state.depths;
+    let (middle, half) = match facts.state.zero_to_one {
+        true => (near, far - near),
+        false => ((near + far) / 2.0, (far - near) / 2.0),
+    };
+    let [scale, offset] = mapping.line().map(|v| v as f32);
+    Some(ReferenceDraw {
+        mode,
+        map,
+        disparities: [scale * half, scale * middle + offset],
+    })
+}

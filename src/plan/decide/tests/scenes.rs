@@ -1,0 +1,330 @@
+//! Scenes that are drawn to some views only, and where the others are synthesised.
+
+use super::*;
+
+fn synthesising() -> Settings {
+    Settings {
+        synthesises: true,
+        ..settings(Strategy::Occlusion)
+    }
+}
+
+fn next(facts: &Facts, known: &Known) -> Decision {
+    decide(facts, known, &synthesising()).expect("a decision")
+}
+
+fn clear(whole: u32) -> Facts {
+    let mut facts = scene();
+    facts.traits.kind = Kind::Clear {
+        depths: true,
+        whole,
+    };
+    facts.classed = classed(Class::Flat);
+    facts.clear = ClearFacts {
+        writable: ALL_BUFFERS,
+        unscissored: true,
+        depth: 0.75,
+    };
+    facts.synthesis.possible = true;
+    facts
+}
+
+/// A scene that a clear of everything has begun.
+fn begun() -> Known {
+    next(&clear(ALL_BUFFERS), &known()).known
+}
+
+fn drawn() -> Known {
+    next(&scene(), &begun()).known
+}
+
+/// Why a draw is not one of the scene; none where it is.
+fn parted(facts: &Facts, known: &Known) -> Option<&'static str> {
+    let decision = next(facts, known);
+    let why = decision.effects.iter().find_map(|effect| match effect {
+        Effect::Fallback(Reason::Parted(why)) => Some(*why),
+        _ => None,
+    });
+    let synthesised = decision.effects.contains(&Effect::SynthesiseViews);
+    assert_eq!(synthesised, why.is_some());
+    assert_eq!(decision.known.scene.is_none(), why.is_some());
+    assert_eq!(decision.known.synthesised, why.is_some());
+    why
+}
+
+#[test]
+fn a_clear_of_the_depths_begins_a_scene() {
+    let decision = next(&clear(ALL_BUFFERS), &known());
+    assert_eq!(decision.effects, [Effect::BeginScene { depth: 0.75 }]);
+    let begun = decision.known.scene.expect("a scene");
+    assert_eq!(begun.clear, 0.75);
+    assert!(!begun.begun && begun.mapping.is_none());
+    let mut mono = known();
+    mono.mono.active = true;
+    let decision = next(&clear(ALL_BUFFERS), &mono);
+    assert_eq!(
+        decision.effects,
+        [Effect::LeaveMono, Effect::BeginScene { depth: 0.75 }]
+    );
+    assert!(!decision.known.mono.active);
+}
+
+#[test]
+fn other_clears_begin_none() {
+    let begins = |facts: &Facts| next(facts, &known()).known.scene.is_some();
+    assert!(begins(&clear(c::DEPTH_BUFFER_BIT)));
+    assert!(!begins(&clear(c::COLOR_BUFFER_BIT)));
+    assert!(!begins(&clear(c::STENCIL_BUFFER_BIT)));
+    let mut masked = clear(ALL_BUFFERS);
+    masked.clear.writable = c::COLOR_BUFFER_BIT;
+    assert!(!begins(&masked));
+    let mut part = clear(ALL_BUFFERS);
+    part.clear.unscissored = false;
+    assert!(!begins(&part));
+    let mut impossible = clear(ALL_BUFFERS);
+    impossible.synthesis.possible = false;
+    assert!(!begins(&impossible));
+    // A view that joins needs something to be drawn on.
+    let mut joins = clear(c::DEPTH_BUFFER_BIT);
+    joins.synthesis.joins = true;
+    assert!(!begins(&joins));
+    joins.traits.kind = clear(ALL_BUFFERS).traits.kind;
+    assert!(begins(&joins));
+    let mut late = known();
+    late.synthesised = true;
+    assert!(next(&clear(ALL_BUFFERS), &late).known.scene.is_none());
+    let asks_nothing = decided(&clear(ALL_BUFFERS), &known(), Strategy::Replay);
+    assert!(asks_nothing.known.scene.is_none());
+}
+
+#[test]
+fn a_scene_that_was_drawn_ends_at_the_next_clear() {
+    assert_eq!(parted(&clear(ALL_BUFFERS), &drawn()), Some("another clear"));
+    // Nothing is lost where it was shown, and is cleared wholly.
+    let mut shown = drawn();
+    shown.scene.as_mut().expect("a scene").shown = true;
+    let again = next(&clear(ALL_BUFFERS), &shown);
+    assert_eq!(again.effects, [Effect::BeginScene { depth: 0.75 }]);
+    let colours = next(&clear(c::COLOR_BUFFER_BIT), &shown);
+    assert!(colours.known.scene.is_some());
+    let mut part = clear(ALL_BUFFERS);
+    part.clear.unscissored = false;
+    assert_eq!(parted(&part, &shown), Some("another clear"));
+    // A second clear before any draw changes nothing of that.
+    assert!(
+        next(&clear(c::COLOR_BUFFER_BIT), &begun())
+            .known
+            .scene
+            .is_some()
+    );
+}
+
+#[test]
+fn draws_of_the_scene_belong_to_it() {
+    let decision = next(&scene(), &begun());
+    assert_eq!(decision.effects, [Effect::CaptureSurface]);
+    let scene_now = decision.known.scene.expect("a scene");
+    assert!(scene_now.begun);
+    let mapping = scene_now.mapping.expect("a mapping");
+    assert_eq!(mapping.viewport, [0, 0, 640, 480]);
+    let far = mapping.shear.separation(1.0) * 320.0;
+    assert_eq!(mapping.far(), far);
+    // At the plane of zero parallax, the disparity is that of infinity.
+    let [slope, offset] = mapping.line();
+    let [a, b] = mapping.ramp.line();
+    let size = far.abs() * mapping.shear.conv;
+    assert_eq!([slope, offset], [size * a, size * b]);
+}
+
+#[test]
+fn what_does_not_belong_has_its_reason() {
+    let of = |known: &Known, change: &dyn Fn(&mut Facts)| {
+        let mut facts = scene();
+        change(&mut facts);
+        parted(&facts, known)
+    };
+    let (begun, drawn) = (begun(), drawn());
+    assert_eq!(of(&drawn, &|_| ()), None);
+    let why = of(&drawn, &|f| f.state.stencil = true);
+    assert_eq!(why, Some("draws with a stencil test"));
+    let why = of(&drawn, &|f| f.state.stipple = true);
+    assert_eq!(why, Some("draws with a stipple of the screen's"));
+    let pictures = Some("pictures and pixels");
+    assert_eq!(of(&drawn, &|f| f.reads_views = true), pictures);
+    assert_eq!(of(&drawn, &|f| f.traits.kind = Kind::Pixels), pictures);
+    assert_eq!(of(&drawn, &|f| f.traits.kind = Kind::Accum), pictures);
+    let inset = of(&drawn, &|f| f.traits.viewport = Viewport::Inset);
+    assert_eq!(inset, Some("a picture in the picture"));
+    let blends = of(&drawn, &|f| f.state.blends = true);
+    assert_eq!(blends, Some("what is transparent"));
+    let tests = of(&drawn, &|f| f.state.depth = DepthState::TestOnly);
+    assert_eq!(tests, Some("what has no depths"));
+    let off = of(&drawn, &|f| {
+        f.state.depth = DepthState::Off;
+        f.synthesis.over_last = true;
+    });
+    assert_eq!(off, Some("what has no depths"));
+    let viewport = of(&drawn, &|f| f.rects.viewport = [0, 0, 320, 480]);
+    assert_eq!(viewport, Some("another projection"));
+    let focal = of(&drawn, &|f| f.classed.focal = Some(2.0));
+    assert_eq!(
+        focal,
+        Some("a part of the scene with zero parallax of its own")
+    );
+    let flat = |f: &mut Facts| f.classed = classed(Class::Flat);
+    assert_eq!(of(&drawn, &flat), Some("what is flat"));
+    // Before the scene it lies on the panel, as long as nothing has depths.
+    let flat_early = |depth: DepthState, stands: f64| {
+        of(&begun, &|f| {
+            flat(f);
+            f.classed.depth = stands;
+            f.state.depth = depth;
+        })
+    };
+    let elsewhere = Some("what is flat and stands elsewhere than on the panel");
+    assert_eq!(flat_early(DepthState::Off, 0.0), None);
+    assert_eq!(flat_early(DepthState::On, 0.0), elsewhere);
+    assert_eq!(flat_early(DepthState::Off, 0.5), elsewhere);
+}
+
+#[test]
+fn skies_stand_behind_the_scene() {
+    let sky = |known: &Known, depth: DepthState| {
+        let mut facts = scene();
+        facts.classed = classed(Class::Sky);
+        facts.state.depth = depth;
+        parted(&facts, known)
+    };
+    assert_eq!(sky(&begun(), DepthState::Off), None);
+    assert_eq!(sky(&drawn(), DepthState::Off), Some("a sky over the scene"));
+    assert_eq!(sky(&drawn(), DepthState::TestOnly), None);
+    assert_eq!(sky(&begun(), DepthState::On), Some("a sky with depths"));
+    let mut facts = scene();
+    facts.classed = classed(Class::Sky);
+    facts.state.depth = DepthState::Off;
+    let known = next(&facts, &begun()).known;
+    assert!(known.scene.is_some_and(|scene| scene.sky));
+}
+
+#[test]
+fn passes_over_a_surface_have_its_depths() {
+    let mut over = scene();
+    over.state.depth = DepthState::TestOnly;
+    over.state.blends = true;
+    assert!(is_over_candidate(&over));
+    assert!(parted(&over, &drawn()).is_some());
+    over.synthesis.over_last = true;
+    assert_eq!(parted(&over, &drawn()), None);
+    let mut equal = scene();
+    equal.state.blends = true;
+    equal.state.equal = true;
+    assert!(!is_over_candidate(&equal), "nothing to be compared");
+    assert_eq!(parted(&equal, &drawn()), None);
+    assert!(!is_over_candidate(&scene()));
+    let mut off = over;
+    off.state.depth = DepthState::Off;
+    assert!(!is_over_candidate(&off));
+}
+
+#[test]
+fn the_reference_image_gets_surfaces() {
+    let reference = |change: &dyn Fn(&mut Facts)| {
+        let mut facts = scene();
+        facts.synthesis.reference = Some(TextureName(9));
+        facts.synthesis.fixed_function = true;
+        change(&mut facts);
+        next(&facts, &begun()).plan.reference
+    };
+    let drawn = reference(&|_| ()).expect("a draw");
+    assert_eq!(
+        (drawn.mode, drawn.map),
+        (Some(c::TRIANGLES), TextureName(9))
+    );
+    let mapping = self::drawn().scene.and_then(|scene| scene.mapping);
+    let [scale, offset] = mapping.expect("a mapping").line().map(|v| v as f32);
+    assert_eq!(drawn.disparities, [scale * 0.5, scale * 0.5 + offset]);
+    let halved = reference(&|f| f.state.zero_to_one = true).expect("a draw");
+    // Where z begins at 0 its line begins elsewhere.
+    assert!(halved.disparities[1] != drawn.disparities[1]);
+    let mode = |mode: u32| move |f: &mut Facts| f.traits.kind = Kind::Begin(mode);
+    assert_eq!(reference(&mode(c::LINES)), None);
+    assert_eq!(reference(&mode(c::POINTS)), None);
+    assert!(reference(&mode(c::POLYGON)).is_some());
+    assert!(reference(&|f| f.traits.kind = Kind::List).is_some_and(|r| r.mode.is_none()));
+    assert_eq!(reference(&|f| f.traits.kind = Kind::Other), None);
+    assert_eq!(reference(&|f| f.synthesis.fixed_function = false), None);
+    assert_eq!(reference(&|f| f.synthesis.reference = None), None);
+    assert_eq!(reference(&|f| f.shaders = Shaders::Pipeline), None);
+    let own = |kind: Kind| {
+        move |f: &mut Facts| {
+            f.shaders = Shaders::WithoutVariant(ProgramName(2));
+            f.traits.kind = kind;
+        }
+    };
+    assert!(reference(&own(Kind::Other)).is_some());
+    assert!(reference(&own(Kind::Arrays(c::LINES))).is_some());
+}
+
+#[test]
+fn a_weapon_in_a_part_of_the_depth_range_stands_before_the_scene() {
+    let of = |range: [f32; 2]| {
+        let mut facts = scene();
+        facts.state.depths = range;
+        facts
+    };
+    let whole = next(&of([0.0, 1.0]), &begun()).known;
+    let hand = next(&of([0.0, 0.3]), &whole);
+    let scene = hand.known.scene.expect("one scene");
+    let (before, to) = scene.before.expect("something before it");
+    assert!((to - 0.3).abs() < 1e-6, "{to}");
+    assert!(before.ramp != scene.mapping.expect("a mapping").ramp);
+    // And the other way round.
+    let hand = next(&of([0.0, 0.3]), &begun()).known;
+    let both = next(&of([0.0, 1.0]), &hand).known.scene.expect("one scene");
+    assert_eq!(both, scene);
+    // A third part is another projection.
+    assert!(parted(&of([0.0, 0.1]), &whole).is_none());
+    let mut third = next(&of([0.0, 0.3]), &whole).known;
+    third.synthesised = false;
+    assert_eq!(parted(&of([0.0, 0.1]), &third), Some("another projection"));
+}
+
+#[test]
+fn frames_know_whether_something_in_perspective_wrote_depth() {
+    let deep = |change: &dyn Fn(&mut Facts), known: &Known| {
+        let mut facts = scene();
+        change(&mut facts);
+        decided(&facts, known, Strategy::Replay).known.frame.deep
+    };
+    let known = known();
+    assert!(deep(&|_| (), &known));
+    assert!(!deep(&|f| f.traits.depth_state = DepthState::Off, &known));
+    assert!(!deep(
+        &|f| f.traits.projection = Projection::Orthographic,
+        &known
+    ));
+    assert!(!deep(&|f| f.traits.range = DepthRange::Far, &known));
+    assert!(!deep(&|f| f.traits.first = false, &known));
+    assert!(!deep(&|f| f.traits.target = Target::Framebuffer(1), &known));
+    let mut after = known;
+    after.frame.deep = true;
+    let cleared = |f: &mut Facts| *f = clear(ALL_BUFFERS);
+    assert!(!deep(&cleared, &after));
+    let mut counted = scene();
+    counted.traits.draw = 7;
+    let decision = decided(&counted, &known, Strategy::Replay);
+    assert_eq!(decision.known.frame.draws, 7);
+}
+
+#[test]
+fn lenses_are_remembered_where_a_pass_shows_them() {
+    let mut facts = scene();
+    facts.projections.lens = Some(1.5);
+    let first = decided(&facts, &known(), Strategy::Replay).known;
+    assert_eq!(first.lens, Some(1.5));
+    facts.projections.lens = None;
+    assert_eq!(
+        decided(&facts, &first, Strategy::Replay).known.lens,
+        Some(1.5)
+    );
+}
