@@ -10,6 +10,7 @@ use crate::atlas::{Atlas, Names};
 use crate::gl::{Gl, consts as c};
 use crate::interleave::Program;
 use crate::interleave::shader::{Pass, Step};
+use crate::state::Neutral;
 use crate::state::Window;
 
 /// What 1 is stored as.
@@ -131,8 +132,14 @@ fn stored(factor: f32) -> (i32, Vec<i16>) {
 }
 
 impl Accumulation {
-    /// For an atlas, all zero. State must be as `present::Saved::take` leaves it.
-    pub fn new(gl: &Gl, names: &mut Names, glsl: u32, atlas: &Atlas) -> Result<Self, String> {
+    /// For an atlas, all zero.
+    pub fn new(
+        gl: &Gl,
+        _: &Neutral,
+        names: &mut Names,
+        glsl: u32,
+        atlas: &Atlas,
+    ) -> Result<Self, String> {
         let program = |step| Program::new(gl, glsl, Pass::Accumulate(step));
         let [fill, copy, load, accumulate, multiply, add, give_back] = Step::ALL.map(program);
         let tiles = atlas.tiles;
@@ -206,8 +213,8 @@ impl Accumulation {
         self.programs.iter().map(Program::name)
     }
 
-    /// The textures get other names. State must be as `present::Saved::take` leaves it; the draw framebuffer is left bound.
-    pub fn rename(&mut self, gl: &Gl, names: &mut Names) {
+    /// The textures get other names. the draw framebuffer is left bound.
+    pub fn rename(&mut self, gl: &Gl, _: &Neutral, names: &mut Names) {
         let old = self.textures();
         self.make_textures(gl, names);
         let [width, height, rows] = self.size;
@@ -233,10 +240,11 @@ impl Accumulation {
     }
 
     /// Makes one step in some regions. Colours come from the layers of a texture, and go to those of others, of the atlas's size;
-    /// they must be resolved where they are read. State must be as `present::Saved::take` leaves it; the draw framebuffer is left bound.
+    /// they must be resolved where they are read. the draw framebuffer is left bound.
     pub fn apply(
         &mut self,
         gl: &Gl,
+        _: &Neutral,
         operation: Operation,
         window: &Window,
         (from, to): (u32, &[u32]),

@@ -53,7 +53,7 @@ impl Atlas {
     }
 
     /// Takes a picture of the depths as they are now; false where there is room for no more. Changes the framebuffer bindings;
-    /// state must be as [`crate::present::Saved::take`] leaves it.
+    /// state must be as [`crate::state::Neutral`] has it.
     pub fn take_depths(&mut self, gl: &Gl) -> bool {
         let full = self.depths.as_ref().is_none_or(|d| d.taken == PICTURES);
         if full || !gl.reads_depths() {

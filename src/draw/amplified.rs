@@ -4,12 +4,12 @@
 
 use super::fixed_state::{Driver, FixedState};
 use super::fragment_state;
-use super::pixel_size::{PixelSizeGuard, Units};
-use super::replay::cut;
-use crate::atlas::Atlas;
+use super::pixel_size::Units;
+use super::state_guard::StateGuard;
+use crate::atlas::{Atlas, Tiles as TilePlaces};
 use crate::fixed::{
-    self, Amplifier, Clip, FixedKey, FragmentKey, Limits, Patches, Primitive, Provoking, Tiles,
-    Unsupported, generate, generate_fragment, sampler,
+    self, Amplifier, Clip, FixedKey, FragmentKey, Limits, Patches, Primitive, Tiles, Unsupported,
+    generate, generate_fragment, sampler,
 };
 use crate::gl::{Gl, consts as c};
 use crate::plan::{Method, Reason, Rig, Shear};
@@ -34,8 +34,8 @@ struct Uniforms {
 
 #[derive(Debug)]
 pub(super) struct Program {
-    name: u32,
-    patches: Patches,
+    pub(super) name: u32,
+    pub(super) patches: Patches,
     views: i32,
     map: i32,
     clip: i32,
@@ -134,49 +134,8 @@ impl Programs {
             // One view, or a driver without layered framebuffers.
             return Err(Reason::Fixed(Unsupported::VertexLayer));
         }
-        let batch = match method {
-            Method::Geometry => {
-                key.target.amplifier = Amplifier::GeometryInvocations;
-                let mut batch = fixed::batch(&key, &self.limits);
-                if batch == 0 {
-                    key.target.amplifier = Amplifier::GeometryLoop;
-                    batch = fixed::batch(&key, &self.limits);
-                }
-                // As few draws as possible, all of the same number of views where that divides evenly.
-                let per_row = atlas
-                    .tiles
-                    .columns
-                    .max(if key.target.tiles == Tiles::Layer {
-                        atlas.tiles.views
-                    } else {
-                        1
-                    });
-                let batch = batch.min(per_row).max(1);
-                key.target.views = u8::try_from(batch).unwrap_or(u8::MAX);
-                batch
-            }
-            _ => {
-                key.target.amplifier = Amplifier::Instanced;
-                fixed::batch(&key, &self.limits).max(1)
-            }
-        };
-        // Disabled clip distances other vertices of the draw are clipped than the program's own, and so the cut is another.
-        if key.target.discards() && mode == c::QUADS && !key.flat {
-            return Err(Reason::Kind(
-                "smooth quads under `--clip discard`, which the driver cuts along either diagonal,",
-            ));
-        }
-        // Of a flat triangle's corners the driver would choose another one after a cut.
-        let whole = match key.target.primitive {
-            Primitive::Triangles => !key.flat,
-            Primitive::Polygon => true,
-            _ => false,
-        };
-        if geometry && key.target.cuts() && !whole {
-            return Err(Reason::Kind(
-                "points, lines, quads and flat triangles under `--clip cut`",
-            ));
-        }
+        let batch = self.batch(method, &mut key, atlas);
+        allow_target(&key, mode, geometry)?;
         around.allow(&key).map_err(Reason::Fixed)?;
         // Measured on llvmpipe 22.3: widened after a geometry shader, they come out in shreds.
         let drawn = around.rasterised;
@@ -205,6 +164,36 @@ impl Programs {
             batch,
             mode: drawn_mode,
         })
+    }
+
+    /// How many views one call draws; chooses the amplifier.
+    fn batch(&self, method: Method, key: &mut FixedKey, atlas: &Atlas) -> u32 {
+        match method {
+            Method::Geometry => {
+                key.target.amplifier = Amplifier::GeometryInvocations;
+                let mut batch = fixed::batch(key, &self.limits);
+                if batch == 0 {
+                    key.target.amplifier = Amplifier::GeometryLoop;
+                    batch = fixed::batch(key, &self.limits);
+                }
+                // As few draws as possible, all of the same number of views where that divides evenly.
+                let per_row = atlas
+                    .tiles
+                    .columns
+                    .max(if key.target.tiles == Tiles::Layer {
+                        atlas.tiles.views
+                    } else {
+                        1
+                    });
+                let batch = batch.min(per_row).max(1);
+                key.target.views = u8::try_from(batch).unwrap_or(u8::MAX);
+                batch
+            }
+            _ => {
+                key.target.amplifier = Amplifier::Instanced;
+                fixed::batch(key, &self.limits).max(1)
+            }
+        }
     }
 
     /// The names of all programs.
@@ -293,17 +282,14 @@ impl Programs {
         let layers = key.target.tiles == Tiles::Layer;
         let discards = key.target.discards();
         let modelview = how.modelview;
-        let first_row_of = |view: u32| {
-            let p = shear.map_or(state.projection, |s| {
-                s.projection(&state.projection, rig.position(view))
-            });
-            if tiles.grid.is_full() {
-                return first_row(&p, &modelview);
-            }
-            let p = tiles
-                .grid
-                .lean_beside(state.viewport, &p, view, tiles.own());
-            first_row(&p, &modelview)
+        let frame = Batch {
+            state,
+            rig,
+            tiles,
+            shear,
+            modelview,
+            discards,
+            size: how.batch as usize,
         };
         // Layers are chosen by the shader; a row of tiles is bound.
         let (rows, per_row) = if layers {
@@ -321,40 +307,90 @@ impl Programs {
             let views = (per_row * row..end).map(|slot| tiles.slot(slot));
             let drawn: Vec<u32> = views.filter(|&view| tiles.draws(view)).collect();
             for views in drawn.chunks(how.batch as usize) {
-                let mut rows: Vec<[f32; 4]> = views.iter().map(|&v| first_row_of(v)).collect();
-                let mut places: Vec<[f32; 4]> = views
-                    .iter()
-                    .map(|&view| {
-                        let (layer, x) = tiles.place(view);
-                        if discards {
-                            let [left, right] = around.limits.map(|limit| x as f32 + limit as f32);
-                            return [around.centre(x), 0.0, left, right];
-                        }
-                        [around.centre(x), 0.0, layer as f32, 0.0]
-                    })
-                    .collect();
-                // A geometry shader always makes a whole batch: what is too much lands in a place that shows nothing.
-                rows.resize(how.batch as usize, [0.0; 4]);
-                places.resize(how.batch as usize, [4.0, 0.0, f32::from(u16::MAX), 0.0]);
                 if self.resends {
                     program.uploaded = Uniforms::default();
                 }
-                program.upload(
-                    gl,
-                    Uniforms {
-                        rows,
-                        tiles: places,
-                        map: [around.scale, 1.0, 0.0, 0.0],
-                        clip: around.clip,
-                        grid: [tiles.grid.across, 0.0, tiles.grid.shear, tiles.grid.up]
-                            .map(|n| n as f32),
-                    },
-                );
+                program.upload(gl, frame.uniforms(views, &around));
                 call(views.len() as u32);
             }
         }
         around.leave(gl, state, atlas, fixed);
     }
+}
+
+/// What the uniforms of a batch of views are made of.
+struct Batch<'a> {
+    state: &'a State,
+    rig: &'a Rig,
+    tiles: TilePlaces,
+    shear: Option<Shear>,
+    modelview: [f32; 16],
+    discards: bool,
+    /// Views in it.
+    size: usize,
+}
+
+impl Batch<'_> {
+    /// Row 0 of the product of projection and modelview matrix for a view.
+    fn first_row(&self, view: u32) -> [f32; 4] {
+        let (state, tiles) = (self.state, &self.tiles);
+        let p = self.shear.map_or(state.projection, |s| {
+            s.projection(&state.projection, self.rig.position(view))
+        });
+        if tiles.grid.is_full() {
+            return first_row(&p, &self.modelview);
+        }
+        let p = tiles
+            .grid
+            .lean_beside(state.viewport, &p, view, tiles.own());
+        first_row(&p, &self.modelview)
+    }
+
+    fn uniforms(&self, views: &[u32], guard: &StateGuard) -> Uniforms {
+        let grid = &self.tiles.grid;
+        let mut rows: Vec<[f32; 4]> = views.iter().map(|&v| self.first_row(v)).collect();
+        let place = |&view: &u32| {
+            let (layer, x) = self.tiles.place(view);
+            if self.discards {
+                let [left, right] = guard.limits.map(|limit| x as f32 + limit as f32);
+                return [guard.centre(x), 0.0, left, right];
+            }
+            [guard.centre(x), 0.0, layer as f32, 0.0]
+        };
+        let mut places: Vec<[f32; 4]> = views.iter().map(place).collect();
+        // A geometry shader always makes a whole batch: what is too much lands in a place that shows nothing.
+        rows.resize(self.size, [0.0; 4]);
+        places.resize(self.size, [4.0, 0.0, f32::from(u16::MAX), 0.0]);
+        Uniforms {
+            rows,
+            tiles: places,
+            map: [guard.scale, 1.0, 0.0, 0.0],
+            clip: guard.clip,
+            grid: [grid.across, 0.0, grid.shear, grid.up].map(|n| n as f32),
+        }
+    }
+}
+
+/// Whether primitives of a mode come out of the target as they should.
+fn allow_target(key: &FixedKey, mode: u32, geometry: bool) -> Result<(), Reason> {
+    // Disabled clip distances other vertices of the draw are clipped than the program's own, and so the cut is another.
+    if key.target.discards() && mode == c::QUADS && !key.flat {
+        return Err(Reason::Kind(
+            "smooth quads under `--clip discard`, which the driver cuts along either diagonal,",
+        ));
+    }
+    // Of a flat triangle's corners the driver would choose another one after a cut.
+    let whole = match key.target.primitive {
+        Primitive::Triangles => !key.flat,
+        Primitive::Polygon => true,
+        _ => false,
+    };
+    if geometry && key.target.cuts() && !whole {
+        return Err(Reason::Kind(
+            "points, lines, quads and flat triangles under `--clip cut`",
+        ));
+    }
+    Ok(())
 }
 
 /// Sets the samplers of a program to their units. The program in use is 0, as it is for all fixed function.
@@ -422,152 +458,4 @@ fn primitive(mode: u32, flat: bool) -> Result<(Primitive, u32), Reason> {
         c::QUAD_STRIP => return Err(Reason::Kind("flat quad strips under `geometry`")),
         _ => return Err(Reason::Kind("primitives with adjacency and patches")),
     })
-}
-
-/// State around an amplified draw.
-pub(super) struct StateGuard {
-    /// Width of the program's viewport over the atlas's.
-    scale: f32,
-    /// What may be drawn, in NDC of the program's viewport: left, right, bottom, top.
-    clip: [f32; 4],
-    /// The same left and right in pixels from the left edge of the tile.
-    limits: [i32; 2],
-    viewport: [i32; 4],
-    width: f64,
-    /// Viewport and scissor are not the program's.
-    placed: bool,
-    pixel_sizes: PixelSizeGuard,
-    toggled: Vec<(u32, bool)>,
-    /// The last-vertex convention was set where the program has the first.
-    last: bool,
-}
-
-impl StateGuard {
-    pub(super) fn enter(
-        gl: &Gl,
-        state: &State,
-        atlas: &Atlas,
-        key: &FixedKey,
-        program: &Program,
-        units: Units,
-        fixed: &FixedState,
-    ) -> StateGuard {
-        let patches = &program.patches;
-        let beside = key.target.tiles == Tiles::ClipLeftRight;
-        let width = f64::from(atlas.tiles.texture_width());
-        let [vx, vy, vw, vh] = state.viewport;
-        let mut clip = [-1.0, 1.0, -1.0, 1.0];
-        let mut limits = [0; 2];
-        if beside {
-            // x: the viewport spans all tiles and clip distances cut at the tile and at the program's viewport and scissor.
-            // y: viewport and scissor are the program's own.
-            let tile = atlas.tiles.width as i32;
-            let (mut left, mut right) = (vx.max(0), vx.saturating_add(vw).min(tile));
-            let (mut bottom, mut height) = (0, atlas.tiles.height as i32);
-            if state.scissor_test {
-                let [sx, sy, sw, sh] = state.scissor;
-                (left, right) = (left.max(sx), right.min(sx.saturating_add(sw)));
-                (bottom, height) = (sy, sh);
-            }
-            limits = [left, right];
-            let ndc = |x: i32| (f64::from(x - vx) * 2.0 / f64::from(vw.max(1)) - 1.0) as f32;
-            clip[0] = if left == vx { -1.0 } else { ndc(left) };
-            clip[1] = if right == vx.saturating_add(vw) {
-                1.0
-            } else {
-                ndc(right)
-            };
-            gl.viewport(0, vy, atlas.tiles.texture_width() as i32, vh);
-            if state.scissor_test {
-                gl.scissor(0, bottom, atlas.tiles.texture_width() as i32, height);
-            }
-        }
-        let grid = &atlas.tiles.grid;
-        let pixel_sizes = PixelSizeGuard::enter(gl, state, grid, units);
-        if !grid.is_full() {
-            gl.viewport_f(grid.viewport(atlas.tiles.own(), 0, state.viewport));
-            if state.scissor_test {
-                let [x, y, w, h] = cut(state, &atlas.tiles, atlas.tiles.own(), 0);
-                gl.scissor(x, y, w, h);
-            }
-        }
-        gl.use_program(program.name);
-        let mut toggled = Vec::new();
-        let mut set = |cap, was: bool, is: bool| {
-            if was != is {
-                if is {
-                    gl.enable(cap)
-                } else {
-                    gl.disable(cap)
-                }
-                toggled.push((cap, was));
-            }
-        };
-        set(c::COLOR_SUM, fixed.color_sum, patches.color_sum);
-        set(
-            c::VERTEX_PROGRAM_TWO_SIDE,
-            fixed.program_two_side,
-            patches.two_side,
-        );
-        set(
-            c::PROGRAM_POINT_SIZE,
-            fixed.program_point_size,
-            patches.point_size,
-        );
-        if key.target.amplifier != Amplifier::Instanced
-            && !matches!(key.target.primitive, Primitive::Points | Primitive::Lines)
-        {
-            // Measured on llvmpipe 22.3: with smooth lines enabled, a geometry shader's triangles lose their colour.
-            set(c::LINE_SMOOTH, fixed.surroundings.line_smooth, false);
-            set(c::POINT_SMOOTH, fixed.surroundings.point_smooth, false);
-        }
-        for i in 0..8u32 {
-            set(
-                c::CLIP_DISTANCE0 + i,
-                fixed.key.clip_planes >> i & 1 != 0,
-                patches.clip_distances >> i & 1 != 0,
-            );
-        }
-        let last = patches.last_vertex_convention && fixed.key.provoking == Provoking::First;
-        if last {
-            gl.provoking_vertex(c::LAST_VERTEX_CONVENTION);
-        }
-        StateGuard {
-            scale: (f64::from(vw) / width) as f32,
-            clip,
-            limits,
-            viewport: state.viewport,
-            width,
-            placed: beside || !grid.is_full(),
-            pixel_sizes,
-            toggled,
-            last,
-        }
-    }
-
-    /// Centre of the program's viewport inside the tile at x, in NDC of the atlas.
-    fn centre(&self, x: u32) -> f32 {
-        let [vx, _, vw, _] = self.viewport;
-        ((2.0 * (f64::from(x) + f64::from(vx)) + f64::from(vw)) / self.width - 1.0) as f32
-    }
-
-    pub(super) fn leave(self, gl: &Gl, state: &State, atlas: &mut Atlas, _fixed: &FixedState) {
-        for (cap, was) in self.toggled {
-            if was { gl.enable(cap) } else { gl.disable(cap) }
-        }
-        if self.last {
-            gl.provoking_vertex(c::FIRST_VERTEX_CONVENTION);
-        }
-        gl.use_program(0);
-        self.pixel_sizes.leave(gl);
-        if self.placed {
-            let [x, y, w, h] = state.viewport;
-            gl.viewport(x, y, w, h);
-            if state.scissor_test {
-                let [x, y, w, h] = state.scissor;
-                gl.scissor(x, y, w, h);
-            }
-        }
-        atlas.bind_row(gl, 0);
-    }
 }

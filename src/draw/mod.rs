@@ -8,6 +8,7 @@ mod fragment_state;
 mod pixel_size;
 mod reference;
 mod replay;
+mod state_guard;
 mod variant;
 
 pub use amplified::{Amplified, Programs};

@@ -1,10 +1,11 @@
 //! One draw for the reference image of an occlusion camera, with a generated program or a variant of the program's own.
 
-use super::amplified::{Programs, StateGuard};
+use super::amplified::Programs;
 use super::fixed_state::FixedState;
 use super::fragment_state;
 use super::pixel_size::Units;
 use super::replay::{ReplayHazard, replay};
+use super::state_guard::StateGuard;
 use super::variant::Variant;
 use crate::atlas::{Atlas, ReferenceSurface};
 use crate::fixed::{Amplifier, Primitive, Tiles};

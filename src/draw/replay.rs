@@ -52,145 +52,227 @@ pub fn replay(
     call: &mut dyn FnMut(u32),
 ) -> bool {
     let tiles = surface.tiles();
+    let own = tiles.own();
     if hazard == ReplayHazard::Clear && !state.scissor_test {
         for row in (0..tiles.rows).rev().filter(|&row| tiles.draws_row(row)) {
             surface.bind_row(gl, row);
-            call(tiles.own());
+            call(own);
         }
         return true;
     }
-    let saves = match hazard {
-        ReplayHazard::None | ReplayHazard::Clear => 0,
-        // What an array element or an evaluator sets is not known here.
-        ReplayHazard::Current(e) if e.has(Effect::UNKNOWN) || e.has(Effect::ATTRIB) => {
-            c::CURRENT_BIT | c::LIGHTING_BIT
-        }
-        ReplayHazard::Current(_) => 0,
-        ReplayHazard::Raster(_) => c::CURRENT_BIT,
-        ReplayHazard::Anything { .. } => c::ALL_ATTRIB_BITS,
-    };
-    if saves != 0
-        && gl.get_integer(c::ATTRIB_STACK_DEPTH) >= gl.get_integer(c::MAX_ATTRIB_STACK_DEPTH)
-    {
+    let saves = hazard.saves();
+    if saves != 0 && stack_is_full(gl) {
         if leaves {
-            call(tiles.own());
+            call(own);
         }
         return false;
     }
-    if saves != 0 {
-        // Mesa 22.3 forgets at a glPushAttrib what it has not sent of the current values, and a glPopAttrib of the program's that is
-        // still to come does not put them back.
-        gl.get_floats::<4>(c::CURRENT_COLOR);
-    }
-    let beside = tiles.columns > 1 || !tiles.grid.is_full();
-    let own = tiles.own();
-    let pixel_sizes = PixelSizeGuard::enter(
-        gl,
-        state,
-        &tiles.grid,
-        match hazard {
-            ReplayHazard::Anything { .. } => Units::All,
-            _ => Units::Enabled,
-        },
-    );
-    let current = match hazard {
-        ReplayHazard::Current(e) | ReplayHazard::Anything { current: e, .. } => {
-            Current::take(gl, e, saves != 0)
-        }
-        _ => Current::default(),
-    };
-    let projection = Projection {
-        gl,
-        state,
-        shear,
-        grid: tiles.grid,
-    };
-    let raster = match hazard {
-        ReplayHazard::Raster(Some(shear)) => Some(Raster::at(gl, state, shear)),
-        _ => None,
-    };
+    let sending = Sending::begin(gl, state, rig, tiles, shear, hazard);
     for view in tiles.order() {
         let x = surface.enter(gl, view);
-        let free = view == own && matches!(hazard, ReplayHazard::Anything { rects: true, .. });
-        if beside && !free {
-            set_tile_viewport(gl, state, &tiles, view, x);
-        } else if beside {
-            restore_viewport(gl, state);
+        sending.enter_tile(view, x);
+        if view == own && leaves {
+            sending.own(call);
+        } else {
+            sending.aside(view, x, call);
         }
-        // A list that changes the projection starts from the program's own, also where no view stands in the middle.
-        let keeps = !matches!(
+        if view == own {
+            sending.end(leaves);
+        }
+    }
+    true
+}
+
+fn stack_is_full(gl: &Gl) -> bool {
+    gl.get_integer(c::ATTRIB_STACK_DEPTH) >= gl.get_integer(c::MAX_ATTRIB_STACK_DEPTH)
+}
+
+impl ReplayHazard {
+    /// The attribute groups that are pushed around each sending but the program's own.
+    fn saves(self) -> u32 {
+        match self {
+            ReplayHazard::None | ReplayHazard::Clear => 0,
+            // What an array element or an evaluator sets is not known here.
+            ReplayHazard::Current(e) if e.has(Effect::UNKNOWN) || e.has(Effect::ATTRIB) => {
+                c::CURRENT_BIT | c::LIGHTING_BIT
+            }
+            ReplayHazard::Current(_) => 0,
+            ReplayHazard::Raster(_) => c::CURRENT_BIT,
+            ReplayHazard::Anything { .. } => c::ALL_ATTRIB_BITS,
+        }
+    }
+}
+
+/// One draw while it is sent for the views.
+struct Sending<'a> {
+    gl: &'a Gl,
+    state: &'a State,
+    rig: &'a Rig,
+    tiles: Tiles,
+    hazard: ReplayHazard,
+    saves: u32,
+    projection: Projection<'a>,
+    raster: Option<Raster>,
+    current: Current,
+    pixel_sizes: PixelSizeGuard,
+}
+
+impl<'a> Sending<'a> {
+    fn begin(
+        gl: &'a Gl,
+        state: &'a State,
+        rig: &'a Rig,
+        tiles: Tiles,
+        shear: Option<Shear>,
+        hazard: ReplayHazard,
+    ) -> Self {
+        let saves = hazard.saves();
+        if saves != 0 {
+            // Mesa 22.3 forgets at a glPushAttrib what it has not sent of the current values, and a glPopAttrib of the program's that
+            // is still to come does not put them back.
+            gl.get_floats::<4>(c::CURRENT_COLOR);
+        }
+        let units = match hazard {
+            ReplayHazard::Anything { .. } => Units::All,
+            _ => Units::Enabled,
+        };
+        let pixel_sizes = PixelSizeGuard::enter(gl, state, &tiles.grid, units);
+        let current = match hazard {
+            ReplayHazard::Current(e) | ReplayHazard::Anything { current: e, .. } => {
+                Current::take(gl, e, saves != 0)
+            }
+            _ => Current::default(),
+        };
+        let raster = match hazard {
+            ReplayHazard::Raster(Some(shear)) => Some(Raster::at(gl, state, shear)),
+            _ => None,
+        };
+        let projection = Projection {
+            gl,
+            state,
+            shear,
+            grid: tiles.grid,
+        };
+        Sending {
+            gl,
+            state,
+            rig,
+            tiles,
             hazard,
+            saves,
+            projection,
+            raster,
+            current,
+            pixel_sizes,
+        }
+    }
+
+    /// Whether tiles have viewports of their own.
+    fn beside(&self) -> bool {
+        self.tiles.columns > 1 || !self.tiles.grid.is_full()
+    }
+
+    /// Whether a view's viewport is the program's to change.
+    fn is_free(&self, view: u32) -> bool {
+        let rects = matches!(self.hazard, ReplayHazard::Anything { rects: true, .. });
+        view == self.tiles.own() && rects
+    }
+
+    /// A list that changes the projection starts from the program's own, also where no view stands in the middle.
+    fn keeps_projection(&self) -> bool {
+        !matches!(
+            self.hazard,
             ReplayHazard::Anything {
                 projection: true,
                 ..
             }
-        );
-        if view == own && leaves {
-            if keeps {
-                projection.load(rig.position(view));
-            } else {
-                projection.restore();
-            }
-            current.put(gl);
-            match &raster {
-                Some(raster) => raster.own(gl, rig.position(own), &mut || call(view)),
-                None => call(view),
-            }
-            if beside && !free {
-                restore_viewport(gl, state);
-            }
-            if keeps && (rig.position(own) != 0.0 || projection.leans()) {
-                projection.restore();
-            }
-            pixel_sizes.leave(gl);
-            break;
+        )
+    }
+
+    fn enter_tile(&self, view: u32, x: i32) {
+        if self.beside() && !self.is_free(view) {
+            set_tile_viewport(self.gl, self.state, &self.tiles, view, x);
+        } else if self.beside() {
+            restore_viewport(self.gl, self.state);
         }
-        if saves != 0 {
-            gl.push_attrib(saves);
-        }
-        if keeps || view != own {
-            projection.load(rig.position(view));
+    }
+
+    fn load_projection(&self, view: u32) {
+        if self.keeps_projection() || view != self.tiles.own() {
+            self.projection.load(self.rig.position(view));
         } else {
-            projection.restore();
+            self.projection.restore();
         }
-        match hazard {
+    }
+
+    /// The program's own view, whose changes of the state are the program's.
+    fn own(&self, call: &mut dyn FnMut(u32)) {
+        let own = self.tiles.own();
+        let place = self.rig.position(own);
+        self.load_projection(own);
+        self.current.put(self.gl);
+        match &self.raster {
+            Some(raster) => raster.own(self.gl, place, &mut || call(own)),
+            None => call(own),
+        }
+    }
+
+    /// A view whose changes of the state are undone.
+    fn aside(&self, view: u32, x: i32, call: &mut dyn FnMut(u32)) {
+        let gl = self.gl;
+        if self.saves != 0 {
+            gl.push_attrib(self.saves);
+        }
+        self.load_projection(view);
+        match self.hazard {
             ReplayHazard::Raster(_) => {
-                let shift = raster.map_or(Some(0.0), |r| r.shift(rig.position(view)));
+                let place = self.rig.position(view);
+                let shift = self.raster.map_or(Some(0.0), |r| r.shift(place));
                 if let Some(shift) = shift {
                     gl.move_raster(x as f32 + shift, 0.0);
                     call(view);
                 }
             }
-            ReplayHazard::Anything { .. } => {
-                let stack = Stack::take(gl, state.matrix_mode);
-                let attribs = gl.get_integer(c::ATTRIB_STACK_DEPTH);
-                current.put(gl);
-                call(view);
-                let left = gl.get_integer(c::ATTRIB_STACK_DEPTH);
-                (attribs..left).for_each(|_| gl.pop_attrib());
-                if let Some(stack) = &stack {
-                    stack.put(gl);
-                }
-            }
+            ReplayHazard::Anything { .. } => self.anything(view, call),
             _ => {
-                current.put(gl);
+                self.current.put(gl);
                 call(view);
             }
         }
-        if saves != 0 {
+        if self.saves != 0 {
             gl.pop_attrib();
         }
-        if view == own {
-            if beside && !free {
-                restore_viewport(gl, state);
-            }
-            projection.restore();
-            current.put(gl);
-            pixel_sizes.leave(gl);
-            break;
+    }
+
+    /// A list that may leave matrices and attributes on the stacks.
+    fn anything(&self, view: u32, call: &mut dyn FnMut(u32)) {
+        let gl = self.gl;
+        let stack = Stack::take(gl, self.state.matrix_mode);
+        let attribs = gl.get_integer(c::ATTRIB_STACK_DEPTH);
+        self.current.put(gl);
+        call(view);
+        let left = gl.get_integer(c::ATTRIB_STACK_DEPTH);
+        (attribs..left).for_each(|_| gl.pop_attrib());
+        if let Some(stack) = &stack {
+            stack.put(gl);
         }
     }
-    true
+
+    /// After the program's own view; `leaves` as for [`replay`].
+    fn end(&self, leaves: bool) {
+        let own = self.tiles.own();
+        if self.beside() && !self.is_free(own) {
+            restore_viewport(self.gl, self.state);
+        }
+        let moved = self.rig.position(own) != 0.0 || self.projection.leans();
+        if !leaves || self.keeps_projection() && moved {
+            self.projection.restore();
+        }
+        if !leaves {
+            self.current.put(self.gl);
+        }
+        self.pixel_sizes.leave(self.gl);
+    }
 }
 
 /// The program's own view, for what the driver is about to draw there; [`others`] ends it.

@@ -90,23 +90,7 @@ pub struct Variant {
 
 /// How the draws of a program get their views. `texts` are those that it was linked from. Changes nothing of the program's state.
 pub fn drawn(gl: &Gl, program: u32, texts: &[Text], kind: VariantKind) -> Result<Drawn, NoVariant> {
-    if texts.is_empty() || texts.iter().any(|text| text.source.is_empty()) {
-        return Err(NoVariant::NoText);
-    }
-    if texts.iter().any(|text| text.stage == Stage::Compute) {
-        return Err(NoVariant::Computes);
-    }
-    let rank = |stage: Stage| match stage {
-        Stage::Vertex => 1,
-        Stage::TessEvaluation => 2,
-        Stage::Geometry => 3,
-        _ => 0,
-    };
-    let stages = texts.iter().map(|text| text.stage);
-    let last = stages
-        .max_by_key(|&stage| rank(stage))
-        .filter(|&stage| rank(stage) > 0);
-    let last = last.ok_or(NoVariant::NoVertex)?;
+    let last = last_stage(texts)?;
     let (amplifier, target, views) = match kind {
         VariantKind::Alone => (Amplifier::Replay, Target::Whole, 1),
         VariantKind::Layer(by) => (Amplifier::Replay, Target::Layer(by), 1),
@@ -123,85 +107,132 @@ pub fn drawn(gl: &Gl, program: u32, texts: &[Text], kind: VariantKind) -> Result
         views,
         es: gl.is_es(),
     };
-    let mut projection = false;
-    let mut rewritten = Vec::with_capacity(texts.len());
-    let mut shift = None;
-    let mut place = None;
-    let mut built_in = false;
-    for text in texts {
-        let moves = text.stage == last;
-        if !moves && text.stage != Stage::Fragment {
-            let facts = facts(&text.source, options.es)?;
-            if facts.subroutines {
-                return Err(NoVariant::Subroutines);
-            }
-            projection |= facts.projection;
-            rewritten.push((text.kind, text.source.as_slice().into()));
-            continue;
-        }
-        let new = rewrite(&text.source, text.stage, &options)?;
-        if new.facts.subroutines {
-            return Err(NoVariant::Subroutines);
-        }
-        if distorts && new.facts.side_effects {
-            return Err(NoVariant::Effects);
-        }
-        let changed = matches!(new.text, Cow::Owned(_));
-        match text.stage {
-            Stage::Fragment => {
-                built_in |= new.facts.writes_built_in();
-                if changed {
-                    place = Some(new.names);
-                }
-            }
-            _ => {
-                projection |= new.facts.projection;
-                if changed {
-                    shift = Some(new.names);
-                }
-            }
-        }
-        rewritten.push((text.kind, new.text));
-    }
-    if projection && !distorts {
+    let mut rewritten = Rewritten::of(texts, last, &options)?;
+    if rewritten.projection && !distorts {
         return Ok(Drawn::ByMatrix);
     }
-    let shift = shift.ok_or(NoVariant::NoVertex)?;
+    let shift = rewritten.shift.take().ok_or(NoVariant::NoVertex)?;
     let mut outputs = outputs(gl, program);
     if distorts {
-        let beside = place.as_ref().ok_or(NoVariant::NoFragment)?;
-        if *beside != shift {
-            return Err(NoVariant::Names);
-        }
-        let one = outputs.len() <= 1 && outputs.iter().all(|(_, at)| *at == 0);
-        let free = built_in || one && gl.tells_outputs();
-        if !free {
-            return Err(NoVariant::Outputs);
-        }
-        outputs.push((CString::new(beside.beside()).unwrap_or_default(), 1));
-        let distortion = shift.ray_distortion().into_bytes();
-        rewritten.push((c::VERTEX_SHADER, distortion.into()));
+        rewritten.add_displacement(gl, &shift, &mut outputs)?;
     }
-    let mut shaders = Vec::with_capacity(rewritten.len());
-    for (kind, text) in &rewritten {
-        match gl.compile(*kind, text) {
-            Ok(shader) => shaders.push(shader),
-            Err(log) => {
-                shaders
-                    .into_iter()
-                    .for_each(|shader| gl.delete_shader(shader));
-                return Err(NoVariant::Driver(log));
-            }
-        }
-    }
+    let shaders = rewritten.compile(gl)?;
     let attributes = locations(gl.active_attributes(program), |name| {
         gl.attribute_location(program, name)
     });
     let name = gl
         .link_at(&shaders, &attributes, &outputs)
         .map_err(NoVariant::Driver)?;
-    let variant = Variant::of(gl, program, name, &shift, place.as_ref());
+    let variant = Variant::of(gl, program, name, &shift, rewritten.window.as_ref());
     Ok(Drawn::ByVariant(Arc::new(variant)))
+}
+
+/// The stage that places vertices at last.
+fn last_stage(texts: &[Text]) -> Result<Stage, NoVariant> {
+    if texts.is_empty() || texts.iter().any(|text| text.source.is_empty()) {
+        return Err(NoVariant::NoText);
+    }
+    if texts.iter().any(|text| text.stage == Stage::Compute) {
+        return Err(NoVariant::Computes);
+    }
+    let rank = |stage: Stage| match stage {
+        Stage::Vertex => 1,
+        Stage::TessEvaluation => 2,
+        Stage::Geometry => 3,
+        _ => 0,
+    };
+    let stages = texts.iter().map(|text| text.stage);
+    stages
+        .max_by_key(|&stage| rank(stage))
+        .filter(|&stage| rank(stage) > 0)
+        .ok_or(NoVariant::NoVertex)
+}
+
+/// The texts of a program's shaders, rewritten.
+#[derive(Default)]
+struct Rewritten<'a> {
+    /// Each with the kind of its shader.
+    texts: Vec<(u32, Cow<'a, [u8]>)>,
+    /// Vertices are placed by the projection matrix of fixed function.
+    projection: bool,
+    /// Names of ours in the stage that shifts vertices, and in the fragment stage that reads places in the window.
+    shift: Option<Names>,
+    window: Option<Names>,
+    /// The fragment stage writes the outputs that GLSL has built in.
+    built_in: bool,
+}
+
+impl<'a> Rewritten<'a> {
+    fn of(texts: &'a [Text], last: Stage, options: &Options) -> Result<Self, NoVariant> {
+        let distorts = options.target == Target::DistortedRays;
+        let mut all = Rewritten::default();
+        for text in texts {
+            if text.stage != last && text.stage != Stage::Fragment {
+                let facts = facts(&text.source, options.es)?;
+                if facts.subroutines {
+                    return Err(NoVariant::Subroutines);
+                }
+                all.projection |= facts.projection;
+                all.texts.push((text.kind, text.source.as_slice().into()));
+                continue;
+            }
+            let new = rewrite(&text.source, text.stage, options)?;
+            if new.facts.subroutines {
+                return Err(NoVariant::Subroutines);
+            }
+            if distorts && new.facts.side_effects {
+                return Err(NoVariant::Effects);
+            }
+            let changed = matches!(new.text, Cow::Owned(_));
+            if text.stage == Stage::Fragment {
+                all.built_in |= new.facts.writes_built_in();
+                all.window = changed.then_some(new.names).or(all.window);
+            } else {
+                all.projection |= new.facts.projection;
+                all.shift = changed.then_some(new.names).or(all.shift);
+            }
+            all.texts.push((text.kind, new.text));
+        }
+        Ok(all)
+    }
+
+    /// By how much a sample is displaced is another output, and the function that distorts rays another vertex shader.
+    fn add_displacement(
+        &mut self,
+        gl: &Gl,
+        shift: &Names,
+        outputs: &mut Vec<(CString, u32)>,
+    ) -> Result<(), NoVariant> {
+        let beside = self.window.as_ref().ok_or(NoVariant::NoFragment)?;
+        if beside != shift {
+            return Err(NoVariant::Names);
+        }
+        let one = outputs.len() <= 1 && outputs.iter().all(|(_, at)| *at == 0);
+        let free = self.built_in || one && gl.tells_outputs();
+        if !free {
+            return Err(NoVariant::Outputs);
+        }
+        outputs.push((CString::new(beside.beside()).unwrap_or_default(), 1));
+        let distortion = shift.ray_distortion().into_bytes();
+        self.texts.push((c::VERTEX_SHADER, distortion.into()));
+        Ok(())
+    }
+
+    fn compile(&self, gl: &Gl) -> Result<Vec<u32>, NoVariant> {
+        let mut shaders = Vec::with_capacity(self.texts.len());
+        for (kind, text) in &self.texts {
+            match gl.compile(*kind, text) {
+                Ok(shader) => shaders.push(shader),
+                Err(log) => {
+                    shaders
+                        .into_iter()
+                        .for_each(|shader| gl.delete_shader(shader));
+                    return Err(NoVariant::Driver(log));
+                }
+            }
+        }
+        Ok(shaders)
+    }
 }
 
 fn locations(actives: Vec<Active>, location: impl Fn(&CStr) -> i32) -> Vec<(CString, u32)> {

@@ -111,7 +111,7 @@ impl Gl {
     }
 
     /// glReadPixels of depth as floats into the bound pack buffer, from a byte on; pack state must be as
-    /// [`crate::present::Saved::take`] leaves it. The driver refuses what does not fit.
+    /// [`crate::state::Neutral`] has it. The driver refuses what does not fit.
     pub fn read_depth_to_buffer(&self, w: i32, h: i32, at: usize) {
         if self.get_integer(c::PIXEL_PACK_BUFFER_BINDING) == 0 || !self.reads_depths() {
             return;

@@ -7,6 +7,7 @@ use crate::atlas::{Atlas, Grid, Limits, Names, Tiles};
 use crate::config::{Config, Output};
 use crate::display::Placement;
 use crate::gl::{Gl, consts as c};
+use crate::state::Neutral;
 use crate::state::Window;
 use serde::{Deserialize, Serialize};
 use std::time::Instant;
@@ -97,9 +98,10 @@ pub fn measure(gl: &Gl, glsl: u32, limits: Limits, case: &Case) -> Result<Cost, 
         gl.finish();
         Ok::<_, String>(start.elapsed().as_secs_f64() * 1000.0)
     };
+    let neutral = Neutral::enter(gl, gl.has_extension("GL_ARB_compatibility"));
     let mut weave = || {
         let none = &mut |_| Default::default();
-        interleaver.draw(gl, config, &views, none, Output::Panel, &panel)
+        interleaver.draw(gl, &neutral, config, &views, none, Output::Panel, &panel)
     };
     // The mask is made, and the driver compiles.
     weave()?;
@@ -123,6 +125,7 @@ pub fn measure(gl: &Gl, glsl: u32, limits: Limits, case: &Case) -> Result<Cost, 
         woven.push(weave);
         ratios.push(2.0 * weave / (before + after));
     }
+    neutral.leave(gl);
     shown.delete(gl);
     atlas.delete(gl);
     source.delete(gl);

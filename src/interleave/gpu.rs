@@ -10,6 +10,7 @@ use crate::atlas::{Names, PyramidTextures, ReferenceTextures, Tiles, ViewSet};
 use crate::config::{Config, DisocclusionSource, Filter, Output};
 use crate::display::{Display, GUARD, Lens, Mask, Placement};
 use crate::gl::{Gl, consts as c};
+use crate::state::Neutral;
 use image::RgbImage;
 
 /// The atlas as the passes see it.
@@ -200,10 +201,15 @@ impl Interleaver {
     }
 
     /// Draws the picture of an output over the whole framebuffer that is bound, which lies on `panel`; `tile` reads one view for the
-    /// CPU (and may change the read framebuffer). State must be as `present::Saved::take` leaves it.
+    /// CPU (and may change the read framebuffer).
+    #[allow(
+        clippy::too_many_arguments,
+        reason = "the parts of one picture; a struct of them would be built for this call alone"
+    )]
     pub fn draw(
         &mut self,
         gl: &Gl,
+        _: &Neutral,
         config: &Config,
         source: &Source,
         tile: &mut dyn FnMut(u32) -> RgbImage,

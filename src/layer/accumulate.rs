@@ -6,7 +6,7 @@ use crate::accumulation::{Accumulation, Operation, Region};
 use crate::atlas::ViewSet;
 use crate::gl::{Gl, consts as c};
 use crate::plan::Kind;
-use crate::present::Saved;
+use crate::state::Neutral;
 use crate::state::{Command, Run, Touch};
 
 /// The bits of glClear.
@@ -92,9 +92,12 @@ impl Layer {
             self.targets.accumulated.cleared = values;
             return;
         }
-        self.queries.pause(gl);
-        self.queries.lift_condition(gl);
-        let saved = Saved::take(gl, self.state.compatibility);
+        self.in_neutral(gl, |layer, neutral| {
+            layer.apply_accumulation(gl, operation, neutral);
+        });
+    }
+
+    fn apply_accumulation(&mut self, gl: &Gl, operation: Operation, neutral: &Neutral) {
         if let Operation::Load(_) | Operation::Accumulate(_) = operation {
             self.targets
                 .atlas
@@ -102,24 +105,21 @@ impl Layer {
         }
         let regions = self.regions();
         if self.targets.accumulated.buffer.is_none() && !self.targets.accumulated.failed {
-            self.make_accumulation(gl);
+            self.make_accumulation(gl, neutral);
         }
         if let Some(buffer) = &mut self.targets.accumulated.buffer {
             let (window, f) = (&self.state.window, &self.state.framebuffers);
             let from = self.targets.atlas.sampled(f.read_image());
             let images = f.draw_images().into_iter().filter(|&i| i != c::NONE);
             let to: Vec<u32> = images.map(|i| self.targets.atlas.drawn(i)).collect();
-            buffer.apply(gl, operation, window, (from, &to), &regions);
+            buffer.apply(gl, neutral, operation, window, (from, &to), &regions);
         }
-        saved.restore(gl);
-        self.rebind(gl);
-        self.queries.put_condition(gl);
-        self.queries.resume(gl);
     }
 
-    fn make_accumulation(&mut self, gl: &Gl) {
+    fn make_accumulation(&mut self, gl: &Gl, neutral: &Neutral) {
         match Accumulation::new(
             gl,
+            neutral,
             &mut self.targets.names,
             self.session.support.glsl,
             &self.targets.atlas,
@@ -127,7 +127,7 @@ impl Layer {
             Ok(mut made) => {
                 let whole = self.rows();
                 let clear = Operation::Clear(self.targets.accumulated.cleared);
-                made.apply(gl, clear, &self.state.window, (0, &[]), &whole);
+                made.apply(gl, neutral, clear, &self.state.window, (0, &[]), &whole);
                 self.targets.accumulated.buffer = Some(made);
             }
             Err(e) => {

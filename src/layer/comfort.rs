@@ -7,7 +7,6 @@ use crate::gl::{Gl, consts as c};
 use crate::plan::decide::DepthWatch;
 use crate::plan::depths::{DepthMapping, Distances};
 use crate::plan::{DepthMappings, comfort, parallax};
-use crate::present::Saved;
 use crate::report::Disparity;
 
 /// What is known of the frame's depths.
@@ -103,17 +102,10 @@ impl Layer {
 
     /// Within a frame, before what is about to be drawn or cleared.
     pub(super) fn save_depths(&mut self, gl: &Gl) {
-        self.queries.pause(gl);
-        self.queries.lift_condition(gl);
-        let saved = Saved::take(gl, self.state.compatibility);
-        self.take_depths(gl);
-        saved.restore(gl);
-        self.rebind(gl);
-        self.queries.put_condition(gl);
-        self.queries.resume(gl);
+        self.in_neutral(gl, |layer, _| layer.take_depths(gl));
     }
 
-    /// The state is as [`Saved::take`] leaves it.
+    /// The state is as [`Neutral`] has it.
     fn take_depths(&mut self, gl: &Gl) {
         self.known.depths.pending = false;
         if self.state.window.bits[4] == 0 || self.cameras.comfort.mappings.is_empty() {
@@ -143,7 +135,7 @@ impl Layer {
         }
     }
 
-    /// At the end of a frame: looks at the depths of the one before, and takes this one's. The state is as [`Saved::take`] leaves it;
+    /// At the end of a frame: looks at the depths of the one before, and takes this one's. The state is as [`Neutral`] has it;
     /// changes the framebuffer bindings.
     pub(super) fn track_depths(&mut self, gl: &Gl) {
         if !self.cameras.comfort.on {

@@ -2,14 +2,13 @@
 
 use super::{Layer, OnScreen};
 use crate::atlas::ViewSet;
-use crate::config::{Capture, CaptureWhat, Output};
-use crate::display::{Placement, QuiltName};
+use crate::config::Output;
+use crate::display::Placement;
 use crate::gl::{Gl, consts as c};
-use crate::interleave::{Depth, Form, Layout, PanelPlacement, Source, reference, rgbd};
-use crate::present::{Saved, capture};
-use crate::state::{BACK, FRONT};
+use crate::interleave::{Depth, PanelPlacement, Source};
+use crate::present::capture;
+use crate::state::{BACK, FRONT, Neutral};
 use image::RgbImage;
-use std::path::PathBuf;
 
 /// What has happened in the frame so far.
 #[derive(Clone, Copy, Debug, Default)]
@@ -39,14 +38,27 @@ impl Layer {
             self.enter_mono(gl);
         }
         super::orphans::delete_orphans(gl, &self.session.group);
-        self.queries.pause(gl);
-        self.queries.lift_condition(gl);
-        let saved = Saved::take(gl, self.state.compatibility);
+        self.in_neutral(gl, |layer, neutral| layer.show_picture(gl, swap, neutral));
+        if swap {
+            if self.is_mono() {
+                self.diagnostics.report.mono_frame();
+            }
+            self.time_frame(gl);
+            self.enter_mono(gl);
+        }
+        self.realign_tiles();
+        self.frame.drawn = false;
+        self.frame.list = None;
+        self.known.frame = Default::default();
+    }
+
+    /// Makes the picture of what was drawn to the back buffer, or to the front one, and leaves the atlas to the next frame.
+    fn show_picture(&mut self, gl: &Gl, swap: bool, neutral: &Neutral) {
         // A flush shows what is drawn to the front buffer; where that is the only image, so does a swap.
         let front =
             !swap && self.targets.atlas.has_front() && self.state.framebuffers.draws_front();
         let image = if front { FRONT } else { BACK };
-        self.reading(gl, image, |layer| layer.present(gl, image));
+        self.reading(gl, image, |layer| layer.present(gl, image, neutral));
         self.leave_scene();
         if !swap || !self.state.window.double_buffered {
             // Mesa shows the front buffer of what is bound when it flushes.
@@ -62,26 +74,11 @@ impl Layer {
             self.apply_buffers(gl);
         }
         self.next_proof(gl);
-        saved.restore(gl);
-        self.rebind(gl);
-        self.queries.put_condition(gl);
-        self.queries.resume(gl);
-        if swap {
-            if self.is_mono() {
-                self.diagnostics.report.mono_frame();
-            }
-            self.time_frame(gl);
-            self.enter_mono(gl);
-        }
-        self.realign_tiles();
-        self.frame.drawn = false;
-        self.frame.list = None;
-        self.known.frame = Default::default();
     }
 
     /// Draws the picture into the true framebuffer 0 and captures what is wanted.
-    fn present(&mut self, gl: &Gl, image: u32) {
-        self.end_scene(gl);
+    fn present(&mut self, gl: &Gl, image: u32, neutral: &Neutral) {
+        self.end_scene(gl, neutral);
         if self.synthesis.pyramid.is_none() {
             let views = match self.is_mono() {
                 true => self.targets.atlas.tiles.own_alone(),
@@ -96,8 +93,8 @@ impl Layer {
             gl.draw_buffer(c::FRONT);
             gl.read_buffer(c::FRONT);
         }
-        let exact = self.exact_picture(gl, image);
-        self.draw_picture(gl, image, depth.as_ref());
+        let exact = self.exact_picture(gl, image, neutral);
+        self.draw_picture(gl, image, depth.as_ref(), neutral);
         self.judge_proof(gl, exact);
         let source = self.source(image, depth.as_ref());
         self.capture(gl, &source);
@@ -116,8 +113,14 @@ impl Layer {
         }
     }
 
-    /// Draws the picture of the atlas into the framebuffer that is bound, the true 0. State is as [`Saved::take`] leaves it.
-    pub(super) fn draw_picture(&mut self, gl: &Gl, image: u32, depth: Option<&Depth>) {
+    /// Draws the picture of the atlas into the framebuffer that is bound, the true 0.
+    pub(super) fn draw_picture(
+        &mut self,
+        gl: &Gl,
+        image: u32,
+        depth: Option<&Depth>,
+        neutral: &Neutral,
+    ) {
         let output = self.output();
         let source = self.source(image, depth);
         let pictures = match self.is_mono() {
@@ -138,6 +141,7 @@ impl Layer {
             }
             if let Err(e) = self.targets.interleaver.draw(
                 gl,
+                neutral,
                 self.session.config,
                 &source,
                 &mut |view| tile(gl, &self.targets.atlas, view),
@@ -153,7 +157,7 @@ impl Layer {
     }
 
     /// The depth of the program's own view. Changes the framebuffers that are bound.
-    fn own_depth(&self, gl: &Gl) -> Depth {
+    pub(super) fn own_depth(&self, gl: &Gl) -> Depth {
         let tiles = &self.targets.atlas.tiles;
         let (width, height) = (tiles.width, tiles.height);
         let reversed = self.known.frame.nearer_is_larger.unwrap_or(false);
@@ -187,22 +191,14 @@ impl Layer {
 
     /// The program's own view as it is now, row 0 on top; nothing of the program's state has changed.
     pub(super) fn own_view(&mut self, gl: &Gl) -> RgbImage {
-        self.queries.pause(gl);
-        self.queries.lift_condition(gl);
-        let saved = Saved::take(gl, self.state.compatibility);
-        let picture = self.reading(gl, BACK, |layer| {
-            layer.targets.atlas.resolve(
-                gl,
-                &layer.targets.atlas.tiles.own_alone(),
-                c::COLOR_BUFFER_BIT,
-            );
-            tile(gl, &layer.targets.atlas, layer.targets.atlas.tiles.own())
-        });
-        saved.restore(gl);
-        self.rebind(gl);
-        self.queries.put_condition(gl);
-        self.queries.resume(gl);
-        picture
+        self.in_neutral(gl, |layer, _| {
+            layer.reading(gl, BACK, |layer| {
+                let atlas = &layer.targets.atlas;
+                let own = atlas.tiles.own_alone();
+                atlas.resolve(gl, &own, c::COLOR_BUFFER_BIT);
+                tile(gl, atlas, atlas.tiles.own())
+            })
+        })
     }
 
     /// Where the window's picture lies on the screen; a window system that does not tell leaves it in the corner.
@@ -253,97 +249,6 @@ impl Layer {
     /// Whether something was drawn since the last frame was shown.
     pub fn drawn(&self) -> bool {
         self.frame.drawn
-    }
-
-    fn capture(&mut self, gl: &Gl, source: &Source) {
-        let frame = self.diagnostics.report.frames() + 1;
-        if let Some(wanted) = &self.session.config.capture
-            && (wanted.first..=wanted.last).contains(&frame)
-        {
-            self.diagnostics.report.write(self.session.config, frame);
-            if let Err(e) = self.write(gl, source, wanted, frame) {
-                self.diagnostics
-                    .report
-                    .note(format!("capture of frame {frame}: {e}"));
-            }
-        }
-        self.take_picture(gl, source, frame);
-    }
-
-    /// Writes what is wanted of the frame and answers the file's name. Changes the framebuffers that are bound.
-    pub(super) fn write(
-        &mut self,
-        gl: &Gl,
-        source: &Source,
-        wanted: &Capture,
-        frame: u64,
-    ) -> Result<PathBuf, String> {
-        let (width, height) = self.size();
-        let form = Form::of(
-            self.session.config,
-            &self.session.config.display,
-            self.output(),
-        );
-        let path = match (wanted.what, form) {
-            (CaptureWhat::Output, Form::Layout(Layout::Quilt { columns, rows })) => {
-                let name = QuiltName::new((columns, rows), (width, height));
-                wanted.path_with(frame, &name.to_string())
-            }
-            _ => wanted.path_for(frame),
-        };
-        let last = self.session.config.views - 1;
-        // Layouts are written at the full size of their tiles, whatever the window's size.
-        let whole = |views: &[u32], layout: Layout| {
-            let size = layout.native_size(
-                views.len() as u32,
-                (
-                    self.targets.atlas.tiles.width,
-                    self.targets.atlas.tiles.height,
-                ),
-            );
-            let views: Vec<_> = views
-                .iter()
-                .map(|&v| tile(gl, &self.targets.atlas, v))
-                .collect();
-            reference::arrange(&views, layout, size)
-                .map_err(|e| e.to_string())
-                .and_then(|i| capture::write(&i, &path))
-        };
-        let all: Vec<u32> = (0..self.session.config.views).collect();
-        let row = Layout::SideBySide { half: false };
-        let written = match wanted.what {
-            CaptureWhat::Output if self.output() == Output::Quad => whole(&[0, last], row),
-            CaptureWhat::Output => match form {
-                Form::Layout(layout) => whole(&all, layout),
-                Form::Rgbd => {
-                    let own = tile(gl, &self.targets.atlas, source.tiles.own());
-                    let size = row.native_size(2, own.dimensions());
-                    rgbd(&own, &self.own_depth(gl), size)
-                        .map_err(|e| e.to_string())
-                        .and_then(|i| capture::write(&i, &path))
-                }
-                _ => {
-                    gl.bind_framebuffer(c::READ_FRAMEBUFFER, 0);
-                    capture::write(&capture::read_rgb(gl, 0, 0, width, height), &path)
-                }
-            },
-            CaptureWhat::Atlas => whole(&all, row),
-            CaptureWhat::View(v) => capture::write(&tile(gl, &self.targets.atlas, v), &path),
-            CaptureWhat::Reference => self
-                .reference_image(gl)
-                .and_then(|i| capture::write(&i, &path)),
-            CaptureWhat::Samples => capture::write_bytes(&self.samples(), &path),
-            CaptureWhat::Depth => {
-                let own = self.targets.atlas.tiles.own_alone();
-                self.targets.atlas.resolve(gl, &own, c::DEPTH_BUFFER_BIT);
-                let t = &source.tiles;
-                let (from, x) = self.targets.atlas.readable(t.own());
-                gl.bind_framebuffer(c::READ_FRAMEBUFFER, from);
-                capture::write(&capture::read_depth(gl, x, 0, t.width, t.height), &path)
-            }
-        };
-        gl.bind_framebuffer(c::FRAMEBUFFER, 0);
-        written.map(|()| path)
     }
 }
 

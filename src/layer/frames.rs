@@ -2,8 +2,9 @@
 
 use crate::config::{CaptureWhat, Config};
 use crate::gl::{Gl, consts as c};
-use crate::present::{Saved, capture};
+use crate::present::capture;
 use crate::report::Report;
+use crate::state::Neutral;
 
 /// What is kept of a context with one view.
 #[derive(Debug)]
@@ -42,7 +43,7 @@ impl Frames {
             return;
         };
         self.report.write(self.config, frame);
-        let saved = Saved::take(gl, false);
+        let neutral = Neutral::enter(gl, false);
         let framebuffers = gl.version() >= (3, 0);
         let read = if framebuffers {
             gl.get_integer(c::READ_FRAMEBUFFER_BINDING) as u32
@@ -68,7 +69,7 @@ impl Frames {
         if read != 0 {
             gl.bind_framebuffer(c::READ_FRAMEBUFFER, read);
         }
-        saved.restore(gl);
+        neutral.leave(gl);
     }
 
     /// Counts the frame and writes the report where one is asked for.

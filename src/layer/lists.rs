@@ -162,21 +162,20 @@ impl Layer {
 
     /// glGenLists, after the driver's own answer `first`: the names that it would have found without ours.
     pub fn generated_lists(&mut self, gl: &Gl, first: u32, count: u32) -> u32 {
-        let group = self.session.group.clone();
-        let mut lists = group.lists();
+        let free = self.session.group.lists().free(count);
         let mut names = first;
-        match lists.free(count) {
-            Some(free) if free != first => self.outside_list(gl, |_| {
+        // Without the lock: the run that ends may ask for a name.
+        if let Some(free) = free.filter(|&free| free != first) {
+            self.outside_list(gl, |_| {
                 gl.delete_lists(first, count);
                 names = free;
                 for name in free..free + count {
                     gl.new_list(name, c::COMPILE);
                     gl.end_list();
                 }
-            }),
-            _ => {}
+            });
         }
-        lists.generated(names, count);
+        self.session.group.lists().generated(names, count);
         names
     }
 
@@ -267,6 +266,16 @@ impl Layer {
                 let names: Vec<u32> = segment.names.iter().map(|n| n.wrapping_add(base)).collect();
                 self.nested(gl, &names, depth);
             }
+            Run::State | Run::Draw | Run::Clear | Run::Raster | Run::Read | Run::Copy => {
+                self.run_segment(gl, segment);
+            }
+            _ => self.command_segment(gl, segment),
+        }
+    }
+
+    /// A run that is a command of its own, which the layer makes in the program's place.
+    fn command_segment(&mut self, gl: &Gl, segment: &Segment) {
+        match segment.run {
             // A wrong name: the driver answers for it.
             Run::DrawBuffers if self.draws_to_zero() => {
                 let names = segment.names.clone();
@@ -308,31 +317,28 @@ impl Layer {
                 gl.call_list(segment.name);
                 self.ended_query(target);
             }
-            run => {
-                let attribs =
-                    (!segment.is_balanced()).then(|| gl.get_integer(c::ATTRIB_STACK_DEPTH));
-                let sets = segment.immediate.sets();
-                self.run(
-                    gl,
-                    run,
-                    segment.touch,
-                    Content {
-                        current: segment.immediate.must_restore(),
-                        primitives: segment.primitives,
-                        thin: segment.thin,
-                        material: segment.immediate.changes_material(),
-                    },
-                    &mut || {
-                        touch_current_values(gl, sets);
-                        gl.call_list(segment.name);
-                    },
-                );
-                match (segment.opens, attribs) {
-                    (Some(_), _) => self.state.begin = Begin::Direct,
-                    (None, Some(depth)) => self.left_attribs(gl, depth, segment),
-                    _ => {}
-                }
-            }
+            _ => self.run_segment(gl, segment),
+        }
+    }
+
+    /// A run of commands that the driver makes.
+    fn run_segment(&mut self, gl: &Gl, segment: &Segment) {
+        let attribs = (!segment.is_balanced()).then(|| gl.get_integer(c::ATTRIB_STACK_DEPTH));
+        let sets = segment.immediate.sets();
+        let content = Content {
+            current: segment.immediate.must_restore(),
+            primitives: segment.primitives,
+            thin: segment.thin,
+            material: segment.immediate.changes_material(),
+        };
+        self.run(gl, segment.run, segment.touch, content, &mut || {
+            touch_current_values(gl, sets);
+            gl.call_list(segment.name);
+        });
+        match (segment.opens, attribs) {
+            (Some(_), _) => self.state.begin = Begin::Direct,
+            (None, Some(depth)) => self.left_attribs(gl, depth, segment),
+            _ => {}
         }
     }
 

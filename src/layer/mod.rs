@@ -5,6 +5,7 @@ mod accumulate;
 mod auto;
 mod blits;
 mod cameras;
+mod capture;
 mod comfort;
 mod compute;
 mod control;
@@ -19,6 +20,7 @@ mod frames;
 mod immediate;
 mod lists;
 mod mono;
+mod neutral;
 mod occlusion;
 mod orphans;
 mod passes;
@@ -41,15 +43,12 @@ pub use lists::is_scaled;
 pub use queries::Answer;
 
 use crate::atlas::{Atlas, AtlasError, Grid, Names, Tiles};
-use crate::config::{AtlasLayout, Config, Live, Optimisation, Strategy, ViewScale, profile};
-use crate::display::Placement;
+use crate::config::{AtlasLayout, Config, Optimisation, Strategy, profile};
 use crate::draw::{Driver, Programs};
 use crate::gl::{Gl, consts as c};
-use crate::interleave::Interleaver;
-use crate::offscreen::{Images, Offscreen, SharedImages};
+use crate::offscreen::{Images, SharedImages};
 use crate::plan::Rig;
-use crate::plan::decide::{Detail, Known, Mono};
-use crate::present::Saved;
+use crate::plan::decide::{Known, Mono};
 use crate::report::{Proof, Report};
 use crate::state::{BACK, Lists, State, Window};
 use cameras::Cameras;
@@ -155,19 +154,8 @@ impl Layer {
         group: Arc<Group>,
         support: Support,
     ) -> Result<Layer, LayerError> {
-        let mut state = State::new(
-            Window::ask(gl, width, height, support.compatibility),
-            support.compatibility,
-        );
-        let clip_control = ["GL_ARB_clip_control", "GL_EXT_clip_control"];
-        state.clip_control =
-            gl.since((4, 5), None) || clip_control.iter().any(|e| gl.has_extension(e));
-        state.offset_clamp =
-            gl.since((4, 6), None) || gl.has_extension("GL_ARB_polygon_offset_clamp");
-        state.pipelines =
-            gl.since((4, 1), Some((3, 1))) || gl.has_extension("GL_ARB_separate_shader_objects");
-        state.keep_errors(gl);
-        let mut names = Names::default();
+        let window = Window::ask(gl, width, height, support.compatibility);
+        let state = State::ask(gl, window, support.compatibility);
         let mut report = Report::default();
         report.proof = config.prove.map(|_| Proof::default());
         support.notes().into_iter().for_each(|n| report.note(n));
@@ -179,83 +167,22 @@ impl Layer {
             config.disabled.has(Optimisation::Uniforms),
         );
         let program = profile::this_program();
-        let all: Vec<Strategy> = [
-            (Strategy::Replay, true),
-            (Strategy::Instanced, support.instanced() || support.layers()),
-            (Strategy::Geometry, support.geometry()),
-        ]
-        .into_iter()
-        .filter_map(|(strategy, there)| there.then_some(strategy))
-        .collect();
-        let auto = auto::Auto::new(gl, config, program.as_deref(), &all);
-        let strategy = auto.as_ref().map_or(config.strategy, auto::Auto::strategy);
         let (synthesis, note) = synthesis::Synthesis::new(gl, config, support.glsl);
         note.into_iter().for_each(|note| report.note(note));
-        let interleaver = Interleaver::new(gl, &mut names, support.glsl, config.synthesis());
-        match interleaver.note() {
-            Some(note) if support.es => return Err(LayerError::Passes(note)),
-            Some(note) => report.note(note),
-            None => {}
-        }
-        orphans::delete_orphans(gl, &group);
-        let live = Live::new(config);
-        let detail = if support.viewports {
-            Detail::SampleAligned
-        } else {
-            Detail::Full
-        };
-        if support.es && config.view_scale != ViewScale::Fixed(1.0) {
-            report.note("views are drawn at the size of the window, because the program has shaders of its own".into());
-        }
-        let placement = Placement::full_screen(state.window.width, state.window.height);
-        let shader = interleaver.note().is_none();
-        let grid = sampling::grid(
-            config,
-            &config.display,
-            live.output,
-            &placement,
-            detail,
-            shader,
-        );
-        let atlas = make_atlas(gl, &mut names, config, &state, &support, grid, strategy)?;
-        let offscreen = Offscreen::new(
-            gl,
-            config.views,
-            support.compatibility,
-            group.images.clone(),
-        );
+        let session = Session::new(gl, config, support, group, program.as_deref());
+        orphans::delete_orphans(gl, &session.group);
+        let targets = Targets::new(gl, &session, &state, &mut report)?;
+        let camera = session.live.camera;
+        let rig = Rig::new(config.views, camera, config.profile.focal_depth);
         let mut layer = Layer {
-            cameras: Cameras::new(config, &live, program.as_deref()),
-            session: Session {
-                config,
-                support,
-                strategy,
-                group,
-                live,
-                on_screen: None,
-                fitted: None,
-                auto,
-            },
+            cameras: Cameras::new(config, &session.live, program.as_deref()),
+            session,
             state,
-            targets: Targets {
-                atlas,
-                names,
-                offscreen,
-                accumulated: accumulate::Accumulated::default(),
-                interleaver,
-                detail,
-                stuck: false,
-                undrawn: false,
-                pushed: Vec::new(),
-            },
+            targets,
             variants: Variants::new(programs, driver),
             synthesis,
             lists: Recordings::default(),
-            known: Known::new(Rig::new(
-                config.views,
-                live.camera,
-                config.profile.focal_depth,
-            )),
+            known: Known::new(rig),
             frame: Frame::default(),
             queries: queries::Queries::default(),
             diagnostics: Diagnostics::new(report),
@@ -369,11 +296,13 @@ impl Layer {
         };
         self.diagnostics.report.note(note.into());
         self.targets.interleaver.rename(gl, &mut self.targets.names);
-        if let Some(buffer) = &mut self.targets.accumulated.buffer {
-            let saved = Saved::take(gl, self.state.compatibility);
-            buffer.rename(gl, &mut self.targets.names);
-            saved.restore(gl);
-            self.rebind(gl);
+        if self.targets.accumulated.buffer.is_some() {
+            self.in_neutral(gl, |layer, neutral| {
+                let names = &mut layer.targets.names;
+                if let Some(buffer) = &mut layer.targets.accumulated.buffer {
+                    buffer.rename(gl, neutral, names);
+                }
+            });
         }
     }
 

@@ -15,6 +15,7 @@ use crate::gl::{Gl, consts as c};
 use crate::interleave::Disparities;
 use crate::plan::{Flat, Reason};
 use crate::present::capture::read_rgb;
+use crate::state::Neutral;
 use crate::synthesis::Passes;
 use image::RgbImage;
 
@@ -191,7 +192,7 @@ impl Layer {
     }
 
     /// After the own view has been measured: its map, for the next frame. State as for the passes.
-    pub(super) fn map_distortion(&mut self, gl: &Gl, disparities: &Disparities) {
+    pub(super) fn map_distortion(&mut self, gl: &Gl, neutral: &Neutral, disparities: &Disparities) {
         let passes = self.synthesis.passes.as_ref();
         if !passes.is_some_and(Passes::distorts) {
             return;
@@ -208,7 +209,7 @@ impl Layer {
         }
         if let (Some(passes), false) = (&self.synthesis.passes, self.synthesis.reference.refused) {
             self.synthesis.reference.mapped =
-                passes.map_distortion(gl, &mut self.targets.atlas, disparities);
+                passes.map_distortion(gl, neutral, &mut self.targets.atlas, disparities);
         }
     }
 }

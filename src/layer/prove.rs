@@ -13,9 +13,9 @@ use crate::draw::{ReplayHazard, replay};
 use crate::gl::{Gl, consts as c};
 use crate::metric::triptych;
 use crate::plan::{Kind, Method, Plan, Shear, Traits};
-use crate::present::{Saved, capture};
+use crate::present::capture;
 use crate::report::{Culprit, Difference, Proof, Worst};
-use crate::state::BACK;
+use crate::state::{BACK, Neutral};
 use image::RgbImage;
 use std::time::{Duration, Instant};
 
@@ -257,7 +257,12 @@ impl Layer {
     }
 
     /// The picture that the window would show of the other atlas; the true framebuffer 0 is bound and is drawn to.
-    pub(super) fn exact_picture(&mut self, gl: &Gl, image: u32) -> Option<RgbImage> {
+    pub(super) fn exact_picture(
+        &mut self,
+        gl: &Gl,
+        image: u32,
+        neutral: &Neutral,
+    ) -> Option<RgbImage> {
         // Those are made of more than one picture of colours.
         let single = !matches!(self.output(), Output::Quad | Output::Rgbd);
         if !single || !self.diagnostics.proving.proves() || !self.frame.drawn {
@@ -268,7 +273,7 @@ impl Layer {
             .atlas
             .resolve(gl, &ViewSet::ALL, c::COLOR_BUFFER_BIT);
         gl.bind_framebuffer(c::FRAMEBUFFER, 0);
-        self.draw_picture(gl, image, None);
+        self.draw_picture(gl, image, None, neutral);
         self.change_places();
         Some(self.window_picture(gl))
     }
@@ -396,7 +401,7 @@ impl Layer {
         }
     }
 
-    /// A view by replay, and as it is shown, stretched to the window where it has fewer pixels. State is as [`Saved::take`] leaves
+    /// A view by replay, and as it is shown, stretched to the window where it has fewer pixels. State is as [`Neutral`] leaves
     /// it; changes the framebuffers that are bound.
     fn pair(&mut self, gl: &Gl, view: u32) -> [RgbImage; 2] {
         let exact = self.diagnostics.proving.atlas.as_ref();
@@ -422,23 +427,19 @@ impl Layer {
             ));
         }
         if search.pending {
-            self.queries.pause(gl);
-            self.queries.lift_condition(gl);
-            let saved = Saved::take(gl, self.state.compatibility);
-            let pair = self.reading(gl, BACK, |layer| {
-                layer.resolve_both(gl);
-                layer.pair(gl, search.view)
+            let view = search.view;
+            let pair = self.in_neutral(gl, |layer, _| {
+                layer.reading(gl, BACK, |layer| {
+                    layer.resolve_both(gl);
+                    layer.pair(gl, view)
+                })
             });
-            saved.restore(gl);
-            self.rebind(gl);
-            self.queries.put_condition(gl);
-            self.queries.resume(gl);
             search.attribute(&pair);
         }
         self.diagnostics.proving.search = Some(search);
     }
 
-    /// At the end of a frame: decides how the next one is drawn. State is as [`Saved::take`] leaves it; changes the framebuffers that
+    /// At the end of a frame: decides how the next one is drawn. State is as [`Neutral`] has it; changes the framebuffers that
     /// are bound.
     pub(super) fn next_proof(&mut self, gl: &Gl) {
         let Some(every) = self.session.config.prove else {

@@ -3,6 +3,7 @@
 use super::{Group, OnScreen, Support, auto};
 use crate::config::{Config, Live, Strategy};
 use crate::display::Display;
+use crate::gl::Gl;
 use crate::plan::decide::has_depths_of_replay;
 use std::sync::Arc;
 
@@ -24,6 +25,35 @@ pub(super) struct Session {
 }
 
 impl Session {
+    /// For a context that was just made current; `program` is the name of the program's file.
+    pub(super) fn new(
+        gl: &Gl,
+        config: &'static Config,
+        support: Support,
+        group: Arc<Group>,
+        program: Option<&str>,
+    ) -> Self {
+        let all: Vec<Strategy> = [
+            (Strategy::Replay, true),
+            (Strategy::Instanced, support.instanced() || support.layers()),
+            (Strategy::Geometry, support.geometry()),
+        ]
+        .into_iter()
+        .filter_map(|(strategy, there)| there.then_some(strategy))
+        .collect();
+        let auto = auto::Auto::new(gl, config, program, &all);
+        Session {
+            config,
+            support,
+            strategy: auto.as_ref().map_or(config.strategy, auto::Auto::strategy),
+            group,
+            live: Live::new(config),
+            on_screen: None,
+            fitted: None,
+            auto,
+        }
+    }
+
     /// Whether amplified draws have the very depths of replayed ones.
     pub(super) fn same_depths(&self) -> bool {
         let distances = self.config.clip.is_some();

@@ -16,8 +16,7 @@ use crate::gl::{Gl, consts as c};
 use crate::interleave::{Disparities, Places, Sources};
 use crate::plan::Governor;
 use crate::plan::decide::{DisparityMapping, Scene};
-use crate::present::Saved;
-use crate::state::BACK;
+use crate::state::{BACK, Neutral};
 use crate::synthesis::Passes;
 use crate::volume::Samples;
 use surface::Surfaces;
@@ -163,21 +162,21 @@ impl Layer {
         };
         self.known.synthesised = true;
         self.targets.atlas.tiles.shown = self.shown();
-        self.queries.pause(gl);
-        self.queries.lift_condition(gl);
-        let saved = Saved::take(gl, self.state.compatibility);
-        self.reading(gl, BACK, |layer| match scene.mapping {
-            Some(mapping) if layer.has_pyramid(gl) => layer.make_of(gl, &scene, &mapping),
-            _ => layer.targets.atlas.share_own(gl),
+        self.in_neutral(gl, |layer, neutral| {
+            layer.synthesise(gl, &scene, neutral);
         });
-        saved.restore(gl);
-        self.rebind(gl);
-        self.queries.put_condition(gl);
-        self.queries.resume(gl);
     }
 
-    /// The state is as [`Saved::take`] leaves it; changes the framebuffers that are bound.
-    fn make_of(&mut self, gl: &Gl, scene: &Scene, mapping: &DisparityMapping) {
+    /// Changes the framebuffers that are bound.
+    fn synthesise(&mut self, gl: &Gl, scene: &Scene, neutral: &Neutral) {
+        self.reading(gl, BACK, |layer| match scene.mapping {
+            Some(mapping) if layer.has_pyramid(gl) => layer.make_of(gl, scene, &mapping, neutral),
+            _ => layer.targets.atlas.share_own(gl),
+        });
+    }
+
+    /// Changes the framebuffers that are bound.
+    fn make_of(&mut self, gl: &Gl, scene: &Scene, mapping: &DisparityMapping, neutral: &Neutral) {
         let disparities = self.disparities(scene, mapping);
         self.resolve_sources(gl);
         self.take_samples(gl, scene, mapping);
@@ -186,7 +185,7 @@ impl Layer {
             Some(sources) => self.targets.atlas.copy_to_pyramid(gl, sources.iter()),
             None => self.targets.atlas.copy_to_pyramid(gl, [own].into_iter()),
         }
-        let Some(textures) = self.measure(gl, &disparities, true) else {
+        let Some(textures) = self.measure(gl, &disparities, true, neutral) else {
             return self.targets.atlas.share_own(gl);
         };
         let Some(passes) = &self.synthesis.passes else {
@@ -203,7 +202,13 @@ impl Layer {
         if srgb {
             gl.enable_srgb(true);
         }
-        passes.views(gl, &mut self.targets.atlas, &disparities, &textures);
+        passes.views(
+            gl,
+            neutral,
+            &mut self.targets.atlas,
+            &disparities,
+            &textures,
+        );
         self.diagnostics.report.synthesised(false);
         if srgb {
             gl.enable_srgb(false);
@@ -253,12 +258,13 @@ impl Layer {
         gl: &Gl,
         disparities: &Disparities,
         copied: bool,
+        neutral: &Neutral,
     ) -> Option<PyramidTextures> {
         self.synthesis.drew = disparities.sources.map(|sources| sources.count());
         let mut textures = self.targets.atlas.pyramid(copied)?;
         let passes = self.synthesis.passes.as_ref()?;
-        passes.measure(gl, &mut self.targets.atlas, disparities, &textures);
-        self.map_distortion(gl, disparities);
+        passes.measure(gl, neutral, &mut self.targets.atlas, disparities, &textures);
+        self.map_distortion(gl, neutral, disparities);
         textures.reference = self
             .targets
             .atlas
@@ -300,9 +306,9 @@ impl Layer {
         }
     }
 
-    /// At the end of a frame: what is not made yet is made, or is not needed: the panel's picture comes straight from what is drawn. The
-    /// state is as [`Saved::take`] leaves it; changes the framebuffers that are bound.
-    pub(super) fn end_scene(&mut self, gl: &Gl) {
+    /// At the end of a frame: what is not made yet is made, or is not needed: the panel's picture comes straight from what is drawn.
+    /// Changes the framebuffers that are bound.
+    pub(super) fn end_scene(&mut self, gl: &Gl, neutral: &Neutral) {
         let Some(scene) = self.known.scene else {
             return;
         };
@@ -320,7 +326,7 @@ impl Layer {
             Some(mapping) if straight && self.has_pyramid(gl) => {
                 let disparities = self.disparities(&scene, &mapping);
                 self.resolve_sources(gl);
-                if let Some(textures) = self.measure(gl, &disparities, false) {
+                if let Some(textures) = self.measure(gl, &disparities, false, neutral) {
                     self.synthesis.pyramid = Some((textures, disparities));
                     self.diagnostics.report.synthesised(true);
                 }

@@ -1,10 +1,16 @@
 //! What is drawn to: the atlas of framebuffer 0, the program's own framebuffers in as many views, and the pass that shows them.
 
-use super::{accumulate, framebuffer};
+use super::session::Session;
+use super::{LayerError, accumulate, framebuffer, make_atlas, sampling};
 use crate::atlas::{Atlas, Names};
+use crate::config::ViewScale;
+use crate::display::Placement;
+use crate::gl::Gl;
 use crate::interleave::Interleaver;
 use crate::offscreen::Offscreen;
 use crate::plan::decide::Detail;
+use crate::report::Report;
+use crate::state::State;
 
 /// The images of a context that differ between the views.
 #[derive(Debug)]
@@ -21,4 +27,54 @@ pub(super) struct Targets {
     pub(super) undrawn: bool,
     /// What glPushAttrib saved of framebuffer 0.
     pub(super) pushed: Vec<framebuffer::Pushed>,
+}
+
+impl Targets {
+    /// For a window of the state's size; what is missing is told in the report.
+    pub(super) fn new(
+        gl: &Gl,
+        session: &Session,
+        state: &State,
+        report: &mut Report,
+    ) -> Result<Self, LayerError> {
+        let (config, support) = (session.config, &session.support);
+        let mut names = Names::default();
+        let interleaver = Interleaver::new(gl, &mut names, support.glsl, config.synthesis());
+        match interleaver.note() {
+            Some(note) if support.es => return Err(LayerError::Passes(note)),
+            Some(note) => report.note(note),
+            None => {}
+        }
+        let detail = match support.viewports {
+            true => Detail::SampleAligned,
+            false => Detail::Full,
+        };
+        if support.es && config.view_scale != ViewScale::Fixed(1.0) {
+            report.note("views are drawn at the size of the window, because the program has shaders of its own".into());
+        }
+        let window = &state.window;
+        let placement = Placement::full_screen(window.width, window.height);
+        let grid = sampling::grid(
+            config,
+            &config.display,
+            session.live.output,
+            &placement,
+            detail,
+            interleaver.note().is_none(),
+        );
+        let strategy = session.strategy;
+        let atlas = make_atlas(gl, &mut names, config, state, support, grid, strategy)?;
+        let images = session.group.images.clone();
+        Ok(Targets {
+            atlas,
+            names,
+            offscreen: Offscreen::new(gl, config.views, support.compatibility, images),
+            accumulated: accumulate::Accumulated::default(),
+            interleaver,
+            detail,
+            stuck: false,
+            undrawn: false,
+            pushed: Vec::new(),
+        })
+    }
 }

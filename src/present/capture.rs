@@ -5,7 +5,7 @@ use crate::gl::Gl;
 use image::{ImageBuffer, Luma, RgbImage};
 use std::path::Path;
 
-/// The rectangle of the bound read framebuffer; the pixel-store state must be as [`super::Saved::take`] leaves it.
+/// The rectangle of the bound read framebuffer; the pixel-store state must be as [`crate::state::Neutral`] has it.
 pub fn read_rgb(gl: &Gl, x: i32, y: i32, width: u32, height: u32) -> RgbImage {
     let mut image =
         RgbImage::from_raw(width, height, gl.read_rgb(x, y, width, height)).unwrap_or_default();

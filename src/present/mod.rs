@@ -2,8 +2,6 @@
 #![forbid(unsafe_code)]
 
 pub mod capture;
-mod saved;
 mod stereo;
 
-pub use saved::Saved;
 pub use stereo::Attributes;

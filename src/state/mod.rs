@@ -6,12 +6,14 @@ mod classification;
 mod effect;
 mod framebuffer;
 mod lists;
+mod neutral;
 mod shaders;
 
 pub use classification::ClassificationState;
 pub use effect::{Effect, Immediate};
 pub use framebuffer::{BACK, FRONT, Framebuffers, Window};
 pub use lists::{Body, Command, Compiling, Lists, Orphans, Run, Segment, Start};
+pub use neutral::Neutral;
 pub use shaders::{
     Linked, Matrices, Samplers, Shaders, Text, link_change, texts, uniform_change, uniform_changes,
 };
@@ -160,6 +162,19 @@ impl State {
             clip_control: false,
             offset_clamp: false,
         }
+    }
+
+    /// The same, with what the context has asked of the driver, and the program's errors kept.
+    pub fn ask(gl: &Gl, window: Window, compatibility: bool) -> Self {
+        let mut state = State::new(window, compatibility);
+        let has = |names: &[&str]| names.iter().any(|name| gl.has_extension(name));
+        state.clip_control =
+            gl.since((4, 5), None) || has(&["GL_ARB_clip_control", "GL_EXT_clip_control"]);
+        state.offset_clamp = gl.since((4, 6), None) || has(&["GL_ARB_polygon_offset_clamp"]);
+        state.pipelines =
+            gl.since((4, 1), Some((3, 1))) || has(&["GL_ARB_separate_shader_objects"]);
+        state.keep_errors(gl);
+        state
     }
 
     /// Notes that state groups change. `MATRIX` becomes the group that the matrix mode names.

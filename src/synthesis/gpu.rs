@@ -13,6 +13,7 @@ use crate::interleave::shader::{
     VIEWS_UNIT,
 };
 use crate::interleave::{Disparities, Layout, Places, Program, bind_reference};
+use crate::state::Neutral;
 
 /// The passes of one context.
 #[derive(Debug)]
@@ -88,10 +89,11 @@ impl Passes {
     }
 
     /// Learns how high the views are whose textures these are, the own one or all that are drawn. State must be as
-    /// `present::Saved::take` leaves it; changes the framebuffers that are bound.
+    /// [`crate::state::Neutral`] has it; changes the framebuffers that are bound.
     pub fn measure(
         &self,
         gl: &Gl,
+        _: &Neutral,
         atlas: &mut Atlas,
         disparities: &Disparities,
         textures: &PyramidTextures,
@@ -138,7 +140,13 @@ impl Passes {
     }
 
     /// Makes the distortion map of the own view, which has been measured, for the next frame; false where there is none.
-    pub fn map_distortion(&self, gl: &Gl, atlas: &mut Atlas, disparities: &Disparities) -> bool {
+    pub fn map_distortion(
+        &self,
+        gl: &Gl,
+        _: &Neutral,
+        atlas: &mut Atlas,
+        disparities: &Disparities,
+    ) -> bool {
         let (Some(reference), Some(textures)) = (&self.reference, atlas.reference()) else {
             return false;
         };
@@ -166,6 +174,7 @@ impl Passes {
     pub fn views(
         &self,
         gl: &Gl,
+        _: &Neutral,
         atlas: &mut Atlas,
         disparities: &Disparities,
         textures: &PyramidTextures,

@@ -60,7 +60,7 @@ pub(crate) fn scene(name: &str) -> Scene {
         "arrays" => scene("arrays", &[], 1),
         "immediate" => scene("immediate", &[], 1),
         "sky" => scene("sky", &[], 1),
-        "field" => scene("disparity", &[], 1),
+        "field" => scene("field", &[], 1),
         "shade" => scene("shade", &[], 1),
         "shade_toon" => scene("shade", &["--toon"], 1),
         "shade_combined" => scene("shade", &["--combined"], 1),

@@ -19,7 +19,7 @@ impl Layer {
         })
     }
 
-    /// The state is as [`crate::present::Saved::take`] leaves it; changes the read framebuffer.
+    /// The state is as [`crate::state::Neutral`] has it; changes the read framebuffer.
     pub(super) fn take_samples(&mut self, gl: &Gl, scene: &Scene, mapping: &DisparityMapping) {
         self.synthesis.samples = None;
         let reference = self.targets.atlas.reference_framebuffer();

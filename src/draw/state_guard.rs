@@ -1,0 +1,181 @@
+//! The program's state around an amplified draw: viewport, scissor, capabilities and pixel sizes, entered and left.
+
+use super::amplified::Program;
+use super::fixed_state::FixedState;
+use super::pixel_size::{PixelSizeGuard, Units};
+use super::replay::cut;
+use crate::atlas::Atlas;
+use crate::fixed::{Amplifier, FixedKey, Patches, Primitive, Provoking, Tiles};
+use crate::gl::{Gl, consts as c};
+use crate::state::State;
+
+/// What may be drawn of a tile, as [`StateGuard`] has it.
+struct Region {
+    clip: [f32; 4],
+    limits: [i32; 2],
+}
+
+impl Default for Region {
+    fn default() -> Self {
+        Region {
+            clip: [-1.0, 1.0, -1.0, 1.0],
+            limits: [0; 2],
+        }
+    }
+}
+
+impl Region {
+    /// For tiles beside each other. x: the viewport spans all tiles and clip distances cut at the tile and at the program's viewport and
+    /// scissor. y: viewport and scissor are the program's own. Sets both.
+    fn beside(gl: &Gl, state: &State, atlas: &Atlas) -> Region {
+        let [vx, vy, vw, vh] = state.viewport;
+        let tile = atlas.tiles.width as i32;
+        let (mut left, mut right) = (vx.max(0), vx.saturating_add(vw).min(tile));
+        let (mut bottom, mut height) = (0, atlas.tiles.height as i32);
+        if state.scissor_test {
+            let [sx, sy, sw, sh] = state.scissor;
+            (left, right) = (left.max(sx), right.min(sx.saturating_add(sw)));
+            (bottom, height) = (sy, sh);
+        }
+        let ndc = |x: i32| (f64::from(x - vx) * 2.0 / f64::from(vw.max(1)) - 1.0) as f32;
+        let ends = [
+            if left == vx { -1.0 } else { ndc(left) },
+            if right == vx.saturating_add(vw) {
+                1.0
+            } else {
+                ndc(right)
+            },
+        ];
+        let all = atlas.tiles.texture_width() as i32;
+        gl.viewport(0, vy, all, vh);
+        if state.scissor_test {
+            gl.scissor(0, bottom, all, height);
+        }
+        Region {
+            clip: [ends[0], ends[1], -1.0, 1.0],
+            limits: [left, right],
+        }
+    }
+}
+
+/// Enables and disables what the generated program needs otherwise than the program has it; answers what was changed, as it was.
+fn toggle(gl: &Gl, key: &FixedKey, patches: &Patches, fixed: &FixedState) -> Vec<(u32, bool)> {
+    let mut toggled = Vec::new();
+    let mut set = |cap, was: bool, is: bool| {
+        if was != is {
+            if is {
+                gl.enable(cap)
+            } else {
+                gl.disable(cap)
+            }
+            toggled.push((cap, was));
+        }
+    };
+    set(c::COLOR_SUM, fixed.color_sum, patches.color_sum);
+    let two_side = c::VERTEX_PROGRAM_TWO_SIDE;
+    set(two_side, fixed.program_two_side, patches.two_side);
+    let point_size = c::PROGRAM_POINT_SIZE;
+    set(point_size, fixed.program_point_size, patches.point_size);
+    if key.target.amplifier != Amplifier::Instanced
+        && !matches!(key.target.primitive, Primitive::Points | Primitive::Lines)
+    {
+        // Measured on llvmpipe 22.3: with smooth lines enabled, a geometry shader's triangles lose their colour.
+        set(c::LINE_SMOOTH, fixed.surroundings.line_smooth, false);
+        set(c::POINT_SMOOTH, fixed.surroundings.point_smooth, false);
+    }
+    for i in 0..8u32 {
+        let (was, is) = (fixed.key.clip_planes, patches.clip_distances);
+        set(c::CLIP_DISTANCE0 + i, was >> i & 1 != 0, is >> i & 1 != 0);
+    }
+    toggled
+}
+
+/// State around an amplified draw.
+pub(super) struct StateGuard {
+    /// Width of the program's viewport over the atlas's.
+    pub(super) scale: f32,
+    /// What may be drawn, in NDC of the program's viewport: left, right, bottom, top.
+    pub(super) clip: [f32; 4],
+    /// The same left and right in pixels from the left edge of the tile.
+    pub(super) limits: [i32; 2],
+    viewport: [i32; 4],
+    width: f64,
+    /// Viewport and scissor are not the program's.
+    placed: bool,
+    pixel_sizes: PixelSizeGuard,
+    toggled: Vec<(u32, bool)>,
+    /// The last-vertex convention was set where the program has the first.
+    last: bool,
+}
+
+impl StateGuard {
+    pub(super) fn enter(
+        gl: &Gl,
+        state: &State,
+        atlas: &Atlas,
+        key: &FixedKey,
+        program: &Program,
+        units: Units,
+        fixed: &FixedState,
+    ) -> StateGuard {
+        let beside = key.target.tiles == Tiles::ClipLeftRight;
+        let width = f64::from(atlas.tiles.texture_width());
+        let region = match beside {
+            true => Region::beside(gl, state, atlas),
+            false => Region::default(),
+        };
+        let grid = &atlas.tiles.grid;
+        let pixel_sizes = PixelSizeGuard::enter(gl, state, grid, units);
+        if !grid.is_full() {
+            gl.viewport_f(grid.viewport(atlas.tiles.own(), 0, state.viewport));
+            if state.scissor_test {
+                let [x, y, w, h] = cut(state, &atlas.tiles, atlas.tiles.own(), 0);
+                gl.scissor(x, y, w, h);
+            }
+        }
+        gl.use_program(program.name);
+        let toggled = toggle(gl, key, &program.patches, fixed);
+        let last =
+            program.patches.last_vertex_convention && fixed.key.provoking == Provoking::First;
+        if last {
+            gl.provoking_vertex(c::LAST_VERTEX_CONVENTION);
+        }
+        StateGuard {
+            scale: (f64::from(state.viewport[2]) / width) as f32,
+            clip: region.clip,
+            limits: region.limits,
+            viewport: state.viewport,
+            width,
+            placed: beside || !grid.is_full(),
+            pixel_sizes,
+            toggled,
+            last,
+        }
+    }
+
+    /// Centre of the program's viewport inside the tile at x, in NDC of the atlas.
+    pub(super) fn centre(&self, x: u32) -> f32 {
+        let [vx, _, vw, _] = self.viewport;
+        ((2.0 * (f64::from(x) + f64::from(vx)) + f64::from(vw)) / self.width - 1.0) as f32
+    }
+
+    pub(super) fn leave(self, gl: &Gl, state: &State, atlas: &mut Atlas, _fixed: &FixedState) {
+        for (cap, was) in self.toggled {
+            if was { gl.enable(cap) } else { gl.disable(cap) }
+        }
+        if self.last {
+            gl.provoking_vertex(c::FIRST_VERTEX_CONVENTION);
+        }
+        gl.use_program(0);
+        self.pixel_sizes.leave(gl);
+        if self.placed {
+            let [x, y, w, h] = state.viewport;
+            gl.viewport(x, y, w, h);
+            if state.scissor_test {
+                let [x, y, w, h] = state.scissor;
+                gl.scissor(x, y, w, h);
+            }
+        }
+        atlas.bind_row(gl, 0);
+    }
+}

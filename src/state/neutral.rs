@@ -1,0 +1,342 @@
+//! The neutral state that the layer's own passes draw in: entered with the program's state saved, left with it as it was.
+//!
+//! A pass of the layer's asks for a [`Neutral`], so that none can be made in the state of the program.
+
+use crate::gl::{Gl, consts as c};
+
+/// Capabilities that would spoil a copy of colours; off while we draw.
+const CAPABILITIES: &[(u32, Needs)] = &[
+    (c::ALPHA_TEST, Needs::Compatibility),
+    (c::COLOR_LOGIC_OP, Needs::Desktop),
+    (c::CULL_FACE, Needs::Any),
+    (c::DEPTH_TEST, Needs::Any),
+    (c::DEPTH_CLAMP, DESKTOP_3_2),
+    (c::DITHER, Needs::Any),
+    (c::POLYGON_STIPPLE, Needs::Compatibility),
+    (c::POLYGON_SMOOTH, Needs::Desktop),
+    (c::SCISSOR_TEST, Needs::Any),
+    (c::STENCIL_TEST, Needs::Any),
+    (c::SAMPLE_ALPHA_TO_COVERAGE, Needs::Any),
+    (c::SAMPLE_ALPHA_TO_ONE, Needs::Desktop),
+    (c::SAMPLE_COVERAGE, Needs::Any),
+    (c::SAMPLE_MASK, Needs::Version((3, 2), (3, 1))),
+    (c::RASTERIZER_DISCARD, Needs::Version((3, 0), (3, 0))),
+    (c::FRAMEBUFFER_SRGB, Needs::Srgb),
+];
+
+/// Values of glPixelStore that a read or an upload of ours depends on, with what we set.
+const PIXELS: &[(u32, i32, Needs)] = &[
+    (c::PACK_ALIGNMENT, 1, Needs::Any),
+    (c::PACK_ROW_LENGTH, 0, PIXELS_OF_ES),
+    (c::PACK_SKIP_ROWS, 0, PIXELS_OF_ES),
+    (c::PACK_SKIP_PIXELS, 0, PIXELS_OF_ES),
+    (c::PACK_SWAP_BYTES, 0, Needs::Desktop),
+    (c::UNPACK_ALIGNMENT, 1, Needs::Any),
+    (c::UNPACK_ROW_LENGTH, 0, PIXELS_OF_ES),
+    (c::UNPACK_SKIP_ROWS, 0, PIXELS_OF_ES),
+    (c::UNPACK_SKIP_PIXELS, 0, PIXELS_OF_ES),
+    (c::UNPACK_SWAP_BYTES, 0, Needs::Desktop),
+    (c::UNPACK_IMAGE_HEIGHT, 0, PIXELS_OF_ES),
+    (c::UNPACK_SKIP_IMAGES, 0, PIXELS_OF_ES),
+];
+
+/// And nothing of the kind in OpenGL ES.
+const DESKTOP_3_2: Needs = Needs::Version((3, 2), (u32::MAX, 0));
+
+const PIXELS_OF_ES: Needs = Needs::Version((1, 0), (3, 0));
+
+/// Texture units that passes sample from.
+const UNITS: u32 = 9;
+
+#[derive(Clone, Copy, PartialEq)]
+enum Needs {
+    Any,
+    Compatibility,
+    /// Not OpenGL ES.
+    Desktop,
+    /// A switch for sRGB.
+    Srgb,
+    /// Of OpenGL, and of OpenGL ES.
+    Version((u32, u32), (u32, u32)),
+}
+
+/// Proof that the state is neutral, and the program's state for as long as it is: no capability, blending, mask, pixel store, sampler or
+/// buffer of the program's takes part in a draw, a copy or a read. Framebuffer bindings are the caller's.
+#[derive(Debug)]
+#[must_use = "the program's state comes back by `leave`"]
+pub struct Neutral {
+    enabled: Vec<u32>,
+    colours: Colours,
+    viewport: [i32; 4],
+    polygon_mode: [u32; 2],
+    pixels: Pixels,
+    /// Where the context has vertex arrays and array textures.
+    objects: Option<Objects>,
+}
+
+/// What the context is, as far as it decides what there is to save.
+struct Context {
+    version: (u32, u32),
+    es: bool,
+    compatibility: bool,
+    srgb: bool,
+}
+
+impl Context {
+    fn since(&self, desktop: (u32, u32), of_es: (u32, u32)) -> bool {
+        self.version >= if self.es { of_es } else { desktop }
+    }
+
+    fn has(&self, needs: Needs) -> bool {
+        match needs {
+            Needs::Any => true,
+            Needs::Compatibility => self.compatibility,
+            Needs::Desktop => !self.es,
+            Needs::Srgb => self.version >= (3, 0) && self.srgb,
+            Needs::Version(desktop, of_es) => self.since(desktop, of_es),
+        }
+    }
+}
+
+impl Neutral {
+    /// Saves the program's state and sets the neutral one; `compatibility`: the context has fixed function.
+    pub fn enter(gl: &Gl, compatibility: bool) -> Neutral {
+        let context = Context {
+            version: gl.version(),
+            es: gl.is_es(),
+            compatibility,
+            srgb: gl.switches_srgb(),
+        };
+        let enabled = disable_all(gl, &context);
+        let colours = Colours::enter(gl, &context);
+        let pixels = Pixels::enter(gl, &context);
+        // A core context answers one mode, a compatibility context one per face, and OpenGL ES has none.
+        let [front, back] = match context.es {
+            true => [c::FILL; 2],
+            false => gl.get_integers(c::POLYGON_MODE).map(|m| m as u32),
+        };
+        let polygon_mode = [front, if compatibility { back } else { front }];
+        if polygon_mode != [c::FILL; 2] {
+            gl.polygon_mode(c::FRONT_AND_BACK, c::FILL);
+        }
+        let objects = context
+            .since((3, 1), (3, 0))
+            .then(|| Objects::enter(gl, &context));
+        Neutral {
+            enabled,
+            colours,
+            viewport: gl.get_integers(c::VIEWPORT),
+            polygon_mode,
+            pixels,
+            objects,
+        }
+    }
+
+    /// Puts everything back. Framebuffer bindings are the caller's.
+    pub fn leave(self, gl: &Gl) {
+        let [x, y, w, h] = self.viewport;
+        gl.viewport(x, y, w, h);
+        self.enabled.iter().for_each(|&e| gl.enable(e));
+        self.colours.leave(gl);
+        let [front, back] = self.polygon_mode;
+        if front != back {
+            gl.polygon_mode(c::FRONT, front);
+            gl.polygon_mode(c::BACK, back);
+        } else if front != c::FILL {
+            gl.polygon_mode(c::FRONT_AND_BACK, front);
+        }
+        self.pixels.leave(gl);
+        if let Some(objects) = self.objects {
+            objects.leave(gl);
+        }
+    }
+}
+
+/// Disables the capabilities that would spoil a copy of colours; answers those that were on.
+fn disable_all(gl: &Gl, context: &Context) -> Vec<u32> {
+    let planes = match context.es && !gl.has_extension("GL_EXT_clip_cull_distance") {
+        true => 0,
+        false => gl.get_integer(c::MAX_CLIP_DISTANCES).max(0) as u32,
+    };
+    let known = CAPABILITIES.iter().filter(|k| context.has(k.1));
+    let all = known
+        .map(|k| k.0)
+        .chain((0..planes).map(|i| c::CLIP_DISTANCE0 + i));
+    let enabled: Vec<u32> = all.filter(|&k| gl.is_enabled(k)).collect();
+    enabled.iter().for_each(|&e| gl.disable(e));
+    enabled
+}
+
+/// Blending and colour mask of the first draw buffer.
+#[derive(Debug)]
+struct Colours {
+    blend: bool,
+    /// Each draw buffer has its own.
+    indexed: bool,
+    mask: [i32; 4],
+}
+
+impl Colours {
+    fn enter(gl: &Gl, context: &Context) -> Self {
+        let indexed = context.since((3, 0), (3, 2));
+        let blend = match indexed {
+            true => gl.is_enabledi(c::BLEND, 0) != 0,
+            false => gl.is_enabled(c::BLEND),
+        };
+        if blend && indexed {
+            gl.disablei(c::BLEND, 0)
+        } else if blend {
+            gl.disable(c::BLEND)
+        }
+        let mask = match indexed {
+            true => gl.get_integers_indexed(c::COLOR_WRITEMASK, 0),
+            false => gl.get_integers(c::COLOR_WRITEMASK),
+        };
+        match indexed {
+            true => gl.color_maski(0, 1, 1, 1, 1),
+            false => gl.color_mask(1, 1, 1, 1),
+        }
+        Colours {
+            blend,
+            indexed,
+            mask,
+        }
+    }
+
+    fn leave(&self, gl: &Gl) {
+        if self.blend && self.indexed {
+            gl.enablei(c::BLEND, 0)
+        } else if self.blend {
+            gl.enable(c::BLEND)
+        }
+        let [r, g, b, a] = self.mask.map(|v| u8::from(v != 0));
+        match self.indexed {
+            true => gl.color_maski(0, r, g, b, a),
+            false => gl.color_mask(r, g, b, a),
+        }
+    }
+}
+
+/// Pixel store, and the buffers that pixels are read to and written from.
+#[derive(Debug)]
+struct Pixels {
+    store: Vec<(u32, i32)>,
+    pack: u32,
+    unpack: u32,
+}
+
+impl Pixels {
+    fn enter(gl: &Gl, context: &Context) -> Self {
+        let mut store = Vec::new();
+        for &(p, ours, _) in PIXELS.iter().filter(|k| context.has(k.2)) {
+            let value = gl.get_integer(p);
+            if value != ours {
+                store.push((p, value));
+                gl.pixel_storei(p, ours);
+            }
+        }
+        let buffers = context.since((2, 1), (3, 0));
+        let bound = |binding| match buffers {
+            true => gl.get_integer(binding) as u32,
+            false => 0,
+        };
+        let pack = bound(c::PIXEL_PACK_BUFFER_BINDING);
+        let unpack = bound(c::PIXEL_UNPACK_BUFFER_BINDING);
+        if pack != 0 {
+            gl.bind_buffer(c::PIXEL_PACK_BUFFER, 0);
+        }
+        if unpack != 0 {
+            gl.bind_buffer(c::PIXEL_UNPACK_BUFFER, 0);
+        }
+        Pixels {
+            store,
+            pack,
+            unpack,
+        }
+    }
+
+    fn leave(&self, gl: &Gl) {
+        self.store.iter().for_each(|&(p, v)| gl.pixel_storei(p, v));
+        if self.pack != 0 {
+            gl.bind_buffer(c::PIXEL_PACK_BUFFER, self.pack);
+        }
+        if self.unpack != 0 {
+            gl.bind_buffer(c::PIXEL_UNPACK_BUFFER, self.unpack);
+        }
+    }
+}
+
+/// Programs, vertex array, and what is bound to the texture units that passes sample from.
+#[derive(Debug)]
+struct Objects {
+    program: u32,
+    pipeline: u32,
+    vertex_array: u32,
+    active: u32,
+    /// By unit: 2D, 2D array and 2D multisample array texture, and sampler.
+    textures: Vec<[u32; 4]>,
+    samplers: bool,
+    sampled_arrays: bool,
+}
+
+impl Objects {
+    fn enter(gl: &Gl, context: &Context) -> Self {
+        let name = |n| gl.get_integer(n) as u32;
+        let samplers = context.since((3, 3), (3, 0));
+        let sampled_arrays = context.since((3, 1), (3, 2));
+        let active = name(c::ACTIVE_TEXTURE);
+        let mut textures = Vec::new();
+        for unit in 0..UNITS {
+            gl.active_texture(c::TEXTURE0 + unit);
+            let sampler = match samplers {
+                true => name(c::SAMPLER_BINDING),
+                false => 0,
+            };
+            textures.push([
+                name(c::TEXTURE_BINDING_2D),
+                name(c::TEXTURE_BINDING_2D_ARRAY),
+                match sampled_arrays {
+                    true => name(c::TEXTURE_BINDING_2D_MULTISAMPLE_ARRAY),
+                    false => 0,
+                },
+                sampler,
+            ]);
+            if sampler != 0 {
+                gl.bind_sampler(unit, 0);
+            }
+        }
+        let pipeline = match context.since((4, 1), (3, 1)) {
+            true => name(c::PROGRAM_PIPELINE_BINDING),
+            false => 0,
+        };
+        Objects {
+            program: name(c::CURRENT_PROGRAM),
+            pipeline,
+            vertex_array: name(c::VERTEX_ARRAY_BINDING),
+            active,
+            textures,
+            samplers,
+            sampled_arrays,
+        }
+    }
+
+    fn leave(&self, gl: &Gl) {
+        for (unit, t) in self.textures.iter().enumerate() {
+            gl.active_texture(c::TEXTURE0 + unit as u32);
+            gl.bind_texture(c::TEXTURE_2D, t[0]);
+            gl.bind_texture(c::TEXTURE_2D_ARRAY, t[1]);
+            if self.sampled_arrays {
+                gl.bind_texture(c::TEXTURE_2D_MULTISAMPLE_ARRAY, t[2]);
+            }
+            if self.samplers && t[3] != 0 {
+                gl.bind_sampler(unit as u32, t[3]);
+            }
+        }
+        gl.active_texture(self.active);
+        gl.use_program(self.program);
+        if self.pipeline != 0 {
+            gl.bind_program_pipeline(self.pipeline);
+        }
+        gl.bind_vertex_array(self.vertex_array);
+    }
+}
