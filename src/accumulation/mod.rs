@@ -5,6 +5,8 @@
 #![forbid(unsafe_code)]
 
 mod srgb;
+#[cfg(test)]
+mod tests;
 
 use crate::atlas::{Atlas, Names};
 use crate::gl::{Gl, consts as c};
@@ -349,32 +351,4 @@ fn words(window: &Window, values: [f32; 4], layer: u32, before: u32) -> [u32; 16
         false => 0,
     };
     words
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn values_are_stored_as_mesa_stores_them() {
-        let clear = [0.0, 1.0, 0.5, 0.25, 1e-5, -1.0, -0.5, -1e-5].map(clear_value);
-        let expected = [0.0, 32767.0, 16383.0, 8191.0, 0.0, -32768.0, -16384.0, 0.0];
-        assert_eq!(clear, expected);
-        let add = |v: f32| Operation::Add(v).step().1[0];
-        assert_eq!(add(0.5), 16383.0);
-        assert_eq!(add(-0.5), -16383.0);
-        assert_eq!(add(2.0), -2.0, "wrapped");
-        assert_eq!(add(1e9), 0.0, "no 32-bit number");
-        assert_eq!(add(f32::NAN), 0.0);
-    }
-
-    #[test]
-    fn an_operation_has_a_name() {
-        let all = [true; 4];
-        assert_eq!(
-            Operation::of(c::MULT, 0.5, all),
-            Some(Operation::Multiply(0.5))
-        );
-        assert_eq!(Operation::of(c::ADD + 1, 0.5, all), None);
-    }
 }

@@ -11,6 +11,8 @@ mod reference;
 mod single;
 mod spread;
 mod surface;
+#[cfg(test)]
+mod tests;
 mod tiles;
 mod view_set;
 

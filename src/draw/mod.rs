@@ -9,6 +9,8 @@ mod pixel_size;
 mod reference;
 mod replay;
 mod state_guard;
+#[cfg(test)]
+mod tests;
 mod variant;
 
 pub use amplified::{Amplified, Programs};

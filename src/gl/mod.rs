@@ -1,6 +1,9 @@
 //! The only unsafe code of the library: the table of real functions, recorded immediate mode, and [`Gl`], the calls that the
 //! layer itself makes.
 
+#[cfg(any(test, feature = "fake-driver"))]
+#[macro_use]
+pub mod fake;
 #[macro_use]
 mod real;
 pub mod api;

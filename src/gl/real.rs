@@ -73,5 +73,8 @@ macro_rules! real_functions {
                 }
             )*
         }
+
+        #[cfg(any(test, feature = "fake-driver"))]
+        record_functions! { $($name($($a: $t),*) $(-> $r = $zero)?;)* }
     };
 }

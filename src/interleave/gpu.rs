@@ -415,3 +415,6 @@ impl Interleaver {
         Ok(())
     }
 }
+
+#[cfg(test)]
+mod tests;

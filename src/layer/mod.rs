@@ -34,6 +34,8 @@ mod session;
 pub mod support;
 mod synthesis;
 mod targets;
+#[cfg(test)]
+mod tests;
 mod variants;
 
 pub use control::Pictured;

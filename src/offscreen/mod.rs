@@ -11,6 +11,8 @@ mod fill;
 mod image;
 mod images;
 mod target;
+#[cfg(test)]
+mod tests;
 
 pub use images::Images;
 pub use target::Target;

@@ -35,7 +35,8 @@ impl Target {
             own,
             number: None,
             views: Vec::new(),
-            seen: 0,
+            // It has not been looked at.
+            seen: u64::MAX,
             attachments: Vec::new(),
             draw_buffers: Vec::new(),
             read_buffer: c::NONE,

@@ -340,3 +340,6 @@ impl Objects {
         gl.bind_vertex_array(self.vertex_array);
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,131 @@
+//! Draws to the reference image of an occlusion camera.
+
+use super::super::{Rays, ReplayHazard, draw_to_reference};
+use super::Stage;
+use super::amplified::Drawing;
+use super::variant;
+use crate::atlas::{Grid, Names};
+use crate::config::AtlasLayout::SideBySide;
+use crate::config::Clip;
+use crate::draw::Drawing as Surfaces;
+use crate::gl::consts as c;
+use crate::gl::fake::Scope;
+
+const UNIT: u32 = super::super::reference::UNIT;
+
+fn stage() -> Stage {
+    let mut stage = Stage::new(SideBySide, Grid::FULL);
+    let (gl, window) = (stage.gl, stage.state.window);
+    assert!(
+        stage
+            .atlas
+            .make_reference(&gl, &mut Names::default(), &window)
+    );
+    gl.bind_framebuffer(c::FRAMEBUFFER, stage.atlas.framebuffer());
+    stage
+}
+
+fn rays(stage: &Stage) -> Rays {
+    Rays {
+        map: stage.atlas.reference().expect("made").map,
+        disparities: [2.0, 0.5],
+    }
+}
+
+#[test]
+fn surfaces_are_drawn_once_as_patches_and_leave_no_trace() {
+    let mut drawn_at_all = 0;
+    for seed in 0..40 {
+        let mut stage = stage();
+        stage.fake.scramble(seed, true);
+        stage.program(|gl| gl.use_program(0));
+        let rays = rays(&stage);
+        let mut drawing = Drawing::new(stage, Clip::Distances, false);
+        let Drawing {
+            stage,
+            programs,
+            fixed,
+        } = &mut drawing;
+        // The random state has no polygons that are outlines or points.
+        fixed.polygon_mode = [c::FILL; 2];
+        let surfaces = Surfaces {
+            mode: Some(c::TRIANGLES),
+            vertices: 30,
+            cuts: true,
+            material: false,
+        };
+        let (gl, shear, before) = (stage.gl, stage.shear(), stage.fake.state());
+        let mut modes = Vec::new();
+        let (state, rig) = (&stage.state, &stage.rig);
+        let drawn = programs.draw_to_reference(
+            &gl,
+            &mut stage.atlas,
+            state,
+            rig,
+            shear,
+            fixed,
+            &surfaces,
+            ReplayHazard::None,
+            &rays,
+            &mut |mode| {
+                modes.push(mode);
+                gl.draw_arrays(mode, 0, 30);
+            },
+        );
+        let differences = before.differences(&stage.fake.state());
+        assert_eq!(differences, [""; 0], "seed {seed}, {drawn:?}");
+        if drawn.is_err() {
+            continue;
+        }
+        drawn_at_all += 1;
+        assert_eq!(modes, [c::PATCHES]);
+        let state = &stage.fake.draws()[0].state;
+        let image = stage.atlas.reference_framebuffer().expect("made");
+        assert_eq!(
+            state.int(Scope::Context, c::DRAW_FRAMEBUFFER_BINDING),
+            image
+        );
+        assert_eq!(state.value(c::PATCH_VERTICES), [3.0]);
+        let map = state.int(Scope::Unit(UNIT), c::TEXTURE_BINDING_2D_ARRAY);
+        assert_eq!(map, rays.map);
+    }
+    assert!(drawn_at_all > 10, "{drawn_at_all}");
+}
+
+#[test]
+fn a_variant_draws_with_the_map_in_a_unit_that_it_has_no_use_for() {
+    let mut stage = stage();
+    let program = variant::program(&mut stage);
+    let variant = variant::variant(&stage, program, super::super::VariantKind::DistortedRays);
+    let rays = rays(&stage);
+    for (units, free) in [(&[0][..], UNIT), (&[UNIT, UNIT - 1], UNIT - 2)] {
+        let before = stage.fake.state();
+        stage.fake.forget();
+        let (gl, shear) = (stage.gl, stage.shear());
+        gl.use_program(variant.name());
+        let (state, rig) = (&stage.state, &stage.rig);
+        let (by, hazard) = ((&*variant, units), ReplayHazard::None);
+        draw_to_reference(
+            &gl,
+            &mut stage.atlas,
+            state,
+            rig,
+            shear,
+            by,
+            30,
+            hazard,
+            &rays,
+            &mut || {
+                gl.draw_arrays(c::TRIANGLES, 0, 30);
+            },
+        );
+        gl.use_program(program);
+        stage.fake.assert_restored(&before);
+        let drawn = stage.fake.draws();
+        assert_eq!(drawn.len(), 1);
+        let map = drawn[0]
+            .state
+            .int(Scope::Unit(free), c::TEXTURE_BINDING_2D_ARRAY);
+        assert_eq!(map, rays.map);
+    }
+}

@@ -1,0 +1,98 @@
+//! A whole layer on the fake driver, and a program that calls it as the hooks do.
+
+use super::super::{Group, Layer, Primitives};
+use crate::config::Config;
+use crate::gl::Gl;
+use crate::gl::consts as c;
+use crate::gl::fake::{Drawn, Fake};
+use crate::state::Touch;
+use std::sync::Arc;
+
+/// Extensions of Mesa on the desktop that the layer looks for.
+pub(super) const MESA: [&str; 2] = [
+    "GL_MESA_framebuffer_flip_y",
+    "GL_ARB_shader_viewport_layer_array",
+];
+
+/// A projection with a right angle of view, from 1 to 100.
+pub(super) const PERSPECTIVE: [f32; 16] = [
+    1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, -1.02, -1.0, 0.0, 0.0, -2.02, 0.0,
+];
+
+/// A program of one context.
+pub(super) struct Bench {
+    pub(super) fake: Fake,
+    pub(super) gl: Gl,
+    pub(super) layer: Layer,
+}
+
+impl Bench {
+    /// On a desktop driver with fixed function; options as the variables `MANYVIEW_*` have them, without that word.
+    pub(super) fn new(options: &[(&str, &str)]) -> Bench {
+        Bench::on(Fake::new().extensions(MESA), options)
+    }
+
+    /// On a driver.
+    pub(super) fn on(fake: Fake, options: &[(&str, &str)]) -> Bench {
+        let config = Config::from_env(|variable| {
+            let wanted = variable.strip_prefix("MANYVIEW_")?;
+            let found = options.iter().find(|(name, _)| *name == wanted);
+            found.map(|(_, value)| (*value).to_owned())
+        });
+        let config = Box::leak(Box::new(config.expect("options")));
+        let gl = fake.gl();
+        let layer = Layer::new(&gl, config, 64, 48, Arc::new(Group::default()));
+        let layer = layer.expect("a layer");
+        fake.forget();
+        Bench { fake, gl, layer }
+    }
+
+    /// A command of the program that changes state.
+    pub(super) fn set(&mut self, groups: Touch, command: impl FnOnce(&Gl)) {
+        self.fake.program(command);
+        self.layer.touch(groups);
+    }
+
+    /// The program looks into a scene.
+    pub(super) fn look(&mut self) {
+        self.set(Touch::MODE, |gl| gl.matrix_mode(c::PROJECTION));
+        self.set(Touch::PROJECTION, |gl| gl.load_matrix(&PERSPECTIVE));
+        self.set(Touch::MODE, |gl| gl.matrix_mode(c::MODELVIEW));
+        self.set(Touch::DEPTH, |gl| gl.enable(c::DEPTH_TEST));
+    }
+
+    /// glDrawArrays of one triangle.
+    pub(super) fn draw(&mut self) {
+        let (mode, first, count) = (c::TRIANGLES, 0, 3);
+        let primitives = Primitives::Arrays { mode, first, count };
+        let gl = self.gl;
+        self.layer
+            .primitives(&gl, primitives, &mut || gl.draw_arrays(mode, first, count));
+    }
+
+    /// glClear of colours and depths.
+    pub(super) fn clear(&mut self) {
+        let gl = self.gl;
+        let mask = c::COLOR_BUFFER_BIT | c::DEPTH_BUFFER_BIT;
+        self.layer.clear(&gl, mask, &mut || gl.clear(mask));
+    }
+
+    /// The end of a frame.
+    pub(super) fn swap(&mut self) {
+        self.layer.show(&self.gl, true);
+        self.layer.count_frame();
+    }
+
+    /// A frame of one triangle in a scene.
+    pub(super) fn frame(&mut self) {
+        self.clear();
+        self.draw();
+        self.swap();
+    }
+
+    /// What was drawn by a command since the last [`Fake::forget`].
+    pub(super) fn drawn(&self, command: &str) -> Vec<Drawn> {
+        let draws = self.fake.draws().into_iter();
+        draws.filter(|drawn| drawn.call.name == command).collect()
+    }
+}
