@@ -31,7 +31,7 @@ SHADER_PACKAGES := colobot-common glmark2-data goxel ioquake3 kodi-data libopens
 	mgba-common minetest-data openmw-data openscad openscenegraph pymol-data python3-vispy qtbase5-examples solvespace \
 	trackballs-data xmoto xscreensaver-gl xscreensaver-gl-extra
 
-.PHONY: help build demos demo bench overhead pictures gallery test test-long test-full programs soak openarena openarena-walk openarena-pictures shaders lint packages \
+.PHONY: help build demos demo bench overhead pictures gallery test test-long test-full programs soak openarena openarena-walk openarena-pictures shaders book lint packages \
 	install install-debug uninstall clean
 
 help: ## list the targets
@@ -124,6 +124,11 @@ shaders: packages build ## rewrite real shaders, of programs and of piglit, and 
 overhead: packages build demos ## measure the layer where it does nothing: switched off, and with one view (ten minutes)
 	@sh scripts/overhead.sh $(BIN) $(TARGET)/overhead $(DEMOS)
 
+book: ## build the manual as HTML in target/book (needs mdbook)
+	@command -v mdbook >/dev/null 2>&1 || \
+		{ echo "mdbook is missing: run cargo install mdbook, then make book again" >&2; exit 1; }
+	mdbook build --dest-dir $(TARGET)/book
+
 lint: rust ## check format, clippy and documentation
 	$(CARGO) fmt --all --check
 	$(CARGO) clippy --workspace --all-targets -- -D warnings
@@ -142,7 +147,7 @@ install: ## install to PREFIX after `make build` (default /usr/local)
 	@test -x $(BIN)/manyview && test -f $(BIN)/libmanyview.so && test -x $(BIN)/manyview-probe || \
 		{ echo "Nothing to install: run make build first" >&2; exit 1; }
 	install -d $(DESTDIR)$(PREFIX)/bin $(DESTDIR)$(PREFIX)/lib/manyview \
-		$(DESTDIR)$(PREFIX)/lib/manyview/profiles $(DESTDIR)$(PREFIX)/share/manyview/shaders $(DESTDIR)$(PREFIX)/share/doc/manyview/docs
+		$(DESTDIR)$(PREFIX)/lib/manyview/profiles $(DESTDIR)$(PREFIX)/share/manyview/shaders $(DESTDIR)$(PREFIX)/share/doc/manyview
 	install -s -m 755 $(BIN)/manyview $(DESTDIR)$(PREFIX)/bin/manyview
 	install -s -m 644 $(BIN)/libmanyview.so $(DESTDIR)$(PREFIX)/lib/manyview/libmanyview.so
 	install -s -m 755 $(BIN)/manyview-probe $(DESTDIR)$(PREFIX)/lib/manyview/manyview-probe
@@ -154,8 +159,8 @@ install: ## install to PREFIX after `make build` (default /usr/local)
 		install -m 644 $$profile $(DESTDIR)$(PREFIX)/lib/manyview/profiles/ || exit 1; done
 	for shader in $(wildcard shaders/*.wgsl); do \
 		install -m 644 $$shader $(DESTDIR)$(PREFIX)/share/manyview/shaders/ || exit 1; done
-	install -m 644 README.md ARCHITECTURE.md CHANGELOG.md LICENSE $(DESTDIR)$(PREFIX)/share/doc/manyview/
-	install -m 644 docs/*.png docs/*.md $(DESTDIR)$(PREFIX)/share/doc/manyview/docs/
+	install -m 644 README.md ARCHITECTURE.md CONTRIBUTING.md CHANGELOG.md LICENSE $(DESTDIR)$(PREFIX)/share/doc/manyview/
+	find docs -type f \( -name '*.md' -o -name '*.png' \) -exec install -D -m 644 {} $(DESTDIR)$(PREFIX)/share/doc/manyview/{} \;
 
 # Debuggers look for .debug/NAME.debug beside a binary that says so in a link; its checksum is that of the file.
 install-debug: install ## install the debug information of what install has stripped, beside it

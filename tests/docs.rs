@@ -1,4 +1,4 @@
-//! The documents say what the code does.
+//! The documents say what the code does: commands run, options are known, blocks of TOML are read, links lead somewhere.
 #![forbid(unsafe_code)]
 
 mod support;
@@ -6,11 +6,10 @@ mod support;
 use manyview::config::{Config, OPTIONS, Profile, Settings};
 use manyview::display::{Display, Placement};
 use manyview::volume::{RotatingScreen, Volume};
+use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 use support::manyview;
 
-const README: &str = include_str!("../README.md");
-const ARCHITECTURE: &str = include_str!("../ARCHITECTURE.md");
 /// In place of every program that a document starts.
 const NO_PROGRAM: &str = "/no/such/program";
 const APP_NOT_FOUND: i32 = 127;
@@ -18,22 +17,98 @@ const APP_NOT_FOUND: i32 = 127;
 const NOBODY: i32 = 3;
 /// Of `calibrate show` without an X server.
 const NO_SCREEN: i32 = 3;
+/// Of a command whose file is not there; its message names the file.
+const NO_FILE: i32 = 2;
+
+/// A document of the repository.
+struct Document {
+    /// Relative to the root.
+    path: PathBuf,
+    text: String,
+}
+
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+fn read(path: impl Into<PathBuf>) -> Document {
+    let path = path.into();
+    let text = std::fs::read_to_string(root().join(&path));
+    let text = text.unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+    Document { path, text }
+}
+
+/// The Markdown files below a folder of the repository, in the order of their names.
+fn markdown(folder: &str) -> Vec<Document> {
+    let mut found = Vec::new();
+    for entry in std::fs::read_dir(root().join(folder)).expect("a folder") {
+        let name = entry.expect("an entry").file_name();
+        let path = Path::new(folder).join(name);
+        if root().join(&path).is_dir() {
+            found.extend(markdown(path.to_str().expect("UTF-8")));
+        } else if path.extension().is_some_and(|e| e == "md") {
+            found.push(read(path));
+        }
+    }
+    found.sort_by(|a, b| a.path.cmp(&b.path));
+    found
+}
+
+/// What a user reads: the README and the pages of the book.
+fn manual() -> Vec<Document> {
+    let mut manual = vec![read("README.md")];
+    manual.extend(markdown("docs"));
+    manual
+}
+
+/// Those and what a developer reads.
+fn documents() -> Vec<Document> {
+    let others = ["ARCHITECTURE.md", "CONTRIBUTING.md", "examples/README.md"];
+    manual()
+        .into_iter()
+        .chain(others.into_iter().map(read))
+        .collect()
+}
+
+/// The README is a first page; the manual is in the book.
+const README_LINES: usize = 150;
 
 #[test]
-fn the_readme_has_every_option_variable_and_key() {
+fn the_readme_is_short() {
+    let lines = read("README.md").text.lines().count();
+    assert!(
+        lines <= README_LINES,
+        "README.md has {lines} lines: move something into docs/"
+    );
+}
+
+#[test]
+fn every_page_is_in_the_summary() {
+    let summary = read("docs/SUMMARY.md").text;
+    for page in markdown("docs") {
+        let path = page.path.strip_prefix("docs").expect("a page");
+        let path = path.to_str().expect("UTF-8");
+        let listed = path == "SUMMARY.md" || links(&summary).any(|link| link == path);
+        assert!(listed, "docs/SUMMARY.md has no link to {path}");
+    }
+}
+
+#[test]
+fn the_manual_has_every_option_variable_and_key() {
+    let Document { text, .. } = read("docs/options.md");
     for spec in OPTIONS {
         assert!(
-            README.contains(&format!("`{}`", spec.variable))
-                || spec.id.is_switch() && README.contains(&format!("`{}=1`", spec.variable)),
+            text.contains(&format!("`{}`", spec.variable))
+                || spec.id.is_switch() && text.contains(&format!("`{}=1`", spec.variable)),
             "{}",
             spec.variable
         );
         if let Some(flag) = spec.flag {
             let end = if spec.id.is_switch() { '`' } else { ' ' };
-            assert!(README.contains(&format!("`--{flag}{end}")), "--{flag}");
+            assert!(text.contains(&format!("`--{flag}{end}")), "--{flag}");
         }
         if let Some(key) = spec.key {
-            assert!(README.contains(&format!("| `{key}` |")), "{key}");
+            assert!(text.contains(&format!("| `{key}` |")), "{key}");
         }
     }
 }
@@ -54,7 +129,8 @@ fn file_name(block: &str) -> Option<&str> {
 fn the_descriptions_of_displays_are_accepted() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("panel.toml");
-    let blocks = toml_blocks(include_str!("../docs/displays.md"));
+    let page = read("docs/displays.md");
+    let blocks = toml_blocks(&page.text);
     assert!(blocks.len() >= 6, "the page shows every kind");
     for block in blocks {
         std::fs::write(&path, block).expect("written");
@@ -67,11 +143,12 @@ fn the_descriptions_of_displays_are_accepted() {
 }
 
 #[test]
-fn the_toml_blocks_of_the_readme_are_accepted() {
+fn the_toml_blocks_of_the_manual_are_accepted() {
     let folder = tempfile::tempdir().expect("a folder");
-    let path = folder.path().join("readme.toml");
+    let path = folder.path().join("block.toml");
     let (mut panels, mut options, mut profiles) = (0, 0, 0);
-    for block in toml_blocks(README) {
+    let manual = manual();
+    for block in manual.iter().flat_map(|page| toml_blocks(&page.text)) {
         std::fs::write(&path, block).expect("written");
         if block.lines().any(|line| line.starts_with("kind = ")) {
             Display::load(path.to_str().expect("UTF-8")).expect("a panel");
@@ -91,7 +168,7 @@ fn the_toml_blocks_of_the_readme_are_accepted() {
     }
     assert!(
         panels > 0 && options > 0 && profiles > 0,
-        "the README shows every kind"
+        "the manual shows every kind"
     );
 }
 
@@ -106,7 +183,9 @@ fn shell_lines(document: &str) -> impl Iterator<Item = &str> {
 #[test]
 fn the_commands_of_the_documents_are_accepted() {
     let folder = tempfile::tempdir().expect("a folder");
-    for block in toml_blocks(README) {
+    let documents = documents();
+    let blocks = documents.iter().flat_map(|page| toml_blocks(&page.text));
+    for block in blocks {
         if let Some(name) = file_name(block) {
             std::fs::write(folder.path().join(name), block).expect("written");
         }
@@ -120,19 +199,14 @@ fn the_commands_of_the_documents_are_accepted() {
     let stack = dark.dithered().write(&folder.path().join("slices"));
     stack.expect("written");
     support::library();
-    let documents = [
-        README,
-        ARCHITECTURE,
-        include_str!("../CONTRIBUTING.md"),
-        include_str!("../examples/README.md"),
-    ];
     let lines: Vec<_> = documents
-        .into_iter()
-        .flat_map(shell_lines)
+        .iter()
+        .flat_map(|document| shell_lines(&document.text))
         .filter_map(|line| line.strip_prefix("manyview "))
         .collect();
-    assert!(lines.len() >= 6, "the README shows the command: {lines:?}");
-    for line in lines {
+    assert!(lines.len() >= 40, "the manual shows the command: {lines:?}");
+    let mut done = HashSet::new();
+    for line in lines.into_iter().filter(|line| done.insert(*line)) {
         let (options, app) = match line.split_once(" -- ") {
             Some((options, _)) => (options, true),
             None => (line, false),
@@ -152,22 +226,26 @@ fn the_commands_of_the_documents_are_accepted() {
             true => APP_NOT_FOUND,
             false if line.starts_with("ctl ") => NOBODY,
             false if line.starts_with("calibrate show ") => NO_SCREEN,
+            false if line.starts_with("calibrate fit ") => NO_FILE,
             false => 0,
         };
+        let error = String::from_utf8_lossy(&output.stderr);
         assert_eq!(
             output.status.code(),
             Some(wanted),
-            "manyview {line}\n{}",
-            String::from_utf8_lossy(&output.stderr)
+            "manyview {line}\n{error}"
         );
+        let names = wanted != NO_FILE || error.contains(".jpg");
+        assert!(names, "manyview {line}\n{error}");
     }
 }
 
 #[test]
-fn the_variables_of_the_readme_are_accepted() {
-    let lines = shell_lines(README).filter(|line| line.starts_with("LD_PRELOAD="));
+fn the_variables_of_the_manual_are_accepted() {
+    let manual = manual();
+    let lines = manual.iter().flat_map(|page| shell_lines(&page.text));
     let mut seen = 0;
-    for line in lines {
+    for line in lines.filter(|line| line.starts_with("LD_PRELOAD=")) {
         let value = |name: &str| {
             line.split_whitespace()
                 .filter_map(|word| word.split_once('='))
@@ -180,40 +258,63 @@ fn the_variables_of_the_readme_are_accepted() {
         Config::from_env(value).expect("good values");
         seen += 1;
     }
-    assert!(seen > 0, "the README shows a bare preload");
+    assert!(seen > 0, "the manual shows a bare preload");
+}
+
+/// Where the links of a document lead, in the order of the text.
+fn links(document: &str) -> impl Iterator<Item = &str> {
+    let targets = document.split("](").skip(1);
+    targets.filter_map(|rest| rest.split(')').next())
+}
+
+/// The anchors of a document's headings, as renderers of Markdown make them.
+fn anchors(document: &str) -> Vec<String> {
+    let headings = document.lines().filter(|line| line.starts_with('#'));
+    let anchor = |heading: &str| {
+        let kept = heading.chars().filter_map(|c| match c {
+            ' ' => Some('-'),
+            '-' | '_' => Some(c),
+            _ => c.is_alphanumeric().then(|| c.to_ascii_lowercase()),
+        });
+        kept.collect()
+    };
+    headings
+        .map(|line| anchor(line.trim_start_matches('#').trim()))
+        .collect()
 }
 
 #[test]
-fn the_pictures_and_documents_that_are_linked_exist_and_are_small() {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let targets = README.split("](").skip(1);
-    for target in targets.filter_map(|rest| rest.split(')').next()) {
-        if target.starts_with("https://") {
-            continue;
+fn the_links_of_the_documents_lead_somewhere() {
+    for Document { path, text } in documents() {
+        let folder = path.parent().expect("a folder");
+        for target in links(&text).filter(|target| !target.starts_with("https://")) {
+            let here = path.display();
+            let (file, heading) = target.split_once('#').unwrap_or((target, ""));
+            let file = match file {
+                "" => path.clone(),
+                file => folder.join(file),
+            };
+            assert!(root().join(&file).exists(), "{here}: {target}");
+            if !heading.is_empty() {
+                let known = anchors(&read(file).text).iter().any(|a| a == heading);
+                assert!(known, "{here}: {target}");
+            }
         }
-        if let Some(heading) = target.strip_prefix('#') {
-            let headings = README.lines().filter(|line| line.starts_with('#'));
-            let here = headings
-                .map(|line| {
-                    line.trim_start_matches('#')
-                        .trim()
-                        .to_lowercase()
-                        .replace(' ', "-")
-                })
-                .any(|line| line == heading);
-            assert!(here, "{target}");
-            continue;
-        }
-        let file = std::fs::metadata(root.join(target));
-        let file = file.unwrap_or_else(|error| panic!("{target}: {error}"));
-        assert!(file.len() < 300_000, "{target} has {} bytes", file.len());
+    }
+}
+
+#[test]
+fn the_pictures_of_the_readme_are_small() {
+    let readme = read("README.md");
+    for target in links(&readme.text).filter(|target| target.ends_with(".png")) {
+        let size = std::fs::metadata(root().join(target)).expect("a picture");
+        assert!(size.len() < 300_000, "{target} has {} bytes", size.len());
     }
 }
 
 /// Files and folders of modules in a folder of sources.
 fn modules(folder: &str) -> Vec<String> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join(folder);
-    let entries = std::fs::read_dir(&root).expect("sources");
+    let entries = std::fs::read_dir(root().join(folder)).expect("sources");
     let paths = entries.map(|entry| entry.expect("an entry").path());
     let module = |path: &PathBuf| {
         let source = path.is_dir() || path.extension().is_some_and(|e| e == "rs");
@@ -224,11 +325,12 @@ fn modules(folder: &str) -> Vec<String> {
 
 #[test]
 fn the_architecture_names_every_module() {
+    let architecture = read("ARCHITECTURE.md").text;
     let special = ["lib", "main", "cli", "probe"];
     for (folder, prefix) in [("src", ""), ("shim/src", "shim::")] {
         for module in modules(folder) {
             let name = format!("| `{prefix}{module}`");
-            let known = special.contains(&module.as_str()) || ARCHITECTURE.contains(&name);
+            let known = special.contains(&module.as_str()) || architecture.contains(&name);
             assert!(known, "ARCHITECTURE.md has no line for {prefix}{module}");
         }
     }

@@ -296,7 +296,7 @@ fn what_cannot_be_shown_is_refused_in_one_sentence() {
     );
 }
 
-/// What docs/calibrate.md promises to an eye, by rays through a sheet whose description may be wrong.
+/// What docs/calibration.md promises to an eye, by rays through a sheet whose description may be wrong.
 #[test]
 fn an_eye_sees_what_is_wrong() {
     const SIZE: (u32, u32) = (640, 400);
