@@ -3,7 +3,7 @@
 
 mod support;
 
-use manyview::config::{Config, OPTIONS, Profile, Settings};
+use manyview::config::{Config, OPTIONS, OptionSpec, PathKind, Profile, Scope, Settings};
 use manyview::display::{Display, Placement};
 use manyview::volume::{RotatingScreen, Volume};
 use std::collections::HashSet;
@@ -93,24 +93,93 @@ fn every_page_is_in_the_summary() {
     }
 }
 
-#[test]
-fn the_manual_has_every_option_variable_and_key() {
-    let Document { text, .. } = read("docs/options.md");
-    for spec in OPTIONS {
-        assert!(
-            text.contains(&format!("`{}`", spec.variable))
-                || spec.id.is_switch() && text.contains(&format!("`{}=1`", spec.variable)),
-            "{}",
-            spec.variable
-        );
-        if let Some(flag) = spec.flag {
-            let end = if spec.id.is_switch() { '`' } else { ' ' };
-            assert!(text.contains(&format!("`--{flag}{end}")), "--{flag}");
+/// The table of docs/options.md stands between these lines.
+const TABLE: [&str; 2] = [
+    "<!-- generated: BLESS=1 cargo test --test docs -->\n\n",
+    "\n<!-- end of what is generated -->",
+];
+
+/// Text for a cell: options as code, and no bar that would end it.
+fn cell(text: &str) -> String {
+    let code = |word: &str| {
+        let name = word.trim_end_matches([',', ';', '.', ')']);
+        match name.starts_with("--") {
+            true => format!("`{name}`{}", &word[name.len()..]),
+            false => word.to_owned(),
         }
-        if let Some(key) = spec.key {
-            assert!(text.contains(&format!("| `{key}` |")), "{key}");
-        }
+    };
+    let words: Vec<_> = text.split(' ').map(code).collect();
+    words.join(" ").replace('|', "\\|")
+}
+
+/// A list of code words, the last one after `or`.
+fn code_list(words: &[&str]) -> String {
+    let words: Vec<_> = words.iter().map(|word| format!("`{word}`")).collect();
+    match words.as_slice() {
+        [most @ .., last] if !most.is_empty() => format!("{} or {last}", most.join(", ")),
+        words => words.concat(),
     }
+}
+
+fn row(spec: &OptionSpec) -> String {
+    let code = |text: &str| format!("`{}`", text.replace('|', "\\|"));
+    let switch = spec.id.is_switch();
+    let option = spec.flag.map(|flag| match switch {
+        true => code(&format!("--{flag}")),
+        false => code(&format!("--{flag} {}", spec.value_name())),
+    });
+    let option = option.map(|option| match spec.scope {
+        Scope::Capture => option + " (capture)",
+        Scope::Layer | Scope::Variable => option,
+    });
+    let variable = match switch {
+        true => code(&format!("{}=1", spec.variable)),
+        false => code(spec.variable),
+    };
+    let mut text = cell(spec.help);
+    if !spec.value.is_empty() && !spec.choices.is_empty() {
+        text = format!("{text}: {}", code_list(spec.choices));
+    }
+    let default = match spec.default {
+        "" => String::new(),
+        word if spec.choices.contains(&word) || spec.path == PathKind::NameOrFile => code(word),
+        words => cell(words),
+    };
+    if !default.is_empty() {
+        text = format!("{text}; {default} unless given");
+    }
+    if let Some(alias) = spec.alias {
+        text = format!("{text}; also `--{alias}`");
+    }
+    text.push('.');
+    if !spec.manual.is_empty() {
+        text = format!("{text} {}", cell(spec.manual));
+    }
+    format!(
+        "| {} | {variable} | {} | {text} |\n",
+        option.unwrap_or_default(),
+        spec.key.map(code).unwrap_or_default(),
+    )
+}
+
+#[test]
+fn the_table_of_options_is_that_of_the_code() {
+    let mut table = "| option | variable | key | meaning |\n|---|---|---|---|\n".to_owned();
+    table.extend(OPTIONS.iter().map(row));
+    let Document { path, text } = read("docs/options.md");
+    let [start, end] = TABLE;
+    let (before, rest) = text.split_once(start).expect("the line before the table");
+    let (now, after) = rest.split_once(end).expect("the line after the table");
+    if std::env::var_os("BLESS").is_some() {
+        let text = format!("{before}{start}{table}{end}{after}");
+        std::fs::write(root().join(path), text).expect("written");
+        return;
+    }
+    let same = now == table;
+    assert!(
+        same,
+        "docs/options.md is not what src/config/options.rs says: run BLESS=1 cargo test --test docs, and commit the page"
+    );
 }
 
 /// The TOML files that a document shows.

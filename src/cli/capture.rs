@@ -1,7 +1,7 @@
 //! `manyview capture`
 #![forbid(unsafe_code)]
 
-use super::layer::LayerArguments;
+use super::layer::{CaptureArguments, LayerArguments};
 use super::{Outcome, print, scratch, tell};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
@@ -14,24 +14,8 @@ use std::time::Duration;
 
 #[derive(Args)]
 pub(crate) struct Arguments {
-    /// PNG to write; with several frames %d in it is the frame, else -000030 goes before the extension; the name of a quilt gets
-    /// its columns, rows and aspect, such as _qs8x6a0.75, and goes to stdout
-    #[arg(long, value_name = "PATH")]
-    out: Option<String>,
-    /// Frame to write, counted from 1 [default: 30]
-    #[arg(
-        long,
-        value_name = "N",
-        conflicts_with = "frames",
-        allow_hyphen_values = true
-    )]
-    frame: Option<String>,
-    /// Frames to write, both ends included
-    #[arg(long, value_name = "A..B", allow_hyphen_values = true)]
-    frames: Option<String>,
-    /// What a picture holds [default: output]
-    #[arg(long, value_name = "output|atlas|view:I|depth|reference|samples")]
-    what: Option<String>,
+    #[command(flatten)]
+    capture: CaptureArguments,
     /// Give up after this many seconds
     #[arg(long, value_name = "S", default_value_t = 120)]
     timeout: u64,
@@ -44,15 +28,12 @@ pub(crate) struct Arguments {
 
 pub(crate) fn run(arguments: &Arguments) -> Outcome {
     let mut settings = arguments.layer.settings()?;
-    let given = [
-        (OptionId::CaptureOut, &arguments.out),
-        (OptionId::CaptureFrames, &arguments.frame),
-        (OptionId::CaptureFrames, &arguments.frames),
-        (OptionId::CaptureWhat, &arguments.what),
-    ];
-    settings.give(given);
+    arguments.capture.give(&mut settings);
     let quilt = Config::from_settings(&settings)?.output == Output::Quilt
-        && matches!(arguments.what.as_deref(), None | Some("output"));
+        && matches!(
+            arguments.capture.get(OptionId::CaptureWhat),
+            None | Some("output")
+        );
     if let Some(out) = settings.get(OptionId::CaptureOut).filter(|_| quilt) {
         let completed = Capture::completed(Path::new(&out.value));
         let value = completed.to_string_lossy().into_owned();

@@ -149,7 +149,7 @@ fn scratch() -> Result<tempfile::TempDir, LaunchError> {
 mod tests {
     use super::Arguments;
     use clap::CommandFactory;
-    use manyview::config::OPTIONS;
+    use manyview::config::{OPTIONS, Scope};
 
     #[test]
     fn clap_finds_no_contradiction() {
@@ -165,7 +165,21 @@ mod tests {
             let known = capture
                 .get_arguments()
                 .find(|argument| argument.get_long() == Some(flag));
-            assert!(known.is_some(), "--{flag} is missing");
+            let known = known.unwrap_or_else(|| panic!("--{flag} is missing"));
+            let help = known.get_help().map(ToString::to_string);
+            assert_eq!(help, Some(spec.command_help()), "--{flag}");
+        }
+    }
+
+    #[test]
+    fn what_only_capture_has_is_no_option_of_run() {
+        let command = Arguments::command();
+        let run = command.find_subcommand("run").unwrap();
+        for spec in OPTIONS.iter().filter(|spec| spec.flag.is_some()) {
+            let known = run
+                .get_arguments()
+                .any(|known| known.get_long() == spec.flag);
+            assert_eq!(known, spec.scope == Scope::Layer, "{:?}", spec.flag);
         }
     }
 }

@@ -24,7 +24,7 @@ pub enum ConfigError {
         /// Its value.
         value: String,
         /// What it could be.
-        choices: &'static str,
+        choices: String,
     },
     /// There is no occlusion camera, or not yet.
     #[error(

@@ -23,7 +23,9 @@ pub use class::{Class, DepthRange, DepthState, Projection, Viewport, Word};
 pub use error::ConfigError;
 pub use explain::Explain;
 pub use live::{Knob, Live};
-pub use options::{DISABLE, Field, LIBRARY, OPTIONS, OptionId, OptionSpec, Origin, PathKind};
+pub use options::{
+    DISABLE, Field, LIBRARY, OPTIONS, OptionId, OptionSpec, Origin, PathKind, Scope,
+};
 pub use profile::{Profile, Rule};
 pub use settings::{Setting, Settings};
 pub use status::{Status, replace};

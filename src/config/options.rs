@@ -89,104 +89,255 @@ pub enum PathKind {
     ProfileOrFile,
 }
 
-/// One row of the table.
+/// Which subcommands take an option on their command line.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Scope {
+    /// Every subcommand that starts a program under the layer.
+    Layer,
+    /// `manyview capture` alone.
+    Capture,
+    /// None: the variable is set by the launcher, or by hand.
+    Variable,
+}
+
+/// One row of the table. Help texts, manual pages, the manual and the messages for wrong values come from it.
 #[derive(Clone, Copy, Debug)]
 pub struct OptionSpec {
     /// Which option.
     pub id: OptionId,
+    /// Which subcommands have it.
+    pub scope: Scope,
     /// Long option of the command, without the dashes.
     pub flag: Option<&'static str>,
+    /// Another spelling of the flag.
+    pub alias: Option<&'static str>,
     /// Key of the TOML file.
     pub key: Option<&'static str>,
     /// Environment variable.
     pub variable: &'static str,
-    /// How the value is written in help texts.
+    /// The value in help texts; empty for a switch, and where the choices are shown in its place.
     pub value: &'static str,
+    /// The words that may be given, if they can be listed.
+    pub choices: &'static [&'static str],
     /// Whether the value is a path.
     pub path: PathKind,
-    /// One line for people.
+    /// The value that holds unless one is given, in words; empty where there is none.
+    pub default: &'static str,
+    /// One sentence for people, without its full stop.
     pub help: &'static str,
+    /// What the manual adds, in Markdown; links are relative to `docs/`.
+    pub manual: &'static str,
 }
 
-macro_rules! option {
-    ($id:ident, $flag:expr, $key:expr, $variable:literal, $value:literal, $path:ident, $help:literal) => {
-        OptionSpec {
-            id: OptionId::$id,
-            flag: $flag,
-            key: $key,
-            variable: $variable,
-            value: $value,
-            path: PathKind::$path,
-            help: $help,
+impl OptionSpec {
+    /// A row of an option that every subcommand with the layer has, and that is a key of the file under the same name.
+    const fn new(
+        id: OptionId,
+        flag: &'static str,
+        variable: &'static str,
+        value: &'static str,
+        help: &'static str,
+    ) -> Self {
+        Self {
+            id,
+            scope: Scope::Layer,
+            flag: Some(flag),
+            alias: None,
+            key: Some(flag),
+            variable,
+            value,
+            choices: &[],
+            path: PathKind::No,
+            default: "",
+            help,
+            manual: "",
         }
-    };
+    }
+
+    /// A row of a variable without option or key.
+    const fn variable(
+        id: OptionId,
+        variable: &'static str,
+        value: &'static str,
+        help: &'static str,
+    ) -> Self {
+        let mut row = Self::new(id, "", variable, value, help);
+        row.scope = Scope::Variable;
+        row.flag = None;
+        row.key = None;
+        row
+    }
+
+    const fn choices(mut self, choices: &'static [&'static str]) -> Self {
+        self.choices = choices;
+        self
+    }
+
+    const fn default(mut self, default: &'static str) -> Self {
+        self.default = default;
+        self
+    }
+
+    const fn path(mut self, path: PathKind) -> Self {
+        self.path = path;
+        self
+    }
+
+    const fn manual(mut self, manual: &'static str) -> Self {
+        self.manual = manual;
+        self
+    }
+
+    /// An option of `capture` whose flag is not its key.
+    const fn capture(mut self, key: &'static str) -> Self {
+        self.scope = Scope::Capture;
+        self.key = Some(key);
+        self
+    }
+
+    const fn alias(mut self, alias: &'static str) -> Self {
+        self.alias = Some(alias);
+        self
+    }
+
+    /// The option that no file can have: the file itself.
+    const fn keyless(mut self) -> Self {
+        self.key = None;
+        self
+    }
+
+    /// How the value is written in help texts.
+    #[must_use]
+    pub fn value_name(&self) -> String {
+        if self.value.is_empty() {
+            self.choices.join("|")
+        } else {
+            self.value.to_owned()
+        }
+    }
+
+    /// The choices as a part of a sentence: "a, b and c", with another last word.
+    #[must_use]
+    pub fn listed(&self, last: &str) -> String {
+        match self.choices {
+            [] => String::new(),
+            [only] => (*only).to_owned(),
+            [most @ .., end] => format!("{} {last} {end}", most.join(", ")),
+        }
+    }
+
+    /// The help of the command: the sentence, its choices where they are not the value's name, and the default.
+    #[must_use]
+    pub fn command_help(&self) -> String {
+        let mut text = self.help.to_owned();
+        if !self.value.is_empty() && !self.choices.is_empty() {
+            text = format!("{text}: {}", self.listed("or"));
+        }
+        if !self.default.is_empty() {
+            text = format!("{text} [default: {}]", self.default);
+        }
+        text
+    }
 }
 
 /// Every option, in the order in which people read about them.
 #[rustfmt::skip]
 pub const OPTIONS: &[OptionSpec] = &[
-    option!(Display, Some("display"), Some("display"), "MANYVIEW_DISPLAY", "NAME|FILE", NameOrFile,
-        "panel: a built-in name or a panel file; huebner8 unless given"),
-    option!(Views, Some("views"), Some("views"), "MANYVIEW_VIEWS", "N", No,
-        "number of views, 1 to 256; the panel's own unless given"),
-    option!(Output, Some("output"), Some("output"), "MANYVIEW_OUTPUT", "panel|quilt|sbs|half-sbs|tb|half-tb|rows|columns|checker|quad|rgbd|anaglyph[:KIND]|view:I", No,
-        "what the window shows; panel unless given"),
-    option!(Filter, Some("filter"), Some("filter"), "MANYVIEW_FILTER", "nearest|blend|gaussian", No,
-        "what a subpixel between two views shows on the panel; nearest unless given"),
-    option!(EyeSpacing, Some("eye-spacing"), Some("eye-spacing"), "MANYVIEW_EYE_SPACING", "K", No,
-        "spacing of neighbouring viewpoints in eye-space units; with --focal-depth"),
-    option!(FocalDepth, Some("focal-depth"), Some("focal-depth"), "MANYVIEW_FOCAL_DEPTH", "X", No,
-        "depth of zero parallax in eye-space units; with --eye-spacing"),
-    option!(Separation, Some("separation"), Some("separation"), "MANYVIEW_SEPARATION", "S", No,
-        "shift of neighbouring views in clip space; with --convergence"),
-    option!(Convergence, Some("convergence"), Some("convergence"), "MANYVIEW_CONVERGENCE", "C", No,
-        "clip-space w of zero parallax; with --separation"),
-    option!(AutoDepth, Some("auto-depth"), Some("auto-depth"), "MANYVIEW_AUTO_DEPTH", "0|1", No,
-        "place the cameras by the depths of each frame, within what the display can show; one of the four values above may be given with it"),
-    option!(Strategy, Some("strategy"), Some("strategy"), "MANYVIEW_STRATEGY", "auto|replay|instanced|geometry|depth-image|occlusion|hybrid", No,
-        "how draws are repeated per view; auto unless given"),
-    option!(Atlas, Some("atlas"), Some("atlas"), "MANYVIEW_ATLAS", "side-by-side|layers", No,
-        "where the views lie in memory; side-by-side unless given"),
-    option!(Clip, Some("clip"), Some("clip"), "MANYVIEW_CLIP", "distances|discard|both|cut", No,
-        "put the views of instanced and geometry side by side, and keep them apart so; views lie in layers unless given"),
-    option!(Holes, Some("holes"), Some("holes"), "MANYVIEW_HOLES", "fill|mark", No,
-        "what synthesised views have where nothing is known: what is behind, or magenta; fill unless given"),
-    option!(TrueViews, Some("true-views"), Some("true-views"), "MANYVIEW_TRUE_VIEWS", "K", No,
-        "views that hybrid draws, the others are made of them; as many as --fps leaves time for unless given"),
-    option!(Fps, Some("fps"), Some("fps"), "MANYVIEW_FPS", "F", No,
-        "frames per second that hybrid holds by drawing fewer views; 60 unless given"),
-    option!(ViewScale, Some("view-scale"), Some("view-scale"), "MANYVIEW_VIEW_SCALE", "F", No,
-        "size of a view over that of the window, from 0.05 to 1, or auto: as much as the output shows; 1 unless given"),
-    option!(HudDepth, Some("hud-depth"), Some("hud-depth"), "MANYVIEW_HUD_DEPTH", "D", No,
-        "where flat draws stand: 0 on the panel, 1 infinitely far, below 0 before the panel; 0 unless given"),
-    option!(Disable, Some("without"), Some("without"), "MANYVIEW_WITHOUT", "NAME,…", No,
-        "do the work that is left out where a scene does not need it, to see what that saves: unseen, alike, lists, uniforms and frustum, by commas"),
-    option!(Profile, Some("profile"), Some("profile"), "MANYVIEW_PROFILE", "NAME|FILE|none", ProfileOrFile,
-        "rules that say what draws are; the profile that names the program unless given"),
-    option!(Explain, Some("explain"), Some("explain"), "MANYVIEW_EXPLAIN", "FOLDER|FILE", File,
-        "write what each draw of one frame is, and why, as PNG and text"),
-    option!(ExplainFrame, Some("explain-frame"), Some("explain-frame"), "MANYVIEW_EXPLAIN_FRAME", "N", No,
-        "frame to explain, counted from 1; 30 unless given"),
-    option!(Prove, Some("prove"), Some("prove"), "MANYVIEW_PROVE", "K", No,
-        "draw every K-th frame by replay at the size of the window as well, and tell how far the two are apart and how much time is saved"),
-    option!(Report, Some("report"), Some("report"), "MANYVIEW_REPORT", "FILE.json", File,
-        "write a JSON report of frames, draws and fallbacks"),
-    option!(Control, Some("control"), Some("control"), "MANYVIEW_CONTROL", "0|1", No,
-        "let `manyview ctl` change the views while the program runs; 0 unless given"),
-    option!(Keys, Some("keys"), Some("keys"), "MANYVIEW_KEYS", "0|1", No,
-        "let keys with Ctrl+Alt change the views while the program runs (X11); 0 unless given"),
-    option!(Config, Some("config"), None, "MANYVIEW_CONFIG", "FILE.toml", File,
-        "read options from a TOML file; variables and the command line win over it"),
-    option!(CaptureOut, Some("out"), Some("capture-out"), "MANYVIEW_CAPTURE_OUT", "PATH", File,
-        "PNG to write; with several frames %d in it is the frame, else -000030 goes before the extension"),
-    option!(CaptureFrames, Some("frames"), Some("capture-frames"), "MANYVIEW_CAPTURE_FRAMES", "N|A..B", No,
-        "frames to write, counted from 1, both ends included; 30 unless given"),
-    option!(CaptureWhat, Some("what"), Some("capture-what"), "MANYVIEW_CAPTURE_WHAT", "output|atlas|view:I|depth|reference|samples", No,
-        "what a picture holds; output unless given"),
-    option!(Status, None, None, "MANYVIEW_STATUS", "FILE.json", File,
-        "where the layer tells the launcher how many frames it has seen"),
-    option!(Profiles, None, None, "MANYVIEW_PROFILES", "FOLDER", File,
-        "folder of the profiles that --profile names; beside the library unless given"),
+    OptionSpec::new(OptionId::Display, "display", "MANYVIEW_DISPLAY", "NAME|FILE",
+        "Panel: a built-in name (see `manyview displays`) or a panel file")
+        .path(PathKind::NameOrFile).default("huebner8").manual("See [Displays](displays.md)."),
+    OptionSpec::new(OptionId::Views, "views", "MANYVIEW_VIEWS", "N",
+        "Number of views, 1 to 256")
+        .default("the panel's own"),
+    OptionSpec::new(OptionId::Output, "output", "MANYVIEW_OUTPUT", "OUTPUT",
+        "What the window shows")
+        .choices(&["panel", "quilt", "sbs", "half-sbs", "tb", "half-tb", "rows", "columns", "checker", "quad", "rgbd", "anaglyph[:KIND]", "view:I"])
+        .default("panel").manual("See [Outputs](outputs.md)."),
+    OptionSpec::new(OptionId::Filter, "filter", "MANYVIEW_FILTER", "FILTER",
+        "How a subpixel that lies between two views is coloured")
+        .choices(&["nearest", "blend", "gaussian"])
+        .default("nearest").manual("`nearest` takes the nearest view. `blend` mixes two views by their distances. `gaussian` mixes three, which blurs double images."),
+    OptionSpec::new(OptionId::EyeSpacing, "eye-spacing", "MANYVIEW_EYE_SPACING", "K",
+        "Spacing of neighbouring viewpoints in the program's eye-space units; with --focal-depth")
+        .manual("[Depth](depth.md) says where the cameras stand without it."),
+    OptionSpec::new(OptionId::FocalDepth, "focal-depth", "MANYVIEW_FOCAL_DEPTH", "X",
+        "Depth of zero parallax in the program's eye-space units; with --eye-spacing"),
+    OptionSpec::new(OptionId::Separation, "separation", "MANYVIEW_SEPARATION", "S",
+        "Shift of neighbouring views in clip space; with --convergence, in place of the two above"),
+    OptionSpec::new(OptionId::Convergence, "convergence", "MANYVIEW_CONVERGENCE", "C",
+        "Clip-space w of zero parallax; with --separation"),
+    OptionSpec::new(OptionId::AutoDepth, "auto-depth", "MANYVIEW_AUTO_DEPTH", "",
+        "Place the cameras by the depths of each frame, within the budget of the display; one of the four values above may be given with it")
+        .manual("See [Depth](depth.md)."),
+    OptionSpec::new(OptionId::Strategy, "strategy", "MANYVIEW_STRATEGY", "",
+        "How draws are repeated per view")
+        .choices(&["auto", "replay", "instanced", "geometry", "depth-image", "occlusion", "hybrid"])
+        .default("auto").manual("See [Strategies](strategies.md)."),
+    OptionSpec::new(OptionId::Atlas, "atlas", "MANYVIEW_ATLAS", "",
+        "Where the views lie in memory")
+        .choices(&["side-by-side", "layers"]).default("side-by-side"),
+    OptionSpec::new(OptionId::Clip, "clip", "MANYVIEW_CLIP", "",
+        "Put the views of `instanced` and `geometry` side by side, and clip each to its tile in this way")
+        .choices(&["distances", "discard", "both", "cut"]).default("views lie in layers")
+        .manual("By clip distances; by a fragment shader that discards; by that and a geometry shader that drops primitives outside; or by a geometry shader that cuts triangles."),
+    OptionSpec::new(OptionId::Holes, "holes", "MANYVIEW_HOLES", "",
+        "Fill disocclusions of synthesised views with their background, or mark them in magenta")
+        .choices(&["fill", "mark"]).default("fill"),
+    OptionSpec::new(OptionId::TrueViews, "true-views", "MANYVIEW_TRUE_VIEWS", "K",
+        "Views that --strategy hybrid draws; the others are synthesised")
+        .default("as many as --fps leaves time for"),
+    OptionSpec::new(OptionId::Fps, "fps", "MANYVIEW_FPS", "F",
+        "Frames per second that --strategy hybrid holds by drawing fewer views")
+        .default("60"),
+    OptionSpec::new(OptionId::ViewScale, "view-scale", "MANYVIEW_VIEW_SCALE", "F",
+        "Size of a view over the size of the window, from 0.05 to 1, or auto: as finely as the output shows the view")
+        .default("1"),
+    OptionSpec::new(OptionId::HudDepth, "hud-depth", "MANYVIEW_HUD_DEPTH", "D",
+        "Where flat draws stand: 0 on the panel, 1 infinitely far, below 0 before the panel")
+        .default("0").manual("See [Profiles](profiles.md)."),
+    OptionSpec::new(OptionId::Disable, "without", "MANYVIEW_WITHOUT", "NAME,…",
+        "Do the work that is left out where a scene does not need it, to see what that saves")
+        .choices(&["unseen", "alike", "lists", "uniforms", "frustum"])
+        .manual("See [Optimisations](strategies.md#optimisations)."),
+    OptionSpec::new(OptionId::Profile, "profile", "MANYVIEW_PROFILE", "NAME|FILE|none",
+        "Rules that say what draws are")
+        .path(PathKind::ProfileOrFile).default("the profile that names the program").manual("See [Profiles](profiles.md)."),
+    OptionSpec::new(OptionId::Explain, "explain", "MANYVIEW_EXPLAIN", "FOLDER|FILE",
+        "Write what each draw of one frame is, and why, as PNG and text")
+        .path(PathKind::File).manual("The files are `explain.png` and `explain.txt` in a folder that exists, else they have the file's name."),
+    OptionSpec::new(OptionId::ExplainFrame, "explain-frame", "MANYVIEW_EXPLAIN_FRAME", "N",
+        "Frame to explain, counted from 1")
+        .default("30"),
+    OptionSpec::new(OptionId::Prove, "prove", "MANYVIEW_PROVE", "K",
+        "Draw every K-th frame by replay at the size of the window as well, and report the difference and the speed-up")
+        .manual("See [Proof](proof-and-bench.md#proof)."),
+    OptionSpec::new(OptionId::Report, "report", "MANYVIEW_REPORT", "FILE.json",
+        "Write a JSON report of frames, draws and fallbacks")
+        .path(PathKind::File),
+    OptionSpec::new(OptionId::Control, "control", "MANYVIEW_CONTROL", "",
+        "Let `manyview ctl` change the views while the program runs")
+        .manual("See [Control](run-time-control.md#control)."),
+    OptionSpec::new(OptionId::Keys, "keys", "MANYVIEW_KEYS", "",
+        "Let keys with Ctrl+Alt change the views while the program runs (X11)")
+        .manual("See [Keys](run-time-control.md#keys)."),
+    OptionSpec::new(OptionId::Config, "config", "MANYVIEW_CONFIG", "FILE.toml",
+        "Read options from a TOML file; variables and the command line win over it")
+        .path(PathKind::File).keyless(),
+    OptionSpec::new(OptionId::CaptureOut, "out", "MANYVIEW_CAPTURE_OUT", "PATH",
+        "PNG to write; with several frames %d in it is the frame, else -000030 goes before the extension; the name of a quilt gets its columns, rows and aspect, such as _qs8x6a0.75, and goes to stdout")
+        .capture("capture-out").path(PathKind::File).manual("See [Quilts](outputs.md#quilts) for `%q`."),
+    OptionSpec::new(OptionId::CaptureFrames, "frames", "MANYVIEW_CAPTURE_FRAMES", "N|A..B",
+        "Frames to write, counted from 1, both ends included")
+        .capture("capture-frames").alias("frame").default("30"),
+    OptionSpec::new(OptionId::CaptureWhat, "what", "MANYVIEW_CAPTURE_WHAT", "",
+        "What a picture holds")
+        .capture("capture-what").choices(&["output", "atlas", "view:I", "depth", "reference", "samples"]).default("output"),
+    OptionSpec::variable(OptionId::Status, "MANYVIEW_STATUS", "FILE.json",
+        "File in which the layer tells the launcher how many frames it has seen; set by `capture`, and for a proof by `run` and `bench`")
+        .path(PathKind::File),
+    OptionSpec::variable(OptionId::Profiles, "MANYVIEW_PROFILES", "FOLDER",
+        "Folder in which profiles are found by name and by program")
+        .path(PathKind::File).default("`profiles` beside `libmanyview.so`"),
 ];
 
 impl OptionId {
@@ -269,6 +420,7 @@ impl fmt::Display for Field {
 
 #[cfg(test)]
 mod tests {
+    use super::super::{Config, Settings};
     use super::*;
     use std::collections::BTreeSet;
 
@@ -287,6 +439,46 @@ mod tests {
             unique(OPTIONS.iter().map(|o| o.variable).collect()),
             "variables"
         );
+    }
+
+    #[test]
+    fn what_a_row_lists_is_understood() {
+        for row in OPTIONS {
+            for choice in row.choices {
+                let value = choice.replace("[:KIND]", ":red-cyan").replace(":I", ":0");
+                let mut settings = Settings::default();
+                settings.set(row.id, value, Origin::CommandLine);
+                settings.set(OptionId::CaptureOut, "a.png", Origin::CommandLine);
+                if *choice == "reference" || *choice == "samples" {
+                    settings.set(OptionId::Strategy, "occlusion", Origin::CommandLine);
+                }
+                let config = Config::from_settings(&settings);
+                config.unwrap_or_else(|error| panic!("{:?} {choice}: {error}", row.id));
+            }
+        }
+    }
+
+    #[test]
+    fn a_row_that_lists_words_has_one_of_them_as_default_or_says_what_holds() {
+        for row in OPTIONS.iter().filter(|row| !row.choices.is_empty()) {
+            let listed = row.choices.contains(&row.default);
+            let described = matches!(row.id, OptionId::Clip | OptionId::Disable);
+            assert_ne!(listed, described, "{:?}", row.id);
+        }
+    }
+
+    #[test]
+    fn help_is_a_sentence_without_its_stop() {
+        for row in OPTIONS {
+            let first = row.help.chars().next();
+            assert!(first.is_some_and(char::is_uppercase), "{:?}", row.id);
+            assert!(!row.help.ends_with('.'), "{:?}", row.id);
+            assert!(
+                row.manual.is_empty() || row.manual.ends_with('.'),
+                "{:?}",
+                row.id
+            );
+        }
     }
 
     #[test]

@@ -30,21 +30,9 @@ impl Config {
             camera: camera(settings)?,
             strategy,
             true_views: strategy::true_views(settings, strategy, views)?,
-            atlas: choice(
-                settings,
-                OptionId::Atlas,
-                ATLASES,
-                "side-by-side and layers",
-            )?
-            .unwrap_or(AtlasLayout::SideBySide),
-            clip: choice(
-                settings,
-                OptionId::Clip,
-                CLIPS,
-                "distances, discard, both and cut",
-            )?,
-            marks_holes: choice(settings, OptionId::Holes, HOLES, "fill and mark")?
-                .unwrap_or(false),
+            atlas: choice(settings, OptionId::Atlas, ATLASES)?.unwrap_or(AtlasLayout::SideBySide),
+            clip: choice(settings, OptionId::Clip, CLIPS)?,
+            marks_holes: choice(settings, OptionId::Holes, HOLES)?.unwrap_or(false),
             view_scale: view_scale(settings)?,
             hud_depth: hud_depth(settings)?,
             disabled: disabled(settings)?,
@@ -87,9 +75,9 @@ fn disabled(settings: &Settings) -> Result<Disabled, ConfigError> {
     };
     let savings: Option<Disabled> = value.split(',').map(named).collect();
     savings.ok_or_else(|| ConfigError::Choice {
+        choices: choices(field.id),
         field,
         value: value.to_owned(),
-        choices: "unseen, alike, lists, uniforms and frustum, several of them with commas between",
     })
 }
 
@@ -135,8 +123,17 @@ fn views(settings: &Settings, display: &Display, output: Output) -> Result<u32, 
     Ok(views)
 }
 
-const OUTPUT_CHOICES: &str = "panel, quilt, sbs, half-sbs, tb, half-tb, rows, columns, checker, quad, rgbd, anaglyph:KIND and view:I, with KIND red-cyan, green-magenta or \
-                              amber-blue, and -half or -grey after it";
+/// The words that an option knows, for a message.
+fn choices(id: OptionId) -> String {
+    let listed = id.spec().listed("and");
+    match id {
+        OptionId::Output => format!(
+            "{listed}, with KIND red-cyan, green-magenta or amber-blue, and -half or -grey after it"
+        ),
+        OptionId::Disable => format!("{listed}, several of them with commas between"),
+        _ => listed,
+    }
+}
 
 const OUTPUTS: &[(&str, Output)] = &[
     ("panel", Output::Panel),
@@ -219,7 +216,7 @@ fn output(settings: &Settings, display: &Display) -> Result<Output, ConfigError>
     if let Some(anaglyph) = anaglyph(value) {
         return Ok(Output::Anaglyph(anaglyph));
     }
-    one_view(&field, value, MAX_VIEWS, OUTPUT_CHOICES).map(Output::View)
+    one_view(&field, value, MAX_VIEWS).map(Output::View)
 }
 
 /// `anaglyph`, `anaglyph:GLASSES` or `anaglyph:GLASSES-MIXTURE`.
@@ -245,7 +242,7 @@ fn check_output(settings: &Settings, output: Output, views: u32) -> Result<(), C
         return Ok(());
     };
     match output {
-        Output::View(_) => one_view(&field, value, views, OUTPUT_CHOICES).map(drop),
+        Output::View(_) => one_view(&field, value, views).map(drop),
         _ if output.is_stereo() && views < 2 => Err(ConfigError::OneEye { field }),
         _ => Ok(()),
     }
@@ -257,8 +254,7 @@ fn filter(settings: &Settings, views: u32) -> Result<Filter, ConfigError> {
         ("blend", Filter::Blend),
         ("gaussian", Filter::Gaussian),
     ];
-    let names = "nearest, blend and gaussian";
-    let filter = choice(settings, OptionId::Filter, FILTERS, names)?.unwrap_or(Filter::Nearest);
+    let filter = choice(settings, OptionId::Filter, FILTERS)?.unwrap_or(Filter::Nearest);
     match settings.field(OptionId::Filter) {
         Some((field, _)) if filter != Filter::Nearest && views > MAX_FINE_VIEWS => {
             Err(ConfigError::Fine { field, views })
@@ -268,12 +264,7 @@ fn filter(settings: &Settings, views: u32) -> Result<Filter, ConfigError> {
 }
 
 /// The I of `view:I`.
-fn one_view(
-    field: &Field,
-    value: &str,
-    views: u32,
-    choices: &'static str,
-) -> Result<u32, ConfigError> {
+fn one_view(field: &Field, value: &str, views: u32) -> Result<u32, ConfigError> {
     let Some(view) = value
         .strip_prefix("view:")
         .and_then(|index| index.parse().ok())
@@ -281,7 +272,7 @@ fn one_view(
         return Err(ConfigError::Choice {
             field: field.clone(),
             value: value.to_owned(),
-            choices,
+            choices: choices(field.id),
         });
     };
     if view >= views {
@@ -298,7 +289,6 @@ pub(super) fn choice<T: Copy>(
     settings: &Settings,
     id: OptionId,
     table: &[(&str, T)],
-    choices: &'static str,
 ) -> Result<Option<T>, ConfigError> {
     let Some((field, value)) = settings.field(id) else {
         return Ok(None);
@@ -306,9 +296,9 @@ pub(super) fn choice<T: Copy>(
     match table.iter().find(|(name, _)| *name == value) {
         Some((_, choice)) => Ok(Some(*choice)),
         None => Err(ConfigError::Choice {
+            choices: choices(id),
             field,
             value: value.to_owned(),
-            choices,
         }),
     }
 }
@@ -574,14 +564,13 @@ fn capture(settings: &Settings, views: u32) -> Result<Option<Capture>, ConfigErr
 
 /// What a picture holds.
 pub(super) fn capture_what(settings: &Settings, views: u32) -> Result<CaptureWhat, ConfigError> {
-    const CHOICES: &str = "output, atlas, view:I, depth, reference and samples";
     Ok(match settings.field(OptionId::CaptureWhat) {
         None | Some((_, "output")) => CaptureWhat::Output,
         Some((_, "atlas")) => CaptureWhat::Atlas,
         Some((_, "depth")) => CaptureWhat::Depth,
         Some((_, "reference")) => CaptureWhat::Reference,
         Some((_, "samples")) => CaptureWhat::Samples,
-        Some((field, value)) => CaptureWhat::View(one_view(&field, value, views, CHOICES)?),
+        Some((field, value)) => CaptureWhat::View(one_view(&field, value, views)?),
     })
 }
 

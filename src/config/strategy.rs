@@ -96,8 +96,7 @@ impl Config {
 }
 
 pub(super) fn chosen(settings: &Settings) -> Result<Strategy, ConfigError> {
-    let names = "auto, replay, instanced, geometry, depth-image, occlusion and hybrid";
-    let given = choice(settings, OptionId::Strategy, STRATEGIES, names)?;
+    let given = choice(settings, OptionId::Strategy, STRATEGIES)?;
     Ok(given.unwrap_or(Strategy::Auto))
 }
 
