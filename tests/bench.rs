@@ -89,7 +89,7 @@ fn row(scene: &'static str, configuration: &str, views: u32, times: f64, psnr: O
         views,
         configuration: configuration.to_owned(),
         view_scale: "1".to_owned(),
-        without: None,
+        disabled: None,
         frames_per_round: 1,
         ms: spread(10.0 * times),
         bare_ms: spread(10.0),
@@ -118,7 +118,7 @@ fn savings_are_told_below_the_table() {
     let out = folder.path().join("b.json");
     let mut command = manyview();
     command.args(["bench", "--scene", "menu,field", "--strategy", "replay"]);
-    command.args(["--without", "alike,frustum", "--size", "256x192"]);
+    command.args(["--disable", "mono,frustum", "--size", "256x192"]);
     command.args(["--frames", "3"]).arg("--json").arg(&out);
     library();
     demo("menu");
@@ -132,13 +132,16 @@ fn savings_are_told_below_the_table() {
         row["ms"]["median"].as_f64().expect("a number")
     };
     // Eight views of a menu, or one: several times, on any machine.
-    let saved = ms("menu", "replay without alike") / ms("menu", "replay");
+    let saved = ms("menu", "replay without mono") / ms("menu", "replay");
     assert!(saved > 2.0, "{saved}");
-    let lines = text.split_once("savings:\n").expect("a part of the text").1;
+    let lines = text
+        .split_once("optimisations:\n")
+        .expect("a part of the text")
+        .1;
     for start in [
-        "  menu, 8 views, replay without alike: ",
+        "  menu, 8 views, replay without mono: ",
         "  menu, 8 views, replay without frustum: ",
-        "  field, 8 views, replay without alike: ",
+        "  field, 8 views, replay without mono: ",
         "  field, 8 views, replay without frustum: ",
     ] {
         assert!(lines.contains(start), "{start:?} in {lines}");

@@ -523,3 +523,33 @@ fn doctor_names_the_libraries() {
         "not found",
     );
 }
+
+#[test]
+fn a_former_name_is_told_in_one_line() {
+    support::library();
+    let told = |arguments: &[&str], variable: Option<(&str, &str)>| {
+        let output = manyview()
+            .args(arguments)
+            .envs(variable)
+            .args(["--", "/no/such/program"])
+            .output()
+            .expect("the command starts");
+        assert_eq!(output.status.code(), Some(127), "{arguments:?}");
+        let text = String::from_utf8(output.stderr).expect("UTF-8");
+        let lines = text.lines().filter(|line| line.contains("now called"));
+        lines.map(str::to_owned).collect::<Vec<_>>()
+    };
+    let line = |old: &str, new: &str| {
+        format!(
+            "manyview: {old} is now called {new}; this version is the last one that takes the old name"
+        )
+    };
+    let flag = line("--without", "--disable");
+    assert_eq!(told(&["run", "--without", "frustum"], None), [flag]);
+    let word = line("alike of --disable", "mono");
+    assert_eq!(told(&["run", "--disable", "alike"], None), [word]);
+    let variable = line("MANYVIEW_WITHOUT", "MANYVIEW_DISABLE_OPTIMISATIONS");
+    let set = Some(("MANYVIEW_WITHOUT", "lists"));
+    assert_eq!(told(&["run"], set), [variable]);
+    assert_eq!(told(&["run", "--disable", "mono"], None), [""; 0]);
+}

@@ -152,8 +152,8 @@ pub struct Variant {
     pub view_scale: String,
     /// As `--display` has it; none for the layer's own.
     pub display: Option<String>,
-    /// The name of a [`crate::config::Optimisation`] that is not made.
-    pub without: Option<&'static str>,
+    /// The name of a [`crate::config::Optimisation`] that is turned off.
+    pub disabled: Option<&'static str>,
 }
 
 impl Variant {
@@ -164,8 +164,8 @@ impl Variant {
         if self.view_scale != "1" {
             name = format!("{name} at {}", self.view_scale);
         }
-        if let Some(saving) = self.without {
-            name = format!("{name} without {saving}");
+        if let Some(disabled) = self.disabled {
+            name = format!("{name} without {disabled}");
         }
         name
     }
@@ -181,8 +181,8 @@ impl Variant {
         for (id, value) in self.configuration.options {
             settings.set(*id, *value, Origin::CommandLine);
         }
-        if let Some(saving) = self.without {
-            settings.set(OptionId::Disable, saving, Origin::CommandLine);
+        if let Some(disabled) = self.disabled {
+            settings.set(OptionId::Disable, disabled, Origin::CommandLine);
         }
         settings.set(OptionId::Views, views, Origin::CommandLine);
         settings

@@ -48,8 +48,8 @@ pub struct Row {
     pub configuration: String,
     /// As `--view-scale` has it.
     pub view_scale: String,
-    /// The saving that was not made.
-    pub without: Option<&'static str>,
+    /// The optimisation that was turned off.
+    pub disabled: Option<&'static str>,
     /// Frames of a turn; its time is their median.
     pub frames_per_round: u32,
     /// A frame, ms.
@@ -79,15 +79,15 @@ pub struct Row {
 }
 
 impl Row {
-    /// Whether another row is the same with nothing left out that this one does.
+    /// Whether another row is the same with the optimisation that this one turns off.
     #[must_use]
     pub fn is_without(&self, with: &Row) -> bool {
-        let alike = |row: &Row| (row.scene, row.width, row.height, row.views);
-        let name = self.without.and_then(|saving| {
+        let scene = |row: &Row| (row.scene, row.width, row.height, row.views);
+        let name = self.disabled.and_then(|disabled| {
             self.configuration
-                .strip_suffix(&format!(" without {saving}"))
+                .strip_suffix(&format!(" without {disabled}"))
         });
-        alike(self) == alike(with) && name == Some(&with.configuration)
+        scene(self) == scene(with) && name == Some(&with.configuration)
     }
 }
 

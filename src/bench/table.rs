@@ -31,7 +31,7 @@ pub fn text(bench: &Bench) -> String {
             );
         }
     }
-    text.push_str(&savings(&bench.rows));
+    text.push_str(&optimisations(&bench.rows));
     for row in &bench.rows {
         for (reason, count) in &row.fallbacks {
             let _ = writeln!(
@@ -51,15 +51,15 @@ pub fn text(bench: &Bench) -> String {
     text
 }
 
-/// What each saving that was left out brings in time and costs in the picture.
-fn savings(rows: &[Row]) -> String {
+/// What each optimisation that was turned off saves in time and costs in the picture.
+fn optimisations(rows: &[Row]) -> String {
     let mut text = String::new();
     for row in rows {
         let Some(with) = rows.iter().find(|with| row.is_without(with)) else {
             continue;
         };
         if text.is_empty() {
-            text.push_str("\nsavings:\n");
+            text.push_str("\noptimisations:\n");
         }
         let psnr = |row: &Row| match row.picture.psnr {
             Some(psnr) => format!("{psnr:.1} dB"),

@@ -1,14 +1,21 @@
 //! The options of the layer as options of the subcommands that start a program, made from the one table.
 #![forbid(unsafe_code)]
 
+use super::tell;
 use clap::{Arg, ArgAction, ArgMatches, Args, Command, Error, FromArgMatches};
-use manyview::config::{
-    ConfigError, OPTIONS, OptionId, OptionSpec, Origin, PathKind, Scope, Settings,
-};
+use manyview::config::{ConfigError, OPTIONS, OptionId, OptionSpec, PathKind, Scope, Settings};
+
+/// One option as it was written.
+struct Written {
+    id: OptionId,
+    value: String,
+    /// By the flag of the version before.
+    former: bool,
+}
 
 /// Values stay as they are written: [`manyview::config`] understands them, wherever they come from.
 #[derive(Default)]
-struct Given(Vec<(OptionId, String)>);
+struct Given(Vec<Written>);
 
 /// The options of every subcommand that starts a program under the layer.
 #[derive(Default)]
@@ -22,6 +29,16 @@ pub(crate) struct CaptureArguments(Given);
 fn rows(scope: Scope) -> impl Iterator<Item = (&'static OptionSpec, &'static str)> {
     let rows = OPTIONS.iter().filter(move |spec| spec.scope == scope);
     rows.filter_map(|spec| Some((spec, spec.flag?)))
+}
+
+/// The flag of the version before: not shown, and not to be given beside the present one.
+fn former(spec: &OptionSpec, flag: &'static str) -> Option<Arg> {
+    let former = spec.former.flag?;
+    let argument = Arg::new(former)
+        .long(former)
+        .value_name(spec.value_name())
+        .conflicts_with(flag);
+    Some(argument.hide(true))
 }
 
 fn argument(spec: &OptionSpec, flag: &'static str) -> Arg {
@@ -43,20 +60,33 @@ fn argument(spec: &OptionSpec, flag: &'static str) -> Arg {
 
 impl Given {
     fn read(scope: Scope, matches: &ArgMatches) -> Self {
-        let value = |(spec, flag): (&OptionSpec, &str)| {
-            let value = if spec.id.is_switch() {
-                matches.get_flag(flag).then(|| "1".to_owned())
-            } else {
-                matches.get_one::<String>(flag).cloned()
+        let mut given = Vec::new();
+        for (spec, flag) in rows(scope) {
+            let mut write = |value, former| {
+                let id = spec.id;
+                given.push(Written { id, value, former });
             };
-            Some((spec.id, value?))
-        };
-        Self(rows(scope).filter_map(value).collect())
+            if spec.id.is_switch() {
+                if matches.get_flag(flag) {
+                    write("1".to_owned(), false);
+                }
+                continue;
+            }
+            if let Some(value) = matches.get_one::<String>(flag) {
+                write(value.clone(), false);
+            }
+            if let Some(former) = spec.former.flag
+                && let Some(value) = matches.get_one::<String>(former)
+            {
+                write(value.clone(), true);
+            }
+        }
+        Self(given)
     }
 
     fn give(&self, settings: &mut Settings) {
-        for (id, value) in &self.0 {
-            settings.set(*id, value, Origin::CommandLine);
+        for written in &self.0 {
+            settings.command_line(written.id, &written.value, written.former);
         }
     }
 }
@@ -66,7 +96,10 @@ macro_rules! arguments_of {
     ($scope:expr, $arguments:ident) => {
         impl Args for $arguments {
             fn augment_args(command: Command) -> Command {
-                command.args(rows($scope).map(|(spec, flag)| argument(spec, flag)))
+                let formers = rows($scope).filter_map(|(spec, flag)| former(spec, flag));
+                command
+                    .args(rows($scope).map(|(spec, flag)| argument(spec, flag)))
+                    .args(formers)
             }
 
             fn augment_args_for_update(command: Command) -> Command {
@@ -91,13 +124,17 @@ arguments_of!(Scope::Layer, LayerArguments);
 arguments_of!(Scope::Capture, CaptureArguments);
 
 impl LayerArguments {
-    /// These options over the variables over the TOML file.
+    /// These options over the variables over the TOML file. Says which former names were used.
     pub(crate) fn settings(&self) -> Result<Settings, ConfigError> {
         let mut settings = Settings::default();
         self.0.give(&mut settings);
-        settings
+        let settings = settings
             .over(Settings::from_variables(variable))
-            .with_file()
+            .with_file()?;
+        for renaming in settings.renamings() {
+            tell(renaming);
+        }
+        Ok(settings)
     }
 }
 
@@ -109,8 +146,8 @@ impl CaptureArguments {
 
     /// The value of one of them.
     pub(crate) fn get(&self, id: OptionId) -> Option<&str> {
-        let given = self.0.0.iter().find(|(given, _)| *given == id);
-        given.map(|(_, value)| value.as_str())
+        let given = self.0.0.iter().find(|written| written.id == id);
+        given.map(|written| written.value.as_str())
     }
 }
 

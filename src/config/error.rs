@@ -1,7 +1,7 @@
 //! What can be wrong with the options; each message names the option, its value and the remedy.
 #![forbid(unsafe_code)]
 
-use super::options::Field;
+use super::field::Field;
 use crate::display::MAX_FINE_VIEWS;
 use std::path::PathBuf;
 

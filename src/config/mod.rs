@@ -5,6 +5,7 @@ mod capture;
 mod class;
 mod error;
 mod explain;
+mod field;
 mod live;
 mod options;
 pub mod panel;
@@ -22,10 +23,9 @@ pub use capture::{Capture, CaptureWhat};
 pub use class::{Class, DepthRange, DepthState, Projection, Viewport, Word};
 pub use error::ConfigError;
 pub use explain::Explain;
+pub use field::{Field, Origin, Renaming};
 pub use live::{Knob, Live};
-pub use options::{
-    DISABLE, Field, LIBRARY, OPTIONS, OptionId, OptionSpec, Origin, PathKind, Scope,
-};
+pub use options::{DISABLE, Former, LIBRARY, OPTIONS, OptionId, OptionSpec, PathKind, Scope};
 pub use profile::{Profile, Rule};
 pub use settings::{Setting, Settings};
 pub use status::{Status, replace};
@@ -67,7 +67,7 @@ pub struct Config {
     pub view_scale: ViewScale,
     /// Where flat draws stand that no rule places: 0 on the panel, 1 infinitely far; a fraction of the separation at infinity.
     pub hud_depth: Option<f64>,
-    /// What is done although the scene does not need it.
+    /// Optimisations that are turned off.
     pub disabled: Disabled,
     /// What the program's draws are, where the state does not say it.
     pub profile: Profile,
@@ -85,6 +85,8 @@ pub struct Config {
     pub capture: Option<Capture>,
     /// Where the layer tells the launcher how far it is, if the launcher asked.
     pub status: Option<PathBuf>,
+    /// Former names that somebody used, to be told.
+    pub renamings: Vec<Renaming>,
 }
 
 impl Config {
@@ -102,7 +104,7 @@ impl Config {
         Ok(config)
     }
 
-    /// Disabled `--profile`, takes the profile that names the program.
+    /// Without `--profile`, takes the profile that names the program.
     pub fn choose_profile(&mut self, settings: &Settings, program: Option<String>) {
         let folder = settings.get(OptionId::Profiles);
         if settings.get(OptionId::Profile).is_none()
@@ -261,7 +263,7 @@ pub enum Kept {
     FocalDepth(f64),
 }
 
-/// Work that is left out where a scene does not need it.
+/// Work that the layer leaves out where a scene does not need it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Optimisation {
     /// Views that no subpixel shows are not drawn.
@@ -280,28 +282,30 @@ impl Optimisation {
     /// All of them, with their names.
     pub const ALL: [(&str, Optimisation); 5] = [
         ("unseen", Optimisation::Unseen),
-        ("alike", Optimisation::MonoFrames),
+        ("mono", Optimisation::MonoFrames),
         ("lists", Optimisation::Lists),
         ("uniforms", Optimisation::Uniforms),
         ("frustum", Optimisation::Frustum),
     ];
 }
 
-/// The savings that are not made, to measure them.
+/// The optimisations that are turned off, to measure them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Disabled(u8);
 
 impl Disabled {
-    /// Whether a saving is not made.
+    /// Whether an optimisation is turned off.
     #[must_use]
-    pub fn has(self, saving: Optimisation) -> bool {
-        self.0 >> (saving as u8) & 1 != 0
+    pub fn has(self, optimisation: Optimisation) -> bool {
+        self.0 >> (optimisation as u8) & 1 != 0
     }
 }
 
 impl FromIterator<Optimisation> for Disabled {
-    fn from_iter<I: IntoIterator<Item = Optimisation>>(savings: I) -> Self {
-        let bits = savings.into_iter().map(|saving| 1 << (saving as u8));
+    fn from_iter<I: IntoIterator<Item = Optimisation>>(optimisations: I) -> Self {
+        let bits = optimisations
+            .into_iter()
+            .map(|optimisation| 1 << (optimisation as u8));
         Disabled(bits.fold(0, |all, bit| all | bit))
     }
 }

@@ -1,9 +1,6 @@
 //! The one table of options: each is an option of the command, a key of the TOML file and a `MANYVIEW_*` variable.
 #![forbid(unsafe_code)]
 
-use std::fmt;
-use std::path::PathBuf;
-
 /// Turns the layer off when it is set to anything but nothing or `0`.
 pub const DISABLE: &str = "MANYVIEW_DISABLE";
 /// Path of the layer's library; read by the launcher only.
@@ -100,6 +97,29 @@ pub enum Scope {
     Variable,
 }
 
+/// The spelling of an option in the version before. It is accepted for one version more, and whoever uses it is told.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Former {
+    /// The flag.
+    pub flag: Option<&'static str>,
+    /// The key.
+    pub key: Option<&'static str>,
+    /// The variable.
+    pub variable: Option<&'static str>,
+    /// Words that the value may have, each with the present one.
+    pub words: &'static [(&'static str, &'static str)],
+}
+
+impl Former {
+    /// Nothing was called otherwise.
+    const NONE: Self = Self {
+        flag: None,
+        key: None,
+        variable: None,
+        words: &[],
+    };
+}
+
 /// One row of the table. Help texts, manual pages, the manual and the messages for wrong values come from it.
 #[derive(Clone, Copy, Debug)]
 pub struct OptionSpec {
@@ -127,6 +147,8 @@ pub struct OptionSpec {
     pub help: &'static str,
     /// What the manual adds, in Markdown; links are relative to `docs/`.
     pub manual: &'static str,
+    /// What it was called.
+    pub former: Former,
 }
 
 impl OptionSpec {
@@ -151,6 +173,7 @@ impl OptionSpec {
             default: "",
             help,
             manual: "",
+            former: Former::NONE,
         }
     }
 
@@ -200,10 +223,24 @@ impl OptionSpec {
         self
     }
 
+    const fn was(mut self, former: Former) -> Self {
+        self.former = former;
+        self
+    }
+
     /// The option that no file can have: the file itself.
     const fn keyless(mut self) -> Self {
         self.key = None;
         self
+    }
+
+    /// A word of a value as it is called now.
+    #[must_use]
+    pub fn present_word<'a>(&self, word: &'a str) -> &'a str {
+        let mut words = self.former.words.iter();
+        words
+            .find(|(old, _)| *old == word.trim())
+            .map_or(word, |(_, new)| new)
     }
 
     /// How the value is written in help texts.
@@ -214,6 +251,13 @@ impl OptionSpec {
         } else {
             self.value.to_owned()
         }
+    }
+
+    /// The variable, and the one that it was.
+    pub fn variables(&self) -> impl Iterator<Item = &'static str> + use<> {
+        [Some(self.variable), self.former.variable]
+            .into_iter()
+            .flatten()
     }
 
     /// The choices as a part of a sentence: "a, b and c", with another last word.
@@ -295,10 +339,11 @@ pub const OPTIONS: &[OptionSpec] = &[
     OptionSpec::new(OptionId::HudDepth, "hud-depth", "MANYVIEW_HUD_DEPTH", "D",
         "Where flat draws stand: 0 on the panel, 1 infinitely far, below 0 before the panel")
         .default("0").manual("See [Profiles](profiles.md)."),
-    OptionSpec::new(OptionId::Disable, "without", "MANYVIEW_WITHOUT", "NAME,…",
-        "Do the work that is left out where a scene does not need it, to see what that saves")
-        .choices(&["unseen", "alike", "lists", "uniforms", "frustum"])
-        .manual("See [Optimisations](strategies.md#optimisations)."),
+    OptionSpec::new(OptionId::Disable, "disable", "MANYVIEW_DISABLE_OPTIMISATIONS", "NAME,…",
+        "Optimisations to turn off, several by commas, to measure what they save")
+        .choices(&["unseen", "mono", "lists", "uniforms", "frustum"])
+        .manual("See [Optimisations](strategies.md#optimisations). `MANYVIEW_DISABLE` is another variable, which turns the whole layer off.")
+        .was(Former { flag: Some("without"), key: Some("without"), variable: Some("MANYVIEW_WITHOUT"), words: &[("alike", "mono")] }),
     OptionSpec::new(OptionId::Profile, "profile", "MANYVIEW_PROFILE", "NAME|FILE|none",
         "Rules that say what draws are")
         .path(PathKind::ProfileOrFile).default("the profile that names the program").manual("See [Profiles](profiles.md)."),
@@ -371,56 +416,9 @@ impl OptionId {
     }
 }
 
-/// Where a value comes from, the strongest first.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Origin {
-    /// A request to the running program.
-    Request,
-    /// An option of the command.
-    CommandLine,
-    /// An environment variable.
-    Variable,
-    /// A key of this TOML file.
-    File(PathBuf),
-    /// Nobody asked: the default.
-    Default,
-}
-
-/// An option as its user wrote it: `--views`, `MANYVIEW_VIEWS` or `views in panel.toml`.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Field {
-    /// Which option.
-    pub id: OptionId,
-    /// Where its value comes from.
-    pub origin: Origin,
-}
-
-impl Field {
-    /// The same kind of spelling for another option, to name the remedy.
-    #[must_use]
-    pub fn sibling(&self, id: OptionId) -> Self {
-        Self {
-            id,
-            origin: self.origin.clone(),
-        }
-    }
-}
-
-impl fmt::Display for Field {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let spec = self.id.spec();
-        match (&self.origin, spec.flag, spec.key) {
-            (Origin::Request, _, Some(key)) => f.write_str(key),
-            (Origin::File(path), _, Some(key)) => write!(f, "{key} in {}", path.display()),
-            (Origin::CommandLine | Origin::Default, Some(flag), _) => write!(f, "--{flag}"),
-            _ => f.write_str(spec.variable),
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
-    use super::super::{Config, Settings};
+    use super::super::{Config, Origin, Settings};
     use super::*;
     use std::collections::BTreeSet;
 
@@ -428,15 +426,34 @@ mod tests {
     fn every_name_is_used_once() {
         let unique = |names: Vec<&str>| names.len() == names.iter().collect::<BTreeSet<_>>().len();
         assert!(
-            unique(OPTIONS.iter().filter_map(|o| o.flag).collect()),
+            unique(
+                OPTIONS
+                    .iter()
+                    .flat_map(|o| [o.flag, o.alias, o.former.flag])
+                    .flatten()
+                    .collect()
+            ),
             "flags"
         );
         assert!(
-            unique(OPTIONS.iter().filter_map(|o| o.key).collect()),
+            unique(
+                OPTIONS
+                    .iter()
+                    .flat_map(|o| [o.key, o.former.key])
+                    .flatten()
+                    .collect()
+            ),
             "keys"
         );
         assert!(
-            unique(OPTIONS.iter().map(|o| o.variable).collect()),
+            unique(
+                OPTIONS
+                    .iter()
+                    .flat_map(|o| [Some(o.variable), o.former.variable])
+                    .flatten()
+                    .chain([DISABLE, LIBRARY])
+                    .collect()
+            ),
             "variables"
         );
     }

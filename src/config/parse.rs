@@ -2,7 +2,8 @@
 #![forbid(unsafe_code)]
 
 use super::error::ConfigError;
-use super::options::{Field, OptionId, Origin};
+use super::field::{Field, Origin};
+use super::options::OptionId;
 use super::settings::Settings;
 use super::{
     Anaglyph, AtlasLayout, Camera, Capture, CaptureWhat, Clip, Config, Disabled, Explain, Filter,
@@ -44,6 +45,7 @@ impl Config {
             keys: changes(settings, OptionId::Keys, views)?,
             capture: capture(settings, views)?,
             status: path(settings, OptionId::Status),
+            renamings: settings.renamings().to_vec(),
             display,
         })
     }
@@ -71,10 +73,10 @@ fn disabled(settings: &Settings) -> Result<Disabled, ConfigError> {
         let known = Optimisation::ALL
             .iter()
             .find(|(known, _)| *known == name.trim());
-        known.map(|(_, saving)| *saving)
+        known.map(|(_, optimisation)| *optimisation)
     };
-    let savings: Option<Disabled> = value.split(',').map(named).collect();
-    savings.ok_or_else(|| ConfigError::Choice {
+    let disabled: Option<Disabled> = value.split(',').map(named).collect();
+    disabled.ok_or_else(|| ConfigError::Choice {
         choices: choices(field.id),
         field,
         value: value.to_owned(),

@@ -4,7 +4,8 @@
 #![forbid(unsafe_code)]
 
 use super::error::ConfigError;
-use super::options::{Field, OPTIONS, OptionId, Origin, PathKind};
+use super::field::{Field, Origin, Renaming};
+use super::options::{OPTIONS, OptionId, PathKind};
 use super::{panel, profile};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -25,6 +26,7 @@ pub struct Setting {
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Settings {
     entries: BTreeMap<OptionId, Setting>,
+    renamings: Vec<Renaming>,
 }
 
 impl Settings {
@@ -39,11 +41,37 @@ impl Settings {
         );
     }
 
+    /// Sets what somebody wrote: former words become the present ones. `old` is how the option was written, if that is a former name.
+    fn write(&mut self, id: OptionId, value: String, origin: Origin, old: Option<String>) {
+        let field = Field {
+            id,
+            origin: origin.clone(),
+        };
+        let new = field.name();
+        self.renamings.extend(old.map(|old| Renaming { old, new }));
+        let (value, renamings) = field.present(value);
+        self.renamings.extend(renamings);
+        self.set(id, value, origin);
+    }
+
+    /// Sets an option as the command line gives it, by its flag or, `former`, by the one of the version before.
+    pub fn command_line(&mut self, id: OptionId, value: &str, former: bool) {
+        let flag = id.spec().former.flag.filter(|_| former);
+        let old = flag.map(|flag| format!("--{flag}"));
+        self.write(id, value.to_owned(), Origin::CommandLine, old);
+    }
+
+    /// The former names that somebody used, each with the present one.
+    #[must_use]
+    pub fn renamings(&self) -> &[Renaming] {
+        &self.renamings
+    }
+
     /// Sets what the command line gives of these options.
     pub fn give<'a>(&mut self, given: impl IntoIterator<Item = (OptionId, &'a Option<String>)>) {
         for (id, value) in given {
             if let Some(value) = value {
-                self.set(id, value, Origin::CommandLine);
+                self.command_line(id, value, false);
             }
         }
     }
@@ -72,8 +100,13 @@ impl Settings {
     pub fn from_variables(lookup: impl Fn(&str) -> Option<String>) -> Self {
         let mut settings = Self::default();
         for spec in OPTIONS {
-            if let Some(value) = lookup(spec.variable).filter(|value| !value.is_empty()) {
-                settings.set(spec.id, value, Origin::Variable);
+            let value = |name: &str| lookup(name).filter(|value| !value.is_empty());
+            if let Some(value) = value(spec.variable) {
+                settings.write(spec.id, value, Origin::Variable, None);
+            } else if let Some(name) = spec.former.variable
+                && let Some(value) = value(name)
+            {
+                settings.write(spec.id, value, Origin::Variable, Some(name.to_owned()));
             }
         }
         settings
@@ -91,7 +124,9 @@ impl Settings {
         let mut entries = weaker.entries;
         entries.retain(|id, _| !(cameras && id.places_cameras()));
         entries.extend(self.entries);
-        Self { entries }
+        let mut renamings = weaker.renamings;
+        renamings.extend(self.renamings);
+        Self { entries, renamings }
     }
 
     /// Reads the TOML file named by [`OptionId::Config`], if any, and puts these options over it.
@@ -120,7 +155,10 @@ impl Settings {
                 })?;
         let mut settings = Self::default();
         for (key, value) in &table {
-            let Some(spec) = OPTIONS.iter().find(|spec| spec.key == Some(key)) else {
+            let named = |name: Option<&str>| name == Some(key.as_str());
+            let spec = OPTIONS.iter().find(|spec| named(spec.key));
+            let former = || OPTIONS.iter().find(|spec| named(spec.former.key));
+            let Some(spec) = spec.or_else(former) else {
                 let known: Vec<_> = OPTIONS.iter().filter_map(|spec| spec.key).collect();
                 return Err(ConfigError::UnknownKey {
                     path: path.to_owned(),
@@ -145,8 +183,14 @@ impl Settings {
                     });
                 }
             };
+            let old = !named(spec.key);
+            if old && spec.key.is_some_and(|present| table.contains_key(present)) {
+                // The present name wins.
+                continue;
+            }
             let folder = path.parent().unwrap_or(Path::new(""));
-            settings.set(spec.id, rebase(spec.path, &text, folder), origin);
+            let old = old.then(|| format!("{key} in {}", path.display()));
+            settings.write(spec.id, rebase(spec.path, &text, folder), origin, old);
         }
         Ok(settings)
     }

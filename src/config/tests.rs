@@ -364,3 +364,71 @@ fn status_survives_a_round_trip() {
     status.write(&path).unwrap();
     assert_eq!(Status::read(&path), Some(status));
 }
+
+/// The lines for former names that somebody used.
+fn told(settings: &Settings) -> Vec<String> {
+    let lines = settings.renamings().iter();
+    lines.map(ToString::to_string).collect()
+}
+
+#[test]
+fn former_names_are_taken_and_told() {
+    const LAST: &str = "this version is the last one that takes the old name";
+    let disabled = |settings: &Settings| {
+        let config = Config::from_settings(settings).unwrap();
+        (
+            config.disabled.has(Optimisation::MonoFrames),
+            config.disabled.has(Optimisation::Frustum),
+        )
+    };
+    let variables = |name: &str| (name == "MANYVIEW_WITHOUT").then(|| "frustum".to_owned());
+    let settings = Settings::from_variables(variables);
+    assert_eq!(disabled(&settings), (false, true));
+    let line = "MANYVIEW_WITHOUT is now called MANYVIEW_DISABLE_OPTIMISATIONS";
+    assert_eq!(told(&settings), [format!("{line}; {LAST}")]);
+    // The program gets the present names, so it tells nothing again.
+    let passed = settings.to_env(Path::new("/"));
+    let expected = (
+        "MANYVIEW_DISABLE_OPTIMISATIONS".to_owned(),
+        "frustum".to_owned(),
+    );
+    assert_eq!(passed, [expected]);
+
+    let mut settings = Settings::default();
+    settings.command_line(OptionId::Disable, "alike, frustum", true);
+    assert_eq!(disabled(&settings), (true, true));
+    let lines = [
+        format!("--without is now called --disable; {LAST}"),
+        format!("alike of --disable is now called mono; {LAST}"),
+    ];
+    assert_eq!(told(&settings), lines);
+
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("options.toml");
+    std::fs::write(&file, "without = \"alike\"\n").unwrap();
+    let lookup = |name: &str| (name == "MANYVIEW_CONFIG").then(|| file.display().to_string());
+    let settings = Settings::from_env(lookup).unwrap();
+    assert_eq!(disabled(&settings), (true, false));
+    let name = file.display();
+    let lines = [
+        format!("without in {name} is now called disable; {LAST}"),
+        format!("alike of disable in {name} is now called mono; {LAST}"),
+    ];
+    assert_eq!(told(&settings), lines);
+    assert_eq!(
+        Config::from_env(lookup).unwrap().renamings,
+        settings.renamings()
+    );
+}
+
+#[test]
+fn the_present_name_wins_over_the_former_one() {
+    let variables = |name: &str| match name {
+        "MANYVIEW_WITHOUT" => Some("frustum".to_owned()),
+        "MANYVIEW_DISABLE_OPTIMISATIONS" => Some("mono".to_owned()),
+        _ => None,
+    };
+    let settings = Settings::from_variables(variables);
+    assert_eq!(settings.get(OptionId::Disable).unwrap().value, "mono");
+    assert_eq!(told(&settings), [""; 0]);
+}

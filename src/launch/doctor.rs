@@ -119,7 +119,9 @@ fn probe(helper: &Path, api: &str, library: Option<&Path>, screen: Option<&Xvfb>
     let mut command = Command::new(helper);
     command.arg(api).env_remove(config::DISABLE);
     for option in OPTIONS {
-        command.env_remove(option.variable);
+        for name in option.variables() {
+            command.env_remove(name);
+        }
     }
     if let Some(library) = library {
         command.env("LD_PRELOAD", preload_value(library));

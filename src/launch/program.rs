@@ -106,7 +106,9 @@ impl Launch {
         let mut command = Command::new(&self.app);
         command.arg0(&self.name).args(&self.arguments);
         for spec in OPTIONS {
-            command.env_remove(spec.variable);
+            for name in spec.variables() {
+                command.env_remove(name);
+            }
         }
         command.envs(self.variables.iter().map(|(name, value)| (name, value)));
         command.env("LD_PRELOAD", preload_value(&self.library));
@@ -134,7 +136,9 @@ pub(super) fn without_layer(program: &Path, arguments: &[OsString]) -> Command {
     let mut command = Command::new(program);
     command.args(arguments).env_remove("LD_PRELOAD");
     for option in OPTIONS {
-        command.env_remove(option.variable);
+        for name in option.variables() {
+            command.env_remove(name);
+        }
     }
     command
 }

@@ -103,7 +103,9 @@ fn without_layer(mut command: Command) -> Command {
         // heap is then damaged, with or without the layer.
         .env("LP_NUM_THREADS", "0");
     for spec in OPTIONS {
-        command.env_remove(spec.variable);
+        for name in spec.variables() {
+            command.env_remove(name);
+        }
     }
     // `auto` would try others, and keep for the user what it finds; tests/auto.rs asks for it.
     command.env("MANYVIEW_STRATEGY", "replay");

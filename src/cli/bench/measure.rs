@@ -194,7 +194,7 @@ impl Runner<'_> {
             configuration: &EXACT,
             view_scale: "1".to_owned(),
             display: self.group.variants.first().and_then(|v| v.display.clone()),
-            without: None,
+            disabled: None,
         };
         let place = Place::new(folder.path(), "exact");
         self.layered(&exact, &place, stop)?.step(WARM_UP, stop)?;
@@ -283,7 +283,7 @@ impl Runner<'_> {
             views: self.group.views,
             configuration: variant.name(),
             view_scale: variant.view_scale.clone(),
-            without: variant.without,
+            disabled: variant.disabled,
             frames_per_round,
             ms: ms(&member.wall)?,
             bare_ms: ms(&bare.wall)?,

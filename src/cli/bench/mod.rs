@@ -7,6 +7,7 @@ mod measure;
 mod prove;
 mod walk;
 
+use super::layer::variable;
 use super::mask::size;
 use super::{Outcome, json, print, tell};
 use clap::Args;
@@ -15,7 +16,7 @@ use manyview::bench::{
     BenchError, CONFIGURATIONS, DEFAULT_CONFIGURATIONS, DEFAULT_SCENES, PRESETS, Preset, SCENES,
     Scene, Variant, chart, find, table,
 };
-use manyview::config::{Config, Optimisation};
+use manyview::config::{Config, Optimisation, OptionId, Settings};
 use manyview::launch::{LaunchError, writable};
 use measure::Group;
 use std::ffi::OsString;
@@ -67,13 +68,16 @@ pub(crate) struct Arguments {
     /// Panel whose picture is made, as for `run` [default: that of the layer]
     #[arg(long, value_name = "NAME|FILE")]
     display: Option<String>,
-    /// Measure each configuration once more without a saving of the layer, see `run --without`
+    /// Measure each configuration once more without an optimisation of the layer, see `run --disable`
     #[arg(
         long,
-        value_name = "unseen|alike|lists|uniforms|frustum",
+        value_name = "unseen|mono|lists|uniforms|frustum",
         value_delimiter = ',',
         conflicts_with = "preset"
     )]
+    disable: Vec<String>,
+    /// What --disable was called
+    #[arg(long, hide = true, value_delimiter = ',', conflicts_with_all = ["preset", "disable"])]
     without: Vec<String>,
     /// Size of the window in pixels [default: 512x384, or the preset's]
     #[arg(long, value_name = "WxH", value_delimiter = ',')]
@@ -83,7 +87,7 @@ pub(crate) struct Arguments {
     frames: Option<String>,
     /// Hold so many frames per second of your own program by hybrid, and tell of each frame how many views that drew and how far its picture is off; the
     /// program has to draw the same frames each time, as a replayed trace does
-    #[arg(long, value_name = "F", requires = "command", conflicts_with_all = ["strategy", "without", "view_scale"], allow_hyphen_values = true)]
+    #[arg(long, value_name = "F", requires = "command", conflicts_with_all = ["strategy", "disable", "without", "view_scale"], allow_hyphen_values = true)]
     fps: Option<String>,
     /// An experiment of a paper, with the paper's figures beside ours, see --list
     #[arg(long, value_name = "NAME")]
@@ -101,7 +105,7 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "FILE.png|FILE.svg")]
     chart: Option<PathBuf>,
     /// Draw the hard cases under every strategy and compare them with their bounds; status 1 if one is missed
-    #[arg(long, conflicts_with_all = ["scene", "preset", "views", "view_scale", "display", "without", "size", "frames", "chart", "list"])]
+    #[arg(long, conflicts_with_all = ["scene", "preset", "views", "view_scale", "display", "disable", "without", "size", "frames", "chart", "list"])]
     hard: bool,
     /// Hard case to draw, several by commas or by giving it again [default: all of them]
     #[arg(long, value_name = "NAME", value_delimiter = ',', requires = "hard")]
@@ -110,7 +114,7 @@ pub(crate) struct Arguments {
     #[arg(long)]
     list: bool,
     /// A program of your own and its arguments: each configuration is proved on so many --frames of it
-    #[arg(last = true, value_name = "APP", conflicts_with_all = ["scene", "preset", "size", "without"])]
+    #[arg(last = true, value_name = "APP", conflicts_with_all = ["scene", "preset", "size", "disable", "without"])]
     command: Vec<OsString>,
 }
 
@@ -120,10 +124,29 @@ impl Arguments {
     }
 }
 
+/// Says which names of the version before were used: here, and in the variables, which count for the caller's own program.
+fn tell_renamings(arguments: &Arguments) {
+    let mut settings = Settings::default();
+    if !arguments.without.is_empty() {
+        settings.command_line(OptionId::Disable, &arguments.without.join(","), true);
+    } else {
+        settings.command_line(OptionId::Disable, &arguments.disable.join(","), false);
+    }
+    if !arguments.command.is_empty() {
+        settings = settings.over(Settings::from_variables(variable));
+        // A file that cannot be used is an error where it is used.
+        settings = settings.clone().with_file().unwrap_or(settings);
+    }
+    for renaming in settings.renamings() {
+        tell(renaming);
+    }
+}
+
 pub(crate) fn run(arguments: &Arguments) -> Outcome {
     if arguments.list {
         return print(&list());
     }
+    tell_renamings(arguments);
     if arguments.hard {
         return hard::run(arguments);
     }
@@ -227,9 +250,10 @@ fn groups(
         scenes.push(find(SCENES, |scene| scene.name, "--scene", &name)?);
     }
     let sizes = sizes(arguments, preset)?;
-    let mut savings = Vec::new();
-    for name in &arguments.without {
-        savings.push(find(&Optimisation::ALL, |saving| saving.0, "--without", name)?.0);
+    let mut disabled = Vec::new();
+    for name in arguments.disable.iter().chain(&arguments.without) {
+        let name = OptionId::Disable.spec().present_word(name);
+        disabled.push(find(&Optimisation::ALL, |known| known.0, "--disable", name)?.0);
     }
     let mut variants = Vec::new();
     for name in names(
@@ -243,11 +267,11 @@ fn groups(
                 configuration,
                 view_scale,
                 display: arguments.display.clone(),
-                without: None,
+                disabled: None,
             };
             variants.push(with.clone());
-            variants.extend(savings.iter().map(|&saving| Variant {
-                without: Some(saving),
+            variants.extend(disabled.iter().map(|&disabled| Variant {
+                disabled: Some(disabled),
                 ..with.clone()
             }));
         }

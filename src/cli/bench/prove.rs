@@ -85,7 +85,7 @@ fn turns(arguments: &Arguments) -> Result<Vec<Turn>, LaunchError> {
             configuration,
             view_scale: view_scale.to_owned(),
             display: arguments.display.clone(),
-            without: None,
+            disabled: None,
         })
     };
     let (names, scales) = (&arguments.strategy, &arguments.view_scale);

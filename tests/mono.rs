@@ -37,7 +37,7 @@ fn same(demonstration: &[&str], options: &[&str], count: u32) -> (u64, Vec<RgbIm
     let (saved, once) = frames(demonstration, &options, count);
     let (all, none) = frames(
         demonstration,
-        &[&options[..], &["--without", "alike"]].concat(),
+        &[&options[..], &["--disable", "mono"]].concat(),
         count,
     );
     assert_eq!(none, 0);
