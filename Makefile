@@ -31,7 +31,7 @@ SHADER_PACKAGES := colobot-common glmark2-data goxel ioquake3 kodi-data libopens
 	mgba-common minetest-data openmw-data openscad openscenegraph pymol-data python3-vispy qtbase5-examples solvespace \
 	trackballs-data xmoto xscreensaver-gl xscreensaver-gl-extra
 
-.PHONY: help build demos demo bench overhead pictures gallery test test-long test-full programs soak openarena openarena-walk openarena-pictures shaders book lint packages \
+.PHONY: help build demos demo bench overhead pictures gallery test test-long test-full programs soak openarena openarena-walk openarena-pictures shaders man book lint packages \
 	install install-debug uninstall clean
 
 help: ## list the targets
@@ -124,6 +124,9 @@ shaders: packages build ## rewrite real shaders, of programs and of piglit, and 
 overhead: packages build demos ## measure the layer where it does nothing: switched off, and with one view (ten minutes)
 	@sh scripts/overhead.sh $(BIN) $(TARGET)/overhead $(DEMOS)
 
+man: build ## write the manual pages to target/man
+	$(BIN)/manyview man --out $(TARGET)/man
+
 book: ## build the manual as HTML in target/book (needs mdbook)
 	@command -v mdbook >/dev/null 2>&1 || \
 		{ echo "mdbook is missing: run cargo install mdbook, then make book again" >&2; exit 1; }
@@ -159,6 +162,9 @@ install: ## install to PREFIX after `make build` (default /usr/local)
 		install -m 644 $$profile $(DESTDIR)$(PREFIX)/lib/manyview/profiles/ || exit 1; done
 	for shader in $(wildcard shaders/*.wgsl); do \
 		install -m 644 $$shader $(DESTDIR)$(PREFIX)/share/manyview/shaders/ || exit 1; done
+	install -d $(DESTDIR)$(PREFIX)/share/man/man1
+	$(BIN)/manyview man --out $(DESTDIR)$(PREFIX)/share/man/man1
+	chmod 644 $(DESTDIR)$(PREFIX)/share/man/man1/manyview*.1
 	install -m 644 README.md ARCHITECTURE.md CONTRIBUTING.md CHANGELOG.md LICENSE $(DESTDIR)$(PREFIX)/share/doc/manyview/
 	find docs -type f \( -name '*.md' -o -name '*.png' \) -exec install -D -m 644 {} $(DESTDIR)$(PREFIX)/share/doc/manyview/{} \;
 
@@ -173,6 +179,7 @@ install-debug: install ## install the debug information of what install has stri
 
 uninstall: ## remove what install has put to PREFIX
 	rm -f $(DESTDIR)$(PREFIX)/bin/manyview $(DESTDIR)$(PREFIX)/bin/.debug/manyview.debug
+	rm -f $(DESTDIR)$(PREFIX)/share/man/man1/manyview.1 $(DESTDIR)$(PREFIX)/share/man/man1/manyview-*.1
 	rm -rf $(DESTDIR)$(PREFIX)/lib/manyview $(DESTDIR)$(PREFIX)/share/manyview $(DESTDIR)$(PREFIX)/share/doc/manyview
 
 clean: ## remove what was built

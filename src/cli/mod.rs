@@ -10,6 +10,7 @@ mod ctl;
 mod displays;
 mod doctor;
 mod layer;
+mod man;
 mod mask;
 mod run;
 mod show;
@@ -69,6 +70,9 @@ enum Action {
     Doctor(doctor::Arguments),
     /// List the built-in panels.
     Displays(displays::Arguments),
+    /// Write the manual pages.
+    #[command(hide = true)]
+    Man(man::Arguments),
 }
 
 /// What a subcommand ends with: an exit status, or why it could not do its work.
@@ -87,6 +91,7 @@ pub(crate) fn main() -> ExitCode {
         Action::Bench(arguments) => bench::run(&arguments),
         Action::Doctor(arguments) => doctor::run(&arguments),
         Action::Displays(arguments) => displays::run(&arguments),
+        Action::Man(arguments) => man::run(&arguments),
     };
     outcome.unwrap_or_else(|error| {
         tell(&error);
