@@ -381,26 +381,78 @@ fn the_pictures_of_the_readme_are_small() {
     }
 }
 
-/// Files and folders of modules in a folder of sources.
-fn modules(folder: &str) -> Vec<String> {
-    let entries = std::fs::read_dir(root().join(folder)).expect("sources");
-    let paths = entries.map(|entry| entry.expect("an entry").path());
-    let module = |path: &PathBuf| {
-        let source = path.is_dir() || path.extension().is_some_and(|e| e == "rs");
-        source.then(|| path.file_stem().expect("a name").to_string_lossy().into())
-    };
-    paths.filter_map(|path| module(&path)).collect()
+/// Kilobytes, and lines of the table of words, that a newcomer reads before the code.
+const ARCHITECTURE_BYTES: usize = 15 * 1024;
+const WORDS: usize = 20;
+
+#[test]
+fn the_architecture_is_short() {
+    let text = read("ARCHITECTURE.md").text;
+    assert!(
+        text.len() <= ARCHITECTURE_BYTES,
+        "ARCHITECTURE.md has {} bytes: a reason goes to docs/decisions, a figure to docs/measured.md",
+        text.len()
+    );
+    let words = text.split("\n## Words\n").nth(1).expect("the words");
+    let words = words.split("\n## ").next().unwrap_or_default();
+    let lines = words.lines().filter(|line| !line.is_empty()).count();
+    assert!(
+        lines <= WORDS,
+        "ARCHITECTURE.md explains words on {lines} lines: use the field's word instead"
+    );
+}
+
+/// Whether some source file ends with this path, or some folder does.
+fn is_source(path: &str, sources: &[String]) -> bool {
+    let tail = format!("/{path}");
+    let within = format!("/{}/", path.trim_end_matches('/'));
+    sources
+        .iter()
+        .any(|file| file.ends_with(&tail) || file.contains(&within))
+}
+
+/// All files of the repository that a text may name, with a slash before.
+fn sources(folder: &Path) -> Vec<String> {
+    let mut found = Vec::new();
+    for entry in std::fs::read_dir(folder).expect("a folder").flatten() {
+        let path = entry.path();
+        if path.is_dir() {
+            found.extend(sources(&path));
+        } else {
+            found.push(format!(
+                "/{}",
+                path.strip_prefix(root()).expect("below").display()
+            ));
+        }
+    }
+    found
 }
 
 #[test]
-fn the_architecture_names_every_module() {
-    let architecture = read("ARCHITECTURE.md").text;
-    let special = ["lib", "main", "cli", "probe"];
-    for (folder, prefix) in [("src", ""), ("shim/src", "shim::")] {
-        for module in modules(folder) {
-            let name = format!("| `{prefix}{module}`");
-            let known = special.contains(&module.as_str()) || architecture.contains(&name);
-            assert!(known, "ARCHITECTURE.md has no line for {prefix}{module}");
+fn the_files_that_the_developers_pages_name_are_there() {
+    let folders = [
+        "src", "shim", "shaders", "docs", "tests", "examples", "profiles",
+    ];
+    let mut known: Vec<_> = folders
+        .iter()
+        .flat_map(|f| sources(&root().join(f)))
+        .collect();
+    known.push("/Makefile".to_owned());
+    let mut pages = markdown("docs/decisions");
+    pages.push(read("ARCHITECTURE.md"));
+    pages.push(read("CONTRIBUTING.md"));
+    for Document { path, text } in pages {
+        // Every other part is between backticks.
+        let code = text.split('`').skip(1).step_by(2);
+        let names = code.filter(|code| {
+            let plain = |c: char| c.is_ascii_alphanumeric() || "_./-".contains(c);
+            let ends = [".rs", ".wgsl", ".list"]
+                .iter()
+                .any(|end| code.ends_with(end));
+            code.chars().all(plain) && ends
+        });
+        for name in names {
+            assert!(is_source(name, &known), "{}: {name}", path.display());
         }
     }
 }
