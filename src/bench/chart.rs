@@ -39,7 +39,7 @@ const EXACT: f64 = 100.0;
 pub(super) type Area<'a, B> = DrawingArea<B, Shift>;
 type Plane<'a, B> = ChartContext<'a, B, Cartesian2d<LogCoord<f64>, RangedCoordf64>>;
 
-/// What [`write()`] can make.
+/// The formats of [`write()`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Format {
     /// Pixels.
@@ -59,7 +59,7 @@ impl Format {
     }
 }
 
-/// What [`save`] draws.
+/// The contents of a chart, for [`save`].
 pub(super) trait Drawing {
     /// Pixels.
     fn size(&self) -> (u32, u32);
@@ -112,7 +112,7 @@ fn drawn<B: DrawingBackend>(drawing: &impl Drawing, area: &Area<B>) -> Result<()
     drawn.map_err(|error| BenchError::Chart(error.to_string()))
 }
 
-/// What is on the chart.
+/// The contents of the chart.
 struct Chart<'a> {
     bench: &'a Bench,
     /// The rows of each panel.

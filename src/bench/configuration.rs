@@ -7,13 +7,13 @@ use crate::config::{OptionId, Origin, Settings};
 pub struct Configuration {
     /// For `--strategy`.
     pub name: &'static str,
-    /// What it sets.
+    /// The options that it sets.
     pub options: &'static [(OptionId, &'static str)],
     /// In words.
     pub about: &'static str,
 }
 
-/// What every picture is compared with: as exact as the layer can be.
+/// The configuration that every picture is compared with: the most exact one.
 pub const EXACT: Configuration = Configuration {
     name: "exact",
     options: &[

@@ -1,4 +1,4 @@
-//! What keeps `manyview bench` from an answer; each message names the option and the remedy.
+//! Why `manyview bench` cannot answer; each message names the option and the remedy.
 
 use std::path::PathBuf;
 
@@ -25,7 +25,7 @@ pub enum BenchError {
         "--frames is '{0}'; a walk of --fps takes the last frame or both ends, such as 100..400, from 2 on and 900 frames at most"
     )]
     WalkFrames(String),
-    /// A walk without what is measured.
+    /// A walk without frames to measure.
     #[error("the program drew no frames by hybrid; {0}")]
     NoWalk(String),
     /// An option of programs where none is started.
@@ -37,7 +37,7 @@ pub enum BenchError {
     /// Pictures of another kind.
     #[error("--chart is '{}'; --preset popescu-table1 draws pictures, give a name that ends in .png", _0.display())]
     SheetName(PathBuf),
-    /// A chart of what has none.
+    /// A chart where there is none.
     #[error(
         "--chart is drawn of scenes and of walks; leave it out, or give --fps for a walk of the program"
     )]

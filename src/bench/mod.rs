@@ -1,4 +1,4 @@
-//! What `manyview bench` measures and how it is told: scenes, configurations, presets, statistics, tables, charts.
+//! The measurements of `manyview bench` and their presentation: scenes, configurations, presets, statistics, tables, charts.
 //!
 //! Pure: nothing here starts a program. [`crate::launch::Stepped`] does, and the command puts the two together: it keeps the bare
 //! program and the program under each configuration alive side by side and lets them draw in turns.

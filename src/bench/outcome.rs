@@ -1,4 +1,4 @@
-//! What was measured, as JSON and as a flat table.
+//! The results, as JSON and as a flat table.
 
 use super::error::BenchError;
 use super::preset::Figure;
@@ -29,7 +29,7 @@ pub struct Bench {
     pub preset: Option<&'static str>,
     /// One for each scene, size, number of views and configuration.
     pub rows: Vec<Row>,
-    /// What the bare programs reach here.
+    /// The rates of the bare programs.
     pub limits: Vec<Limit>,
 }
 
@@ -68,7 +68,7 @@ pub struct Row {
     pub picture: PictureError,
     /// Of the layer's report: memory of the views' colour, depth and stencil; none where there is no report.
     pub view_bytes: Option<u64>,
-    /// What the paper of the preset says.
+    /// The result of the paper of the preset.
     pub paper: Option<Paper>,
     /// Of the layer's report: draws by method.
     pub draws: BTreeMap<String, u64>,
@@ -127,11 +127,11 @@ pub struct Paper {
     pub speedup: Option<f64>,
     /// How much faster than our replay we are.
     pub our_speedup: Option<f64>,
-    /// What the text says where there are no numbers.
+    /// The statement of the text where there are no numbers.
     pub words: &'static str,
 }
 
-/// What a bare program reaches.
+/// The rate of a bare program.
 #[derive(Debug, Serialize)]
 pub struct Limit {
     /// Name of the scene.

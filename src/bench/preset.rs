@@ -1,4 +1,4 @@
-//! Experiments of three papers, as closely as the scenes allow, and what the papers say came out.
+//! Experiments of three papers, as closely as the scenes allow, and the results of the papers.
 //!
 //! Based on: J. Luo, K. Qin, Y. Zhou, M. Mao, R. Li, "GPU-based multi-view rendering for spatial-multiplex autostereoscopic
 //! displays" (2010), tables 1 and 2; F. de Sorbier, V. Nozick, H. Saito, "GPU-based multi-view rendering" (2010), figures 7 to
@@ -10,21 +10,21 @@
 pub struct Preset {
     /// For `--preset`.
     pub name: &'static str,
-    /// What was measured, and with what we measure it.
+    /// What the paper measured, and what we measure it with.
     pub about: &'static str,
     /// Pixels of one view, which is the window.
     pub size: (u32, u32),
-    /// Names of scenes; of models, if there are no configurations: then programs are not what is measured.
+    /// Names of scenes; names of models if there are no configurations, and then no programs are measured.
     pub scenes: &'static [&'static str],
     /// Numbers of views.
     pub views: &'static [&'static str],
     /// Names of configurations.
     pub configurations: &'static [&'static str],
-    /// What came out.
+    /// The results.
     pub figures: &'static [Figure],
 }
 
-/// What a paper says of one scene, number of views and configuration.
+/// The result of a paper for one scene, number of views and configuration.
 #[derive(Debug, PartialEq)]
 pub struct Figure {
     /// Name of the scene; empty for all of the preset.
@@ -37,7 +37,7 @@ pub struct Figure {
     pub times: Option<f64>,
     /// How much faster than the passes of the traditional method, which are our replay.
     pub speedup: Option<f64>,
-    /// What the text says where there are no numbers.
+    /// The statement of the text where there are no numbers.
     pub words: &'static str,
 }
 
@@ -48,7 +48,7 @@ impl Preset {
         self.configurations.is_empty()
     }
 
-    /// What the paper says of a row.
+    /// The result of the paper for a row.
     #[must_use]
     pub fn figure(&self, scene: &str, views: u32, configuration: &str) -> Option<&'static Figure> {
         self.figures.iter().find(|figure| {

@@ -1,4 +1,4 @@
-//! What `--prove` has found, as text; and the rows of `manyview bench -- APP`, one for each configuration.
+//! The results of `--prove` as text; and the rows of `manyview bench -- APP`, one for each configuration.
 
 use super::error::BenchError;
 use super::table::columns;
@@ -7,7 +7,7 @@ use serde::Serialize;
 use std::fmt::Write;
 use std::path::Path;
 
-/// The table of one run: views, picture, speed-up, what brought the worst pixel, what was not compared.
+/// The table of one run: views, picture, speed-up, the draw that brought the worst pixel, the frames that were not compared.
 #[must_use]
 pub fn text(proof: &Summary) -> String {
     let mut text = format!(
@@ -117,14 +117,14 @@ pub struct ProofRow {
     pub configuration: String,
     /// [`Summary::verdict`].
     pub verdict: &'static str,
-    /// What was found.
+    /// The results.
     pub proof: Summary,
-    /// What the layer says besides.
+    /// Notes of the layer.
     pub notes: Vec<String>,
 }
 
 impl Proofs {
-    /// The table, and what needs saying about single rows.
+    /// The table, and the notes to single rows.
     #[must_use]
     pub fn text(&self) -> String {
         let head = [

@@ -1,6 +1,6 @@
-//! What a scene with `--bench` says; examples/README.md describes it.
+//! The answers of a scene with `--bench`; examples/README.md describes it.
 
-/// What drew the frames.
+/// The driver that drew the frames.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Hello {
     /// GL_RENDERER

@@ -9,13 +9,13 @@ pub struct Scene {
     pub program: &'static str,
     /// Its arguments, but for its size.
     pub arguments: &'static [&'static str],
-    /// What most of a frame's time goes to.
+    /// What bounds the time of a frame.
     pub work: Work,
     /// In words.
     pub about: &'static str,
 }
 
-/// What a frame of one view is made of.
+/// The work in a frame of one view.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Work {
     /// Triangles, most of them smaller than a pixel's neighbourhood.

@@ -34,7 +34,7 @@ pub fn median(samples: &[u64]) -> f64 {
     Spread::of(&samples).map_or(0.0, |spread| spread.median)
 }
 
-/// Of pairs that were measured one right after the other, so that what slows both down falls out.
+/// Ratios of pairs that were measured one right after the other, so that a slow-down of both cancels.
 #[must_use]
 pub fn ratios(samples: &[f64], base: &[f64]) -> Vec<f64> {
     samples.iter().zip(base).map(|(a, b)| a / b).collect()

@@ -4,7 +4,7 @@ use super::outcome::{Bench, Row};
 use super::statistics::Spread;
 use std::fmt::Write;
 
-/// The table of all rows, the limits, and what needs saying about single rows.
+/// The table of all rows, the limits, and the notes to single rows.
 #[must_use]
 pub fn text(bench: &Bench) -> String {
     let papers = bench.rows.iter().any(|row| row.paper.is_some());

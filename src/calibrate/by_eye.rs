@@ -1,4 +1,4 @@
-//! A sheet fitted by eye: pictures through its mask, and keys that nudge its numbers while one of them is looked at.
+//! A sheet fitted by eye: pictures through its mask, and keys that change its numbers while the user looks at one of them.
 //!
 //! With the phase `Φ` of the real sheet and `φ` that of the description, an eye sees the view of `Φ − φ` at each place: stripes where
 //! the difference grows over the panel, one colour where it does not. `1/pitch` sets how fast it grows along a row and, with the
@@ -19,7 +19,7 @@ const BLACK: [u8; 3] = [0; 3];
 const LEFT: [u8; 3] = [255, 0, 0];
 const RIGHT: [u8; 3] = [0, 0, 255];
 
-/// What a key does.
+/// The effect of a key.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Action {
     /// A number of the sheet, up or down.
@@ -38,7 +38,7 @@ pub enum Action {
     Leave,
 }
 
-/// Keys by their X keysym (lower case), what people call them, and what they do.
+/// Keys: their X keysym (lower case), their name for people, and their effect.
 pub const KEYS: [(u32, &str, Action); 15] = [
     (0xff52, "Up", Action::Nudge(LensPart::Pitch, true)),
     (0xff54, "Down", Action::Nudge(LensPart::Pitch, false)),
@@ -57,14 +57,14 @@ pub const KEYS: [(u32, &str, Action); 15] = [
     (0x71, "q", Action::Leave),
 ];
 
-/// What a key does, by its keysym.
+/// The effect of a key, by its keysym.
 #[must_use]
 pub fn action(keysym: u32) -> Option<Action> {
     let found = KEYS.iter().find(|(known, ..)| *known == keysym);
     found.map(|(_, _, action)| *action)
 }
 
-/// What the views show.
+/// The picture in the views.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Scene {
     White(u32),
@@ -118,7 +118,7 @@ impl ByEye {
         Ok(())
     }
 
-    /// Does what changes the picture; saving and leaving are the caller's.
+    /// Applies a key that changes the picture; saving and leaving are the caller's.
     pub fn act(&mut self, action: Action, large: bool) -> Result<(), DisplayError> {
         match action {
             Action::Nudge(part, up) => {

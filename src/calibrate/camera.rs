@@ -7,7 +7,7 @@
 use glam::{DMat3, DQuat, DVec2, DVec3};
 use nalgebra::{SMatrix, SVector};
 
-/// What does not change from photo to photo.
+/// The values that are the same in all photos.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Optics {
     /// Focal length, picture pixels.

@@ -1,4 +1,4 @@
-//! The answer, with what is left over and how well it is known.
+//! The result, with its residuals and its uncertainty.
 #![forbid(unsafe_code)]
 
 use super::fringes::BLOCKS;
@@ -32,7 +32,7 @@ pub struct Fit {
     pub bias: Option<[f64; NODES * NODES]>,
     /// Where each photo was taken.
     pub cameras: Vec<Camera>,
-    /// What the fit leaves.
+    /// The residuals of the fit.
     pub residuals: Residuals,
     /// Standard deviation of the phase, in views: the mean over the panel.
     pub deviation: f64,
@@ -40,7 +40,7 @@ pub struct Fit {
     pub worst_deviation: f64,
     /// The part of the panel that may be off by more than half a view, at four standard deviations, 0 to 1.
     pub unsure: f64,
-    /// Why this should not be believed, each with the remedy; empty for a good fit.
+    /// Reasons to doubt the fit, each with the remedy; empty for a good fit.
     pub doubts: Vec<String>,
     /// Residual of each block of each photo, in views: column and row of 11, then the value.
     pub(super) misses: Vec<Vec<((usize, usize), f64)>>,

@@ -17,7 +17,7 @@ pub(super) const BLOCKS: usize = 11;
 const WINDOW: f64 = 0.09;
 /// Parts of the pattern that may be clipped.
 const MOST_CLIPPED: f64 = 0.2;
-/// Contrast, as a part of what is shown, below which the lenses cannot have been in focus.
+/// Contrast, as a part of that of the panel, below which the lenses cannot have been in focus.
 const LEAST_CONTRAST: f64 = 0.02;
 /// The frequency must stand out by this factor.
 const LEAST_RATIO: f64 = 2.0;
@@ -35,11 +35,11 @@ pub(super) struct Block {
     pub place: (usize, usize),
 }
 
-/// What one photo says.
+/// The measurement of one photo.
 #[derive(Clone, Debug)]
 pub(super) struct Fringes {
     pub blocks: Vec<Block>,
-    /// Contrast as a part of what is shown, 0 to 1.
+    /// Contrast as a part of that of the panel, 0 to 1.
     pub contrast: f64,
 }
 

@@ -1,6 +1,6 @@
 //! Measures a panel's lens sheet from hand-held photos of a pattern that the panel shows; pure, without GL.
 //!
-//! # What a photo says
+//! # The fringes in a photo
 //!
 //! The sheet lies a gap `g` above the pixels, in effective air. A ray from the eye `E`, at distance `Z`, to the point `p`
 //! of the pixels crosses the sheet at `q = p + (E − p)·g/Z`. The lens there shows, over its whole width, the pixels that
@@ -13,10 +13,10 @@
 //! ```
 //!
 //! Both gratings are finer than the camera resolves; `D` is not, because `ψ` is the nominal lens plus a coarse carrier.
-//! All that is wrong with the nominal lens is magnified into the frequency and phase of the fringes, so they are measured
+//! Every error of the nominal lens is magnified into the frequency and phase of the fringes, so they are measured
 //! in the frequency domain (as Hwang et al. 2016 do) and the place of the panel in the photo matters little.
 //!
-//! # What can be told apart
+//! # The unknowns that photos determine
 //!
 //! `Φ(q)` is a plane: `1/pitch` along the row, `slant/pitch` down, and `offset/pitch`. With `u` the distance over the
 //! lenses, a photo gives three numbers: the two slopes, each times `1 − g/Z`, and the constant plus `g·u(E)/(Z·pitch)`.
@@ -26,12 +26,12 @@
 //!   the pitch for viewers there (`viewer`) without knowing `g`.
 //! - The offset of one photo is known as well as the direction of the camera, over the cone, and `g` are. Straight from
 //!   the front the gap does not matter, only the direction.
-//! - Photos from two directions give `g`: the constants differ by `g` times the difference of the directions. Up to a whole
-//!   turn: the cone must be known to the factor that leaves one candidate, and a second one that fits as well is reported.
+//! - Photos from two directions give `g`: the constants differ by `g` times the difference of the directions. The
+//!   result is known up to a whole turn: the cone must be known well enough to leave one candidate, and a second one that fits as well is reported.
 //!
 //! The camera's direction and distance come from the frame in the photo: four sides fix the homography, and it the pose up
 //! to the focal length, which EXIF gives, or the shared fit of all photos at a tilt. All unknowns (optics, poses, sheet,
-//! gap) are solved together with priors for what is known beforehand, so that the covariance says what is not known.
+//! gap) are solved together with priors for the values that are known beforehand, so that the covariance has the uncertainty.
 //! Distances, in here, are panel pixels: nothing but a distance given in mm needs the panel's size in mm.
 //!
 //! # Limits

@@ -5,7 +5,7 @@
 //! `(x, row, c)` is at `(x + (c + 1/2)/3, row + 1/2)`.
 //!
 //! The field is a cosine over the nominal phase of the lens plus a carrier of some fringes over the height of the panel.
-//! Through the lenses only the beat of the two gratings is seen: the carrier, bent by what the nominal lens is wrong by.
+//! Through the lenses only the beat of the two gratings is seen: the carrier, distorted by the error of the nominal lens.
 //! The carrier keeps the frequency away from zero, so the sign of the error is in one photo, and coarse fringes survive
 //! blur, noise and JPEG.
 #![forbid(unsafe_code)]
@@ -165,7 +165,7 @@ fn cell(range: Range<f64>) -> impl Iterator<Item = (f64, f64)> {
     })
 }
 
-/// A number that is another one for another panel: FNV-1a over what the pattern depends on, folded.
+/// A checksum of the panel: FNV-1a over the values that the pattern depends on, folded.
 fn code(setup: &Setup) -> u16 {
     let order = u64::from(setup.order == SubpixelOrder::Bgr);
     let words = [

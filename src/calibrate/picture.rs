@@ -1,4 +1,4 @@
-//! A picture of the fit, for the eye: what each photo saw, and what the fit leaves of it.
+//! A picture of the fit: the fringes of each photo, and their residuals.
 #![forbid(unsafe_code)]
 
 use super::fringes::BLOCKS;

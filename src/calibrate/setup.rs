@@ -1,4 +1,4 @@
-//! What is known before the first photo.
+//! The values that are known before the first photo.
 #![forbid(unsafe_code)]
 
 use super::CalibrateError;
@@ -13,7 +13,7 @@ pub struct Guess {
     pub spread: f64,
 }
 
-/// The panel as it is described, and what is asked.
+/// The panel as it is described, and the request.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Setup {
     /// Width of the panel, pixels.
@@ -44,7 +44,7 @@ pub struct Setup {
 }
 
 impl Setup {
-    /// What is assumed of the angle over which the views are seen: 40 degrees to a factor of about 1.4.
+    /// The assumed angle over which the views are seen: 40 degrees to a factor of about 1.4.
     pub const CONE: Guess = Guess {
         value: 40.0,
         spread: 0.35,
@@ -69,7 +69,7 @@ impl Setup {
         }
     }
 
-    /// Refuses what no pattern can be made for.
+    /// Refuses panels for which no pattern can be made.
     pub(super) fn check(&self) -> Result<(), CalibrateError> {
         let rules = [
             (

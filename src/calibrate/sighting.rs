@@ -10,14 +10,14 @@ use super::setup::Guess;
 use super::{CalibrateError, Photo, Setup, find};
 use glam::{DQuat, DVec2, DVec3};
 
-/// What is assumed of the focal length where the photo does not say it, in parts of the longer side.
+/// The assumed focal length where the photo has none, in parts of the longer side.
 const FOCAL: Guess = Guess {
     value: 0.9,
     spread: 0.35,
 };
 /// How well EXIF's focal length is believed; it is rounded to 1 mm, and focusing changes it.
 const FOCAL_SPREAD: f64 = 0.03;
-/// Standard deviations of what is not known of a camera: k1, k2, and the optical axis in halves of the diagonal.
+/// Standard deviations of the unknowns of a camera: k1, k2, and the optical axis in halves of the diagonal.
 const DISTORTION_SPREAD: [f64; 2] = [0.05, 0.01];
 const CENTRE_SPREAD: f64 = 0.01;
 /// Of an edge point, before its scatter is known, panel pixels.
@@ -26,7 +26,7 @@ const EDGE: f64 = 0.4;
 pub(super) const OPTICS: usize = 5;
 pub(super) const POSE: usize = 6;
 
-/// What one photo shows, ready for [`super::fit`].
+/// The measurements of one photo, ready for [`super::fit`].
 #[derive(Clone, Debug)]
 pub struct Sighting {
     pub(super) name: String,
@@ -142,7 +142,7 @@ impl Sighting {
         })
     }
 
-    /// Contrast of the fringes as a part of what the panel shows, 0 to 1.
+    /// Contrast of the fringes as a part of that of the panel, 0 to 1.
     #[must_use]
     pub fn contrast(&self) -> f64 {
         self.fringes.contrast

@@ -18,11 +18,11 @@ const BIAS: f64 = 1.0;
 /// Of an edge point (panel pixels) and of a block's phase (turns) before their scatter is known.
 const EDGE: f64 = 0.4;
 const PHASE: f64 = 0.02;
-/// Of nothing the scatter is believed to be smaller. For the phase this is what windows and vignetting do to all blocks
+/// Lower bound of every scatter. For the phase this is what windows and vignetting do to all blocks
 /// alike: with less, the carrier would pass for a ruler of a hundredth of a pixel and decide the focal length.
 const LEAST_EDGE: f64 = 0.03;
 const LEAST_PHASE: f64 = 0.002;
-/// What all points of an edge have in common that their scatter does not show, panel pixels; and as a part of the scatter,
+/// The common error of all points of an edge, which their scatter does not show, panel pixels; and as a part of the scatter,
 /// as noise that is cut off at black moves a blurred edge.
 const COMMON: f64 = 0.04;
 const COMMON_PART: f64 = 0.25;
@@ -30,7 +30,7 @@ const COMMON_PART: f64 = 0.25;
 const GAPS: i32 = 40;
 const GAP_REACH: f64 = 3.0;
 
-/// The sheet: what is added to the nominal phase, and the gap.
+/// The sheet: the correction of the nominal phase, and the gap.
 #[derive(Clone, Debug)]
 pub(super) struct Sheet {
     /// Turns by which the phase grows from the middle to the right edge, and to the lower edge.
@@ -81,14 +81,14 @@ impl Line {
     }
 }
 
-/// How far residuals scatter; with what they have in common with their neighbours.
+/// Scatter of the residuals, and their correlation with their neighbours.
 #[derive(Clone, Copy, Debug)]
 struct Scatter {
     edge: f64,
     phase: f64,
 }
 
-/// What the problem says.
+/// The given values of the problem.
 pub(super) struct Solution {
     pub minimum: Minimum,
     /// Another number of turns between the photos that is nearly as good.
@@ -198,7 +198,7 @@ impl<'a> Problem<'a> {
         Some(lines)
     }
 
-    /// Standard deviation of what the points of a line have in common, panel pixels.
+    /// Standard deviation of the common error of the points of a line, panel pixels.
     ///
     /// An upright edge is seen where a lens ends, so it is off by up to half a lens; a slanted lens sheet averages that
     /// out along the edge.
@@ -316,7 +316,7 @@ impl<'a> Problem<'a> {
     }
 
     /// For a gap and the cameras of the edges alone, the slope and each photo's own phase, by linear least squares; and
-    /// the mean square of what is left, turns.
+    /// the mean square of the residuals, turns.
     fn plane(&self, gap: f64) -> Option<(DVector<f64>, f64)> {
         let n = 2 + self.sightings.len();
         let (mut normal, mut right) = (DMatrix::zeros(n, n), DVector::zeros(n));

@@ -261,7 +261,7 @@ impl FitArguments {
     }
 }
 
-/// What was measured, for people.
+/// The measurement as text.
 fn report(fit: &Fit, setup: &Setup, pixel: Option<f64>) -> String {
     let (scale, unit) = pixel.map_or((1.0, "px"), |pixel| (pixel, "mm"));
     let mut text = format!(

@@ -73,7 +73,7 @@ pub(super) struct Shot<'a> {
     pub(super) timeout: u64,
 }
 
-/// Runs it, says what the layer has noted, and answers what was asked for and what was written.
+/// Runs it, prints the notes of the layer, and returns the request and the files that were written.
 pub(super) fn shoot(
     shot: Shot,
     mut settings: Settings,

@@ -139,7 +139,7 @@ impl LayerArguments {
 }
 
 impl CaptureArguments {
-    /// Puts these options over what is set.
+    /// Puts these options over the present settings.
     pub(crate) fn give(&self, settings: &mut Settings) {
         self.0.give(settings);
     }
@@ -151,7 +151,7 @@ impl CaptureArguments {
     }
 }
 
-/// A variable as text; what is not text turns into a value that the checks refuse by name.
+/// A variable as text. A value that is not UTF-8 is replaced by one that the checks refuse by name.
 pub(super) fn variable(name: &str) -> Option<String> {
     std::env::var_os(name).map(|value| value.to_string_lossy().into_owned())
 }

@@ -1,4 +1,4 @@
-//! The command line: what may be written, and which function answers it.
+//! The command line: its subcommands, and the function that runs each of them.
 //!
 //! Results go to stdout, everything else to stderr.
 #![forbid(unsafe_code)]
@@ -52,7 +52,7 @@ enum Action {
     Run(run::Arguments),
     /// Run a program until the frames asked for are written as PNG, then end it.
     Capture(capture::Arguments),
-    /// Ask and tell a program that runs with --control.
+    /// Read and change the views of a program that runs with --control.
     Ctl(ctl::Arguments),
     /// Write the mask of a panel: 16-bit RGB PNG, each value the view that the subpixel shows, 65535 for black.
     Mask(mask::Arguments),
@@ -66,7 +66,7 @@ enum Action {
     Calibrate(calibrate::Arguments),
     /// Measure the layer: frame times of scenes over those without it, and how far the picture is from the exact one.
     Bench(bench::Arguments),
-    /// Say which OpenGL a program would get here and what the layer can do with it.
+    /// Say which OpenGL a program would get here and which strategies the layer has with it.
     Doctor(doctor::Arguments),
     /// List the built-in panels.
     Displays(displays::Arguments),
@@ -75,7 +75,7 @@ enum Action {
     Man(man::Arguments),
 }
 
-/// What a subcommand ends with: an exit status, or why it could not do its work.
+/// The end of a subcommand: an exit status, or the reason why it could not do its work.
 type Outcome = Result<ExitCode, LaunchError>;
 
 pub(crate) fn main() -> ExitCode {
@@ -105,7 +105,7 @@ fn tell(message: &dyn std::fmt::Display) {
     let _ = writeln!(std::io::stderr(), "manyview: {message}");
 }
 
-/// Writes what an eye sees.
+/// Writes the picture that an eye sees.
 fn save(seen: &RgbImage, out: &Path) -> Outcome {
     let written = seen.save_with_format(out, ImageFormat::Png);
     written.map_err(|error| SimulateError::Write {
@@ -142,7 +142,7 @@ fn print_json(value: &impl serde::Serialize) -> Outcome {
     print(&json(value)?)
 }
 
-/// A folder for what nobody keeps.
+/// A folder for temporary files.
 fn scratch() -> Result<tempfile::TempDir, LaunchError> {
     tempfile::tempdir().map_err(|source| LaunchError::System {
         doing: "making a temporary folder",

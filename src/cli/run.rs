@@ -85,7 +85,7 @@ impl Told {
         &self.file
     }
 
-    /// What it says of the proof; nothing before it is there.
+    /// The proof in it, once it is there.
     pub(super) fn proof(&self) -> Option<Summary> {
         serde_json::from_value(Status::read(&self.file)?.proof?).ok()
     }

@@ -99,7 +99,7 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
     Ok(ExitCode::SUCCESS)
 }
 
-/// What is known of the quilt: as asked for, as its name says, or as the panel has them.
+/// Columns, rows and aspect of the quilt: as asked for, by its name, or the panel's.
 fn name(arguments: &Arguments, display: &Display) -> Result<QuiltName, LaunchError> {
     if let Some(text) = &arguments.quilt {
         let read = QuiltName::read(&format!("_qs{text}"));

@@ -1,4 +1,4 @@
-//! Which pictures are written, and what they are called.
+//! Which pictures are written, and their names.
 #![forbid(unsafe_code)]
 
 use crate::display::QuiltName;
@@ -7,18 +7,18 @@ use std::path::{Path, PathBuf};
 /// Pictures to write while the program runs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Capture {
-    /// Target file; [`Capture::path_for`] says what it is called for each frame.
+    /// Target file; [`Capture::path_for`] gives the name for each frame.
     pub out: PathBuf,
     /// First frame, 1-based.
     pub first: u64,
     /// Last frame, inclusive.
     pub last: u64,
-    /// What is written.
+    /// The content of the pictures.
     pub what: CaptureWhat,
 }
 
 impl Capture {
-    /// In a file's name: what the views of a quilt are, see [`QuiltName`](crate::display::QuiltName); nothing for other pictures.
+    /// In a file's name: stands for the columns, rows and aspect of a quilt, see [`QuiltName`](crate::display::QuiltName); nothing for other pictures.
     pub const QUILT: &str = "%q";
 
     /// The file for one frame of a picture that is no quilt: `%d` becomes the frame; without it, several frames get `-000030`
@@ -30,7 +30,7 @@ impl Capture {
         self.path_with(frame, "")
     }
 
-    /// As [`Capture::path_for`], with what [`Capture::QUILT`] stands for.
+    /// As [`Capture::path_for`], with [`Capture::QUILT`] replaced.
     #[must_use]
     pub fn path_with(&self, frame: u64, quilt: &str) -> PathBuf {
         let quilt = if self.names_quilts() { quilt } else { "" };
@@ -61,7 +61,7 @@ impl Capture {
         self.file_name().contains(Self::QUILT)
     }
 
-    /// The same with [`Capture::QUILT`] in the name, unless it is there or the name says of a quilt what it is.
+    /// The same with [`Capture::QUILT`] in the name, unless the name has that or the columns and rows of a quilt already.
     #[must_use]
     pub fn completed(out: &Path) -> PathBuf {
         let name = file_name(out);
@@ -72,7 +72,7 @@ impl Capture {
         out.with_file_name(format!("{stem}{}{extension}", Self::QUILT))
     }
 
-    /// The name for a frame, before and after what is said of a quilt.
+    /// The name for a frame, before and after the part about a quilt.
     fn name(&self, frame: u64) -> [String; 2] {
         let name = self.file_name();
         let [mut before, mut after] = match name.split_once(Self::QUILT) {
@@ -126,7 +126,7 @@ pub enum CaptureWhat {
     View(u32),
     /// The depth of the program's own view, 16-bit grey.
     Depth,
-    /// What an occlusion camera sees: the reference image that hidden samples are taken from.
+    /// The reference image of an occlusion camera, from which hidden samples are taken.
     Reference,
     /// No picture: the samples of the own view and of the reference image, see [`crate::volume::Samples`].
     Samples,

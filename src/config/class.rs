@@ -1,10 +1,10 @@
-//! The words for what a draw is and for the state that tells it; profiles and plans share them.
+//! The words for the class of a draw and for the state that decides it; profiles and plans share them.
 #![forbid(unsafe_code)]
 
-/// What a draw is, and so how its views differ.
+/// The class of a draw, which decides how its views differ.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Class {
-    /// No parallax of its own: head-up displays, fonts, cursors, full-screen quads. All of it stands at one depth.
+    /// No parallax of its own: head-up displays, fonts, cursors, full-screen quads. The whole draw stands at one depth.
     Flat,
     /// Infinitely far.
     Sky,
@@ -14,7 +14,7 @@ pub enum Class {
     OffScreen,
 }
 
-/// What the projection matrix is.
+/// The kind of the projection matrix.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Projection {
     /// Row 3 depends on the position.
@@ -25,7 +25,7 @@ pub enum Projection {
     None,
 }
 
-/// What a draw does with the depth buffer.
+/// How a draw uses the depth buffer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DepthState {
     /// Tests and writes.
@@ -41,7 +41,7 @@ pub enum DepthState {
 pub enum DepthRange {
     /// All of it.
     Whole,
-    /// From the near end, not to the far one: before what is drawn to the whole, wherever it is.
+    /// From the near end, not to the far one: before all draws to the whole range.
     Near,
     /// The far hundredth alone: behind everything.
     Far,

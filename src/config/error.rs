@@ -26,7 +26,7 @@ pub enum ConfigError {
         /// What it could be.
         choices: String,
     },
-    /// There is no occlusion camera, or not yet.
+    /// A picture of the occlusion camera, where there is none, or not yet.
     #[error(
         "{field} is '{value}', which needs an occlusion camera; give the strategy occlusion with it, and a frame from 2 on"
     )]
@@ -36,7 +36,7 @@ pub enum ConfigError {
         /// What it is.
         value: String,
     },
-    /// Views that are drawn are counted by one strategy only.
+    /// An option of `hybrid` with another strategy.
     #[error(
         "{field} is for the strategy hybrid; give {remedy} as 'hybrid' with it, or leave it out"
     )]
@@ -46,7 +46,7 @@ pub enum ConfigError {
         /// The other one.
         remedy: Field,
     },
-    /// Either says how many views are drawn.
+    /// Two options that both give the number of true views.
     #[error("{count} and {rate} both say how many views are drawn; leave one of them out")]
     TrueViewsAndRate {
         /// The number of views.
@@ -54,7 +54,7 @@ pub enum ConfigError {
         /// The rate.
         rate: Field,
     },
-    /// No number of views that are drawn.
+    /// Not a number of true views.
     #[error(
         "{field} is '{value}'; give a whole number of views from 1 to {views}, as many as there are"
     )]
@@ -66,7 +66,7 @@ pub enum ConfigError {
         /// N.
         views: u32,
     },
-    /// No rate.
+    /// Not a frame rate.
     #[error("{field} is '{value}'; give frames per second from 1 to 1000")]
     Rate {
         /// The option.
@@ -84,7 +84,7 @@ pub enum ConfigError {
         /// N
         views: u32,
     },
-    /// An output for two eyes of one view.
+    /// An output for two eyes, and one view.
     #[error("{field} shows two eyes, and there is one view; ask for at least 2 views")]
     OneEye {
         /// The option.
@@ -146,7 +146,7 @@ pub enum ConfigError {
         /// Its value.
         second_value: String,
     },
-    /// No size of a view.
+    /// Not a size of a view.
     #[error("{field} is '{value}'; give auto, or a number from 0.05 to 1 such as 0.5")]
     ViewScale {
         /// The option.
@@ -182,7 +182,7 @@ pub enum ConfigError {
         /// The option that is missing.
         out: Field,
     },
-    /// A panel that cannot be had, or not with this number of views; the reason names it and the remedy.
+    /// A panel that cannot be loaded, or not with this number of views; the reason names it and the remedy.
     #[error("{field}: {reason}")]
     Display {
         /// The option.
@@ -190,7 +190,7 @@ pub enum ConfigError {
         /// What is wrong.
         reason: String,
     },
-    /// A profile that cannot be had; the reason names the file, the rule, the key and the remedy.
+    /// A profile that cannot be loaded; the reason names the file, the rule, the key and the remedy.
     #[error("{field}: {reason}")]
     Profile {
         /// The option.
@@ -234,7 +234,7 @@ pub enum ConfigError {
         /// The option that is missing.
         explain: Field,
     },
-    /// No number of frames.
+    /// Not a number of frames.
     #[error(
         "{field} is '{value}'; give a whole number of frames, 1 or more: every so many one is proved"
     )]

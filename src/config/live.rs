@@ -4,14 +4,14 @@
 use super::{Camera, CaptureWhat, Config, ConfigError, OptionId, Origin, Output, Settings, parse};
 use crate::display::{Lens, LensPart};
 
-/// What is in force now; it begins as the options say.
+/// The values in force now; they begin as the options say.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Live {
-    /// What is given to the swap.
+    /// The picture that is shown.
     pub output: Output,
     /// Spacing of the cameras and the depth of zero parallax.
     pub camera: Camera,
-    /// Where flat draws stand that no rule places.
+    /// Depth of flat draws without a rule.
     pub hud_depth: f64,
     /// The numbers of the panel's sheet; none where it has no slanted one.
     pub lens: Option<Lens>,
@@ -40,7 +40,7 @@ impl Live {
         OptionId::HudDepth,
     ];
 
-    /// What the program starts with.
+    /// The values that the program starts with.
     #[must_use]
     pub fn new(config: &Config) -> Self {
         Self {
@@ -52,7 +52,7 @@ impl Live {
         }
     }
 
-    /// These values with some of them changed, all or none. `chosen` is what [`Camera::Auto`] and [`Camera::Measured`] stand for,
+    /// These values with some of them changed, all or none. `chosen` has the values that [`Camera::Auto`] and [`Camera::Measured`] stand for,
     /// once it is known: separation and convergence.
     pub fn with(
         self,
@@ -90,7 +90,7 @@ impl Live {
         })
     }
 
-    /// The cameras of now, which follow the depths no more.
+    /// The present cameras, fixed: they no longer follow the depths.
     fn as_they_stand(self, chosen: Option<(f64, f64)>) -> Camera {
         match (self.camera, chosen) {
             (Camera::Measured(_), Some((separation, convergence))) => Camera::Clip {
@@ -161,7 +161,7 @@ impl Live {
 }
 
 impl CaptureWhat {
-    /// What a picture of a running program is to hold.
+    /// The content of a picture of a running program.
     pub fn asked(value: &str, views: u32) -> Result<Self, ConfigError> {
         let mut settings = Settings::default();
         settings.set(OptionId::CaptureWhat, value, Origin::Request);

@@ -47,9 +47,9 @@ pub struct Config {
     pub views: u32,
     /// The panel whose mask the pictures are interleaved for.
     pub display: Display,
-    /// What is given to the swap.
+    /// The picture that is shown.
     pub output: Output,
-    /// How a subpixel of the panel is made of the views around its place.
+    /// How a subpixel of the panel that lies between two views is coloured.
     pub filter: Filter,
     /// Spacing of the cameras and the depth of zero parallax.
     pub camera: Camera,
@@ -57,9 +57,9 @@ pub struct Config {
     pub strategy: Strategy,
     /// Where the views lie in memory.
     pub atlas: AtlasLayout,
-    /// What keeps views beside each other apart where one draw makes several; views lie in layers unless it is given.
+    /// How views that one draw puts side by side are clipped to their tiles; unless given, they lie in layers.
     pub clip: Option<Clip>,
-    /// How many views are drawn where the others are made of them.
+    /// How many views `hybrid` draws; the others are synthesised from them.
     pub true_views: TrueViews,
     /// Holes of synthesised views are magenta.
     pub marks_holes: bool,
@@ -69,15 +69,15 @@ pub struct Config {
     pub hud_depth: Option<f64>,
     /// Optimisations that are turned off.
     pub disabled: Disabled,
-    /// What the program's draws are, where the state does not say it.
+    /// Rules for the classes of the program's draws.
     pub profile: Profile,
     /// One frame to explain, if any.
     pub explain: Option<Explain>,
-    /// Every so many frames one is drawn by replay as well and compared, if any is.
+    /// Every K-th frame is drawn by replay as well and compared; none: no frame is.
     pub prove: Option<u64>,
     /// Where the JSON report goes at the end of the program.
     pub report: Option<PathBuf>,
-    /// The running program may be asked and told through a socket.
+    /// The running program takes commands from a socket.
     pub control: bool,
     /// Keys with Ctrl and Alt change the views.
     pub keys: bool,
@@ -162,14 +162,14 @@ impl Output {
     }
 }
 
-/// What a subpixel of a lens sheet shows, whose place lies between two views as a rule.
+/// How a subpixel of a lens sheet is coloured. As a rule its place lies between two views.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Filter {
     /// The view it belongs to.
     Nearest,
     /// The two views beside its place, by their distances.
     Blend,
-    /// Three views by a Gaussian: what differs too much from view to view is blurred rather than seen twice.
+    /// Three views by a Gaussian: points that move too far from view to view are blurred, not seen twice.
     Gaussian,
 }
 
@@ -232,7 +232,7 @@ pub enum Mixture {
 pub enum Camera {
     /// Derived from the first perspective projection that is drawn with.
     Auto,
-    /// Derived from what is in the depth buffer, within the budget of the display, but for a value that is kept.
+    /// Derived from the depths of each frame, within the budget of the display, except for a value that is kept.
     Measured(Option<Kept>),
     /// κ and ξ of Luo et al.: spacing of neighbouring viewpoints, depth of the focal plane.
     Eye {
@@ -319,15 +319,15 @@ pub enum ViewScale {
     Auto,
 }
 
-/// What keeps a view within its tile. All but the first are variants of F. de Sorbier et al.
+/// How a view is clipped to its tile. All but the first are variants of F. de Sorbier et al.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Clip {
     /// Two clip distances per vertex: the driver cuts.
     #[default]
     Distances,
-    /// The fragment shader discards what is outside; the vertex stage passes it the limits.
+    /// The fragment shader discards fragments outside; the vertex stage passes it the limits.
     Discard,
-    /// Likewise, after the geometry shader has left out what lies outside as a whole. With instances the same as
+    /// Likewise, after the geometry shader has dropped the primitives that lie outside as a whole. With instances the same as
     /// [`Clip::Discard`].
     Both,
     /// The geometry shader cuts triangles at the edges of the tile. With instances the same as [`Clip::Distances`].

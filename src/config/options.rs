@@ -15,9 +15,9 @@ pub enum OptionId {
     Display,
     /// Number of views.
     Views,
-    /// What is given to the swap.
+    /// The picture that is shown.
     Output,
-    /// How a subpixel is made of the views around its place.
+    /// How a subpixel that lies between two views is coloured.
     Filter,
     /// κ
     EyeSpacing,
@@ -27,25 +27,25 @@ pub enum OptionId {
     Separation,
     /// Convergence in clip space.
     Convergence,
-    /// Cameras by what is in the depth buffer.
+    /// Cameras by the depths of each frame.
     AutoDepth,
     /// How draws are repeated.
     Strategy,
     /// Where the views lie.
     Atlas,
-    /// What keeps views beside each other apart.
+    /// How views that lie side by side are clipped to their tiles.
     Clip,
-    /// What is seen where nothing is known of what is behind.
+    /// How disocclusions of synthesised views are shown.
     Holes,
-    /// Views that are drawn while others are made of them.
+    /// Number of true views, from which the others are synthesised.
     TrueViews,
-    /// Frames per second that the number of views drawn follows.
+    /// Frames per second that the number of true views follows.
     Fps,
     /// Tile size over window size.
     ViewScale,
     /// Depth of flat draws.
     HudDepth,
-    /// What is not left out.
+    /// Optimisations that are turned off.
     Disable,
     /// Rules for the program.
     Profile,
@@ -55,11 +55,11 @@ pub enum OptionId {
     Explain,
     /// Which frame is explained.
     ExplainFrame,
-    /// Every how many frames one is drawn by replay as well.
+    /// Every K-th frame is drawn by replay as well.
     Prove,
     /// JSON report.
     Report,
-    /// A socket by which the running program is asked and told.
+    /// A socket that takes commands for the running program.
     Control,
     /// Keys that change the views.
     Keys,
@@ -67,7 +67,7 @@ pub enum OptionId {
     CaptureOut,
     /// Frames to write.
     CaptureFrames,
-    /// What the picture holds.
+    /// The content of the picture.
     CaptureWhat,
     /// Where the layer tells the launcher how far it is.
     Status,

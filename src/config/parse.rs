@@ -564,7 +564,7 @@ fn capture(settings: &Settings, views: u32) -> Result<Option<Capture>, ConfigErr
     }))
 }
 
-/// What a picture holds.
+/// The content of a picture.
 pub(super) fn capture_what(settings: &Settings, views: u32) -> Result<CaptureWhat, ConfigError> {
     Ok(match settings.field(OptionId::CaptureWhat) {
         None | Some((_, "output")) => CaptureWhat::Output,

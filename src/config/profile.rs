@@ -1,4 +1,4 @@
-//! Profiles: what the draws of one program are, where its state alone does not say it.
+//! Profiles: rules for the classes of one program's draws, where the state of OpenGL alone does not tell them.
 //!
 //! A profile is a TOML file with a list of rules; the first rule whose every key matches a draw decides it.
 #![forbid(unsafe_code)]
@@ -21,11 +21,11 @@ pub const NONE: &str = "none";
 pub struct Profile {
     /// The file, for people; empty without one.
     pub file: PathBuf,
-    /// File names of the programs that it is for; it is chosen by itself for these.
+    /// File names of the programs for which it is chosen by itself.
     pub executable: Vec<String>,
-    /// Depth of flat draws that no rule places, unless the user says another.
+    /// Depth of flat draws without a rule, unless the user gives another.
     pub hud_depth: Option<f64>,
-    /// Depth that appears on the screen, in eye-space units, unless the user says another.
+    /// Depth of zero parallax, in eye-space units, unless the user gives another.
     pub focal_depth: Option<f64>,
     /// The first that matches decides.
     pub rules: Vec<Rule>,
@@ -48,7 +48,7 @@ pub struct Rule {
     pub depth_state: Option<DepthState>,
     /// The depth range.
     pub depth_range: Option<DepthRange>,
-    /// Sums of the texts of the program's own shaders, as `--explain` lists them.
+    /// Checksums of the texts of the program's own shaders, as `--explain` lists them.
     pub shader: Vec<u64>,
     /// Programs of shaders, counted as they are linked; 0 is none.
     pub program: Vec<u32>,
@@ -56,11 +56,11 @@ pub struct Rule {
     pub pass: Vec<u32>,
     /// Number of the draw in its frame, counted from 1; both ends included.
     pub draw: Option<(u32, u32)>,
-    /// What the draw is.
+    /// The class of the draw.
     pub class: Class,
     /// Where a flat draw stands: 0 on the panel, 1 infinitely far, below 0 before the panel.
     pub depth: Option<f64>,
-    /// Depth that appears on the screen, of a scene draw, in eye-space units.
+    /// Depth of zero parallax of a scene draw, in eye-space units.
     pub focal_depth: Option<f64>,
 }
 
@@ -188,7 +188,7 @@ pub fn this_program() -> Option<String> {
     Some(program_name(&path.file_name()?.to_string_lossy()).to_owned())
 }
 
-/// Disabled what Linux appends to the name of a program that has been replaced since it was started, as updates do.
+/// The name without the words that Linux appends to that of a program that has been replaced since it was started, as updates do.
 pub(super) fn program_name(link: &str) -> &str {
     link.strip_suffix(" (deleted)").unwrap_or(link)
 }
@@ -348,7 +348,7 @@ fn number<'a>(table: &'a Table, key: &str) -> Option<(&'a Value, Option<f64>)> {
     Some((value, number))
 }
 
-/// What a depth may be, in words.
+/// The depths that may be given, in words.
 pub const DEPTH_REMEDY: &str =
     "give a number from -10 (far before the panel) to 1 (infinitely far); 0 is on the panel";
 

@@ -1,4 +1,4 @@
-//! Profiles: what is understood, and the message for each mistake.
+//! Profiles: the rules that are understood, and the message for each mistake.
 
 use super::profile::*;
 use super::{

@@ -41,7 +41,7 @@ impl Settings {
         );
     }
 
-    /// Sets what somebody wrote: former words become the present ones. `old` is how the option was written, if that is a former name.
+    /// Sets a value as a user wrote it: former words become the present ones. `old` is how the option was written, if that is a former name.
     fn write(&mut self, id: OptionId, value: String, origin: Origin, old: Option<String>) {
         let field = Field {
             id,
@@ -67,7 +67,7 @@ impl Settings {
         &self.renamings
     }
 
-    /// Sets what the command line gives of these options.
+    /// Sets those of these options that the command line gives.
     pub fn give<'a>(&mut self, given: impl IntoIterator<Item = (OptionId, &'a Option<String>)>) {
         for (id, value) in given {
             if let Some(value) = value {

@@ -11,9 +11,9 @@ use std::path::Path;
 pub struct Status {
     /// Swaps seen so far.
     pub frames: u64,
-    /// What the user should know, one sentence each.
+    /// Messages for the user, one sentence each.
     pub notes: Vec<String>,
-    /// What `--prove` has found: a summary of `report`, which this module stands before.
+    /// The result of `--prove`: a summary of `report`, which comes after this module in the order of imports.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub proof: Option<serde_json::Value>,
 }

@@ -1,4 +1,4 @@
-//! How views come about: drawn, or made of others, and how many are drawn then.
+//! Strategies: which views are drawn, and which are synthesised.
 #![forbid(unsafe_code)]
 
 use super::parse::choice;
@@ -14,10 +14,10 @@ const STRATEGIES: &[(&str, Strategy)] = &[
     ("hybrid", Strategy::Hybrid),
 ];
 
-/// How views come about.
+/// How the views are drawn or synthesised.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Strategy {
-    /// The one that draws the program fastest.
+    /// The exact strategy that draws the program fastest.
     Auto,
     /// The draw itself again, per view.
     Replay,
@@ -25,11 +25,11 @@ pub enum Strategy {
     Instanced,
     /// One draw through a generated geometry shader.
     Geometry,
-    /// The scene once, and the other views by its depths.
+    /// The scene in one view; the other views are synthesised from its depths.
     DepthImage,
-    /// The same, with what an occlusion camera sees behind what is in front.
+    /// The same, with the reference image of an occlusion camera for the disocclusions.
     Occlusion,
-    /// The scene in some views, and the others by the depths of those beside them.
+    /// The scene in some views; the others are synthesised from those beside them.
     Hybrid,
 }
 
@@ -49,27 +49,27 @@ impl std::fmt::Display for Strategy {
     }
 }
 
-/// What is known of what the view hides that another one is made of.
+/// The source of colours for the disocclusions of a synthesised view.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum DisocclusionSource {
-    /// What is behind it beside it.
+    /// The background beside them.
     Nothing,
     /// The reference image of an occlusion camera.
     Reference,
-    /// What other views that are drawn see.
+    /// The other views that are drawn.
     Views,
 }
 
 /// How many views `--strategy hybrid` draws.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum TrueViews {
-    /// Always as many, at least 1.
+    /// A fixed number, at least 1.
     Fixed(u32),
-    /// As many as leave so many frames per second.
+    /// As many as allow these frames per second.
     Rate(f64),
 }
 
-/// Frames per second that are held unless others are asked for: those of most screens.
+/// Frames per second unless others are asked for: the rate of most screens.
 const RATE: f64 = 60.0;
 
 impl Strategy {
@@ -86,7 +86,7 @@ impl Strategy {
 }
 
 impl Config {
-    /// Of what views are made instead of drawn; none where they are all drawn.
+    /// The source of disocclusions where views are synthesised; none where all are drawn.
     #[must_use]
     pub fn synthesis(&self) -> Option<DisocclusionSource> {
         self.strategy

@@ -12,7 +12,7 @@ pub struct Bias {
 }
 
 impl Bias {
-    /// Most values along a side: it is for what bends over the whole screen.
+    /// Most values along a side; the grid is for errors that change slowly over the screen.
     pub const LARGEST: usize = 64;
 
     /// `values` in subpixels, rows from the top, each from the left. None unless there are 2 to 64 columns and rows, as many

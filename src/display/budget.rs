@@ -30,7 +30,7 @@ impl Facts {
         self.dpi.map(|dpi| MM_PER_INCH / dpi)
     }
 
-    /// What the description says, in pixels; the smaller one where it says it twice.
+    /// The budget of the description in pixels; the smaller one where it has two.
     fn budget(&self) -> Option<f64> {
         let mm = self.budget_mm.zip(self.mm_per_px());
         let mm = mm.map(|(mm, per_px)| mm / per_px);

@@ -10,7 +10,7 @@ pub struct Builtin {
     pub name: String,
     /// Native number of views; none where the name says it.
     pub views: Option<u32>,
-    /// What it is.
+    /// Its description.
     pub about: &'static str,
 }
 
@@ -36,7 +36,7 @@ const INTERLACED: [(&str, &[&str], &str); 3] = [
 /// A model of the Looking Glass family. The quilt is that of the maker's tools; every device has a mask of its own.
 struct Model {
     name: &'static str,
-    /// What serial numbers begin with.
+    /// Beginning of its serial numbers.
     serials: &'static [&'static str],
     quilt: (u32, u32),
     screen: (u32, u32),
@@ -178,7 +178,7 @@ pub(super) fn named(name: &str) -> Result<Display, DisplayError> {
     Ok(Display::new(name, views, Kind::Lenticular))
 }
 
-/// What a Looking Glass with this serial number has.
+/// The model of a Looking Glass, by its serial number.
 pub(super) fn facts_of(serial: &str) -> Option<Facts> {
     let model = MODELS
         .iter()

@@ -261,7 +261,7 @@ impl Fields {
     }
 }
 
-/// What a message can show of a value.
+/// A value as a message shows it.
 pub(super) fn in_a_line(text: String) -> String {
     const LONGEST: usize = 80;
     let mut line: String = text.chars().take(LONGEST).collect();

@@ -41,7 +41,7 @@ const VERSION: &str = "write version = 1, or use a newer manyview";
 const SCREEN: &str = "give the screen in pixels, for example screen = \"2560x1600\"";
 const DPI: &str = "give the pixels per inch, for example dpi = 338";
 const CONE: &str = "give the angle of the views in degrees, for example cone = 40";
-const ROTATION: &str = "give how far the glass is turned clockwise, for example rotation = 90";
+const ROTATION: &str = "give how far the panel is turned clockwise, for example rotation = 90";
 const BUDGET_PX: &str =
     "give the disparity between neighbouring views in pixels, for example budget-px = 1.5";
 const BUDGET_MM: &str =
@@ -116,7 +116,7 @@ const ALL: [&str; 20] = [
 /// Steps of an `integer` panel: with 32 bits a place on the screen times a step fits 64.
 const STEP_RANGE: std::ops::RangeInclusive<i64> = -2_147_483_648..=2_147_483_647;
 
-/// True for what a user meant as a file even where none is.
+/// True for an argument that is meant as a file, whether or not that exists.
 pub(super) fn looks_like_path(path: &Path) -> bool {
     let known = ["toml", "json", "png"];
     path.components().count() > 1

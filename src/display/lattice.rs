@@ -20,7 +20,7 @@ pub(super) enum Direction {
     Down,
 }
 
-/// What all rows of a panel share.
+/// The constants that all rows of a panel share.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Lattice {
     turn: i128,
@@ -33,7 +33,7 @@ pub(super) struct Lattice {
 pub(super) struct Row {
     /// Phase at x = 0.
     pub(super) start: i128,
-    /// What is added for R, G and B, in even and in odd columns.
+    /// Added for R, G and B, in even and in odd columns.
     pub(super) colours: [[i128; 3]; 2],
 }
 

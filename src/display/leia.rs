@@ -21,7 +21,7 @@ pub struct Leia {
     pub p_over_du: Number,
     /// From a pixel to the one above.
     pub p_over_dv: Number,
-    /// What a row adds on top, taken modulo `p_over_du`.
+    /// Added per row, modulo `p_over_du`.
     pub colour_slant: Number,
     /// B before R.
     pub colour_inversion: bool,

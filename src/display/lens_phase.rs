@@ -1,4 +1,4 @@
-//! Where the lenses of a panel are: the phase of its mask as one affine function of the place.
+//! The phase of a panel's lenses, as one affine function of the place.
 //!
 //! The subpixels that show one view lie near the lines `φ − i/N = a whole number`; tiles whose columns are those lines hold what the
 //! panel shows of the view and little else.
@@ -12,21 +12,21 @@ use super::{Display, Kind, Number, Placement, Rotation, Slanted};
 pub struct LensPhase {
     /// At the pixel in the left top corner.
     pub start: f64,
-    /// What a pixel to the right adds.
+    /// Change of the phase per pixel to the right.
     pub right: f64,
-    /// What a pixel below adds.
+    /// Change of the phase per pixel downwards.
     pub down: f64,
-    /// Where in its part of the turn a view is shown, in parts: the mean over the subpixels of φ·N − i.
+    /// Mean over the subpixels of φ·N − i: the place of a view in its part of the turn.
     pub within: f64,
-    /// What the subpixel to the right of the middle one adds, and the one to the left takes away.
+    /// Change of the phase from the middle subpixel to the right one; the left one has the opposite change.
     pub colour: f64,
     /// Pixels show one view each, all of them at the same place in their part of the turn.
     pub exact: bool,
 }
 
 impl Display {
-    /// None where the views do not follow one such function: tables, hand patterns, pictures, pixels with cells, what was measured
-    /// beyond a sheet's numbers, panels that are mounted turned.
+    /// None where the views do not follow one such function: tables, hand patterns, pictures, pixels with cells, measured
+    /// local errors, panels that are mounted turned.
     #[must_use]
     pub fn lens_phase(&self, placement: &Placement, views: u32) -> Option<LensPhase> {
         if self.rotation != Rotation::None {
@@ -85,7 +85,7 @@ pub(super) struct Phase {
     pub(super) start: f64,
     pub(super) right: f64,
     pub(super) down: f64,
-    /// What the subpixel to the right of the middle one adds, and the one to the left takes away.
+    /// Change of the phase from the middle subpixel to the right one; the left one has the opposite change.
     pub(super) colour: f64,
 }
 

@@ -17,7 +17,7 @@ use super::lattice::{Direction, Lattice, Row};
 use super::lens_phase::Phase;
 use super::{Mask, MaskError, Placement};
 
-/// What a device is calibrated to; lengths in pixels unless said otherwise.
+/// The calibration of a device; lengths in pixels unless said otherwise.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LookingGlass {
     /// Serial number; its beginning names the model.

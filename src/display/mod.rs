@@ -77,11 +77,11 @@ pub struct Display {
     pub kind: Kind,
     /// How the glass is turned against the picture.
     pub rotation: Rotation,
-    /// What is known of it beside the mask.
+    /// Its properties beside the mask.
     pub facts: Facts,
 }
 
-/// What is known of a panel beside its mask; nothing of it changes the mask.
+/// Properties of a panel beside its mask; none of them changes the mask.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Facts {
     /// Width and height of the screen in pixels, as the picture stands on it.
@@ -151,7 +151,7 @@ impl SubpixelOrder {
 
 /// Where the picture lies on the screen, in pixels of the screen.
 ///
-/// Masks belong to the glass, not to the window, so their phase counts from the screen's corner.
+/// Masks belong to the panel, not to the window, so their phase counts from the screen's corner.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Placement {
     /// Width of the screen.

@@ -1,4 +1,4 @@
-//! What the name of a quilt says of it: `NAME_qs<columns>x<rows>a<aspect>.png`, as Looking Glass's tools read and write it.
+//! Columns, rows and aspect in the name of a quilt: `NAME_qs<columns>x<rows>a<aspect>.png`, as Looking Glass's tools read and write it.
 //!
 //! Read with tolerance: capitals, no aspect (VTK writes `_qs5x9`), anything after it. Rows before columns (pylightio of AliceLG
 //! reads names so) are only believed where the picture's size proves them, see [`QuiltName::grid`].
@@ -6,7 +6,7 @@
 
 use std::fmt;
 
-/// Begins what the name says.
+/// Begins the part of the name.
 const MARK: &str = "_qs";
 /// Largest number of columns and of rows.
 const MOST: u32 = 256;
@@ -22,7 +22,7 @@ pub struct QuiltName {
     pub columns: u32,
     /// At least 1.
     pub rows: u32,
-    /// Width over height of what one view shows.
+    /// Width over height of one view.
     pub aspect: Option<f64>,
 }
 
@@ -63,7 +63,7 @@ impl QuiltName {
         }
     }
 
-    /// What the name of a file says; none where it says nothing of a quilt.
+    /// Reads the name of a file; none where it is not that of a quilt.
     pub fn read(name: &str) -> Result<Option<Self>, QuiltError> {
         let lower = name.to_ascii_lowercase();
         let marked = lower.match_indices(MARK).filter_map(|(at, _)| {

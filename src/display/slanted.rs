@@ -18,9 +18,9 @@ pub struct Slanted {
     pub slant: Number,
     /// Phase of the leftmost subpixel in the top row of the screen, in subpixels.
     pub offset: Number,
-    /// What is added for R, G and B, in subpixels: where the centres of the colours are not a third of a pixel apart.
+    /// Added for R, G and B, in subpixels, where the centres of the colours are not a third of a pixel apart.
     pub colours: [Number; 3],
-    /// What was measured beyond that.
+    /// Local errors of the sheet, if they were measured.
     pub bias: Option<Bias>,
     /// Which colour is leftmost in a pixel.
     pub order: SubpixelOrder,

@@ -1,4 +1,4 @@
-//! Scenes made by equations, of the sizes that papers have theirs: surfaces in inches, all in the sphere of a volumetric display.
+//! Scenes made by equations, of the sizes of those in papers: surfaces in inches, all in the sphere of a volumetric display.
 //!
 //! Pure and the same every time. x to the right, y upwards, z towards the viewer, the origin in the middle of the display.
 #![forbid(unsafe_code)]
@@ -15,7 +15,7 @@ mod tests;
 pub use project::{project, unproject};
 pub use surface::{Corner, Solid, Surface};
 
-/// Radius of the display, in inches, which no scene leaves.
+/// Radius of the display, in inches; every scene lies within it.
 pub const RADIUS: f32 = 5.0;
 
 /// A scene.
@@ -23,7 +23,7 @@ pub const RADIUS: f32 = 5.0;
 pub struct Model {
     /// In tables and file names.
     pub name: &'static str,
-    /// What there is to be seen.
+    /// The surfaces of the scene.
     pub about: &'static str,
     /// Makes its surfaces.
     pub surfaces: fn() -> Vec<Surface>,

@@ -1,4 +1,4 @@
-//! Triangles in inches as a camera sees them, and what it has seen in inches again.
+//! Triangles in inches as a camera sees them, and its samples back in inches.
 
 use super::{Corner, Solid};
 use crate::synthesis::{Pinhole, Triangle, Vertex};

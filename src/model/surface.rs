@@ -19,7 +19,7 @@ pub(super) type Paint = ([f32; 3], [f32; 3]);
 
 /// Towards the light, of length 1.
 const LIGHT: [f32; 3] = [0.36, 0.48, 0.8];
-/// What is reflected of light from everywhere.
+/// Share of ambient light that is reflected.
 const AMBIENT: f32 = 0.25;
 
 /// A grid of corners, each cell two triangles.
@@ -174,7 +174,7 @@ pub(super) fn cuboid(low: [f32; 3], high: [f32; 3], colour: [f32; 3]) -> Vec<Sur
         .collect()
 }
 
-/// Cosine between the light and what is at right angles to two directions, from whichever side.
+/// Cosine between the light and the normal of two directions, from whichever side.
 fn lit(along: [f32; 3], under: [f32; 3]) -> f32 {
     let normal = unit(cross(along, under));
     dot(normal, LIGHT).abs()

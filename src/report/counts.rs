@@ -22,7 +22,7 @@ impl<T: PartialEq> Counts<T> {
         }
     }
 
-    /// What came since the last time.
+    /// The counts since the last time.
     pub fn take(&mut self) -> impl Iterator<Item = (T, u64)> + '_ {
         self.0.drain(..)
     }

@@ -3,12 +3,12 @@
 use serde::Serialize;
 use std::collections::VecDeque;
 
-/// Frames of which the report lists what was seen.
+/// Number of frames whose cameras the report lists.
 const LISTED: usize = 600;
 /// Frames kept for medians.
 const KEPT: usize = 4096;
 
-/// What was measured in one frame. Disparities are in pixels of the window, positive behind the panel.
+/// The disparities of one frame. They are in pixels of the window, positive behind the panel.
 #[derive(Clone, Copy, Debug)]
 pub struct Disparity {
     /// Which frame, counted from 1.
@@ -21,7 +21,7 @@ pub struct Disparity {
     pub middle: f64,
     /// Of the farthest point.
     pub most: f64,
-    /// What the display can show.
+    /// The budget of the display.
     pub budget: f64,
     /// Millimetres per pixel.
     pub mm_per_px: Option<f64>,

@@ -1,4 +1,4 @@
-//! What the layer did, for `--report`.
+//! The report of the layer, for `--report`.
 #![forbid(unsafe_code)]
 
 mod counts;
@@ -41,7 +41,7 @@ pub struct Report {
     last_write: Option<Instant>,
 }
 
-/// Frames whose scene was drawn in one view, and the others made of it.
+/// Frames whose scene was drawn in some views, and the others synthesised.
 #[derive(Clone, Copy, Debug, Default, Serialize)]
 struct Synthesised {
     /// Subpixel by subpixel.
@@ -56,7 +56,7 @@ impl Synthesised {
     }
 }
 
-/// GL names that are the layer's and not deleted.
+/// GL names of the layer that are not deleted.
 #[derive(Clone, Copy, Debug, Default, Serialize)]
 struct Names {
     #[serde(flatten)]
@@ -136,7 +136,7 @@ impl Report {
         self.names = Names { made, lists };
     }
 
-    /// What disparities a frame has.
+    /// Adds the disparities of a frame.
     pub fn disparity(&mut self, disparity: Disparity) {
         self.disparities.add(disparity);
     }
@@ -146,7 +146,7 @@ impl Report {
         self.mono_frames += 1;
     }
 
-    /// Views were made of a frame's scene: as they are, or straight into the panel's picture.
+    /// Counts a frame whose views were synthesised, whole or directly into the panel's picture.
     pub fn synthesised(&mut self, into_panel: bool) {
         match into_panel {
             true => self.synthesised.into_panel += 1,
@@ -177,13 +177,13 @@ impl Report {
         ms
     }
 
-    /// That frame drew so many of its views.
+    /// Notes how many views that frame has drawn.
     pub fn drew(&mut self, ms: f32, views: u32) {
         self.walk.frame(ms, views);
     }
 
-    /// After a frame: writes what is asked for when it is time, at the first frames each, then ten times a second (a program gives no sign before
-    /// it ends).
+    /// After a frame: writes the report and the status when it is time, after each of the first frames, then ten times a second (a program gives no sign
+    /// before it ends).
     pub fn write_if_due(&mut self, config: &Config) {
         let since = self.last_write.map(|last| last.elapsed());
         let due = self.frames <= 10 || since.is_none_or(|since| since > Duration::from_millis(100));
@@ -206,7 +206,7 @@ impl Report {
         self.write_report(config);
     }
 
-    /// What cannot be written must not disturb the program; the launcher has checked the folders.
+    /// A file that cannot be written must not disturb the program; the launcher has checked the folders.
     fn write_status(&self, config: &Config, frames: u64) {
         if let Some(path) = &config.status {
             let proof = self.proof.as_ref().map(Proof::summary);

@@ -1,4 +1,4 @@
-//! What `--prove` has found: how far the views and the picture are from those of replay, and what replay would have cost.
+//! The results of `--prove`: the differences of the views and the picture from those of replay, and the time of replay.
 
 use crate::metric::{Comparison, Gate};
 use image::RgbImage;
@@ -116,7 +116,7 @@ pub struct Culprit {
     pub draw: u32,
     /// Command and primitive.
     pub kind: String,
-    /// What it is.
+    /// Its class.
     pub class: String,
     /// By which it was made.
     pub method: String,
@@ -126,7 +126,7 @@ pub struct Culprit {
     pub list: Option<u32>,
 }
 
-/// What replay alone costs. Medians, from a frame's first draw to the end of glFinish after its picture is made.
+/// The time of replay. Medians, from a frame's first draw to the end of glFinish after its picture is made.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SpeedUp {
     /// ms
@@ -139,7 +139,7 @@ pub struct SpeedUp {
     pub frames: [usize; 2],
 }
 
-/// What is told of all that.
+/// The summary.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Summary {
@@ -147,20 +147,19 @@ pub struct Summary {
     pub frames: u64,
     /// Of those, frames that differ.
     pub differing: u64,
-    /// Of those, frames that did not begin with a clear: what the frame before had left in the window was taken over, and is not
-    /// what is compared.
+    /// Of those, frames that did not begin with a clear: they began with the contents of the window, which are not compared.
     pub carried: u64,
     /// Frames that were not compared, by reason.
     pub skipped: BTreeMap<String, u64>,
     /// By view.
     pub views: Vec<Option<Found>>,
-    /// What the window shows.
+    /// The strategy that the window shows.
     pub panel: Option<Found>,
-    /// What brought the worst pixel of a frame.
+    /// The draw that brought the worst pixel of a frame.
     pub draw: Option<Culprit>,
     /// None until frames of both kinds were timed.
     pub speed_up: Option<SpeedUp>,
-    /// File with what replay has drawn, the difference and what was shown, of the worst view.
+    /// File with the worst view by replay, the difference, and the view as it was shown.
     pub picture: Option<String>,
 }
 
@@ -252,7 +251,7 @@ impl Proof {
         }
     }
 
-    /// What is to be told.
+    /// The summary of the results.
     pub fn summary(&self) -> Summary {
         let [chosen, replay] = [&self.chosen, &self.replay].map(|times| median(times));
         let speed_up = chosen

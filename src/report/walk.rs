@@ -1,11 +1,11 @@
-//! What each of the last frames took, and how many of its views were drawn.
+//! Time and number of true views of each of the last frames.
 
 use std::collections::VecDeque;
 
 /// Frames that are told of.
 const KEPT: usize = 1000;
 
-/// Frames whose views are partly made of others, the oldest first.
+/// Frames whose views are partly synthesised, the oldest first.
 #[derive(Debug, Default)]
 pub(super) struct Walk(VecDeque<(f32, u32)>);
 

@@ -1,4 +1,4 @@
-//! What cannot be simulated, in one sentence each.
+//! Errors of a simulation, in one sentence each.
 #![forbid(unsafe_code)]
 
 use super::MAX_EYES;
@@ -50,7 +50,7 @@ pub enum SimulateError {
     /// An option that is no number, or one out of its range.
     #[error("--{flag} is '{found}'; give {expected}")]
     Option {
-        /// Disabled dashes.
+        /// The option without its dashes.
         flag: &'static str,
         /// As written.
         found: String,

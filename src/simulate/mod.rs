@@ -1,4 +1,4 @@
-//! What an eye sees of a panel: the check on masks, by ray geometry alone. It reads no mask.
+//! A panel as an eye sees it, by ray geometry alone. It reads no mask, and so checks the masks.
 //!
 //! Spaces. Millimetres: origin in the middle of the sheet of lenses or slits, x to the right, y upwards, z towards the viewer.
 //! Panel: columns of subpixels `s` from the left edge and rows `r` from the top edge, both continuous, a pixel 3 subpixels wide
@@ -15,8 +15,8 @@
 //!
 //! Light. Subpixels count with their centres, each colour by itself, since the colours lie at different places. The aperture of
 //! a lens is one view wide; the share `crosstalk` of the light comes from the view's width on either side of it instead. One
-//! lens shows only one or two colours in a row, and the eye sees white where the next rows and lenses show the others: so all
-//! that is seen is averaged over the few nearest places that have every colour in every view ([`Optics`]), and each of these
+//! lens shows only one or two colours in a row, and the eye sees white where the next rows and lenses show the others: so the
+//! light is averaged over the few nearest places that have every colour in every view ([`Optics`]), and each of these
 //! averages has the weight 1, so that white is white. Means are taken of light, that is of decoded sRGB.
 //!
 //! The picture is the one on the pixels' plane: each line that is seen fills the width of its lens there.
@@ -56,7 +56,7 @@ pub struct Eye {
     pub z: f64,
 }
 
-/// What the description of a panel does not say.
+/// The values that the description of a panel does not have.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Setup {
     /// Width of a pixel, mm.
@@ -76,7 +76,7 @@ impl Setup {
     }
 }
 
-/// What `eye` sees of the picture that `panel` shows, in the panel's size. `row_done` is called once per finished row, by any
+/// The picture of `panel` as `eye` sees it, in the panel's size. `row_done` is called once per finished row, by any
 /// thread.
 pub fn see(
     panel: &RgbImage,

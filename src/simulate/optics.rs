@@ -80,7 +80,7 @@ impl Optics {
         })
     }
 
-    /// Half of what one view takes of a period.
+    /// Half of the part of a period that one view takes.
     pub(super) fn half_view(&self) -> f64 {
         self.period / f64::from(self.views) / 2.0
     }
@@ -126,7 +126,7 @@ impl Optics {
     }
 }
 
-/// The sheet of a display; None for what has none, or one that is not even.
+/// The sheet of a display; None where it has none, or an uneven one.
 fn lens(display: &Display, views: u32) -> Option<Slanted> {
     if display.rotation != Rotation::None {
         return None;

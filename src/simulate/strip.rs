@@ -12,7 +12,7 @@ pub const MAX_EYES: u32 = 256;
 /// A strip is made smaller until it is at most this wide, in pixels.
 pub const MAX_STRIP_WIDTH: u32 = 8192;
 
-/// What `eyes` eyes see, side by side from the left eye to the right.
+/// The pictures that `eyes` eyes see, side by side from the left eye to the right.
 ///
 /// They stand beside each other at the distance of `middle`, each in the middle of its part of a viewing zone around it: with as
 /// many eyes as views, and `middle` before the middle of the panel, eye i is in the middle of view i. All pictures are made

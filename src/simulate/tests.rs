@@ -131,7 +131,7 @@ fn mask(display: &Display) -> Mask {
     display.mask(&whole, display.views).unwrap()
 }
 
-/// What the panel shows of views that are `colour(view, x, row)`.
+/// The picture of the panel for views of `colour(view, x, row)`.
 fn shown(display: &Display, colour: impl Fn(u16, u32, u32) -> [u8; 3]) -> RgbImage {
     let mask = mask(display);
     RgbImage::from_fn(SIZE.0, SIZE.1, |x, row| {

@@ -7,7 +7,7 @@ use super::{RotatingScreen, Volume, VolumeError, Voxel};
 /// A voxel is visible from an eye where nothing lies more than this before it, in radii of the display: four pixels of a slice.
 pub const VISIBLE: f64 = 0.01;
 
-/// Rows of the pictures in which it is told what is visible: two rows of a slice fall on one of these, so that surfaces have no gaps.
+/// Rows of the pictures that decide which samples are visible: two rows of a slice fall on one of these, so that surfaces have no gaps.
 const ROWS: u32 = 384;
 
 /// Two volumes compared. Neighbouring voxels are those that differ by at most one sector, one column and one row: as far as a piece may be from its surface.

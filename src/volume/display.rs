@@ -24,7 +24,7 @@ pub struct RotatingScreen {
     pub radius: f64,
     /// Pictures that are shown one after the other.
     pub slices: u32,
-    /// What they take.
+    /// Their memory.
     pub turn: Turn,
     /// Columns of a slice, and rows: the square around the screen. Even.
     pub pixels: u32,

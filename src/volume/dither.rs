@@ -1,8 +1,8 @@
 //! From colours to light that is on or off.
 //!
 //! A pixel of the display has one bit for each channel, so a colour is the share of the voxels around it that are lit, and means of light are what the eye takes:
-//! shares are those of decoded sRGB. The threshold of a voxel depends on its place alone. Error diffusion hands what a pixel has too much to its neighbours
-//! in the picture, but in a slice a surface is a line, which has none to both sides; what it would hand on lies in other slices. Here a
+//! shares are those of decoded sRGB. The threshold of a voxel depends on its place alone. Error diffusion passes the error of a pixel to its neighbours
+//! in the picture. In a slice a surface is a line without neighbours at its sides; they lie in other slices. Here a
 //! surface cuts through a grid of thresholds that has all of them in each of its lines: 256 neighbours along any of the three axes
 //! have each threshold once. The grid is a lattice, after Roberts' R3 sequence ("The Unreasonable Effectiveness of Quasirandom Sequences", 2018), its steps
 //! rounded to odd numbers. The channels' thresholds are a third apart, so that one of grey is not all black or all white.
@@ -24,7 +24,7 @@ pub struct Lit {
     pub channels: u8,
 }
 
-/// What the display shows: the voxels of the slices, with one bit for each channel.
+/// The picture of the display: the voxels of the slices, with one bit for each channel.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Slices {
     pub(super) screen: RotatingScreen,

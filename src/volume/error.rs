@@ -1,4 +1,4 @@
-//! What cannot be shown in a volume, in one sentence each.
+//! Errors of volumes, in one sentence each.
 
 use std::path::PathBuf;
 

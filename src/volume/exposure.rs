@@ -10,7 +10,7 @@ use crate::interleave::reference::{encoded, linear};
 const ABOVE: usize = 20;
 
 impl Volume {
-    /// The same with all light multiplied, by at least 1, so that one voxel of twenty would be brighter than white; and by how much. Voxels that are black do not count.
+    /// The same with all light multiplied, by at least 1, so that one voxel in twenty would be brighter than white, and the factor. Black voxels do not count.
     #[must_use]
     pub fn exposed(mut self) -> (Volume, f32) {
         let mut counts = [0_usize; 256];

@@ -1,4 +1,4 @@
-//! What an eye sees of the slices.
+//! The picture that an eye sees of the slices.
 //!
 //! The screen lets light through and hides nothing, so the light of all voxels is added. A voxel shines the same in all directions, and for as long as the
 //! screen takes through its sector: its light is spread over that arc. (A real screen shows less of itself edge-on.)
@@ -23,7 +23,7 @@ pub struct Sight {
 /// The sphere's part of the picture's smaller side.
 const FITS: f64 = 0.96;
 
-/// Nearer than this many radii there is no picture to speak of.
+/// An eye has to be at least this many radii away.
 const NEAREST: f64 = 1.05;
 
 /// Share of the lit pixels that are brighter than white.
@@ -46,7 +46,7 @@ impl Sight {
         }
     }
 
-    /// What is seen. Exposed so that one in a hundred of the pixels that have any light is brighter than white.
+    /// The picture. Exposed so that one in a hundred of the pixels that have any light is brighter than white.
     pub fn see(&self, slices: &Slices) -> Result<RgbImage, VolumeError> {
         let camera = self.camera(slices.screen())?;
         let light = light(slices, &camera);
@@ -126,7 +126,7 @@ pub(super) struct Camera {
     far: f32,
     /// From the nearest point of the display, inches.
     near: f32,
-    /// Pixels of what is an inch wide an inch away.
+    /// Pixels per inch, an inch away.
     scale: f32,
     size: [u32; 2],
 }
@@ -211,7 +211,7 @@ impl Camera {
     }
 }
 
-/// Points over a voxel, as far apart as a picture can tell: angles from its middle, radians, and pixels of the slice outwards and down.
+/// Points over a voxel, as far apart as the picture resolves: angles from its middle, radians, and pixels of the slice outwards and down.
 pub(super) struct Spread {
     /// By column.
     turns: Vec<Vec<[f32; 2]>>,
@@ -275,7 +275,7 @@ pub(super) fn direction(screen: &RotatingScreen, half_plane: usize) -> [f32; 2] 
     [sin as f32, cos as f32]
 }
 
-/// By pixel, in whole parts of a voxel's light, so that the order of the sums is nothing.
+/// By pixel, in whole parts of a voxel's light, so that the sums do not depend on their order.
 fn light(slices: &Slices, camera: &Camera) -> Vec<[u32; 3]> {
     let screen = slices.screen();
     let spread = Spread::of(screen, camera);

@@ -1,7 +1,7 @@
 //! Pieces of surfaces on their way into voxels.
 //!
 //! Each thread collects its pieces by half plane, and then each half plane is put together by one thread: no locks, and the voxels that
-//! are worked on fit into a cache. The result does not depend on the number of threads, nor on what they have done first.
+//! are worked on fit into a cache. The result does not depend on the number of threads, nor on the order of their work.
 
 use super::display::{Cells, Place};
 use super::{RotatingScreen, Volume, Voxel};
@@ -15,7 +15,7 @@ const MOST: u64 = (1 << (64 - 3 * SUM)) - 1;
 /// Pieces of a half plane that are kept in one place.
 const CHUNK: usize = 1024;
 
-/// Parts that the work is cut into for each thread: one that is done with its own takes another's.
+/// Parts of the work per thread; a thread that has finished its own takes those of another.
 const PARTS: usize = 16;
 
 /// Red, green and blue in the low three bytes.
@@ -28,7 +28,7 @@ pub(super) struct Fragments {
     pub(super) cells: Cells,
     /// By half plane: the voxel in the high half, the colour in the low one.
     pieces: Vec<Vec<u64>>,
-    /// Where those were full, by half plane: pieces are not moved when there are more.
+    /// Further pieces where those were full, by half plane, so that pieces are never moved.
     full: Vec<Vec<Vec<u64>>>,
 }
 
@@ -102,7 +102,7 @@ pub(super) fn threads() -> usize {
     std::thread::available_parallelism().map_or(1, NonZero::get)
 }
 
-/// Runs a function on consecutive parts of `items`, and puts what it has made into voxels.
+/// Runs a function on consecutive parts of `items`, and puts its pieces into voxels.
 pub(super) fn collect<T: Sync>(
     screen: &RotatingScreen,
     items: &[T],
@@ -147,7 +147,7 @@ pub(super) fn collect<T: Sync>(
     }
 }
 
-/// What a function makes of the numbers below `end`, in order, each thread with a function of its own.
+/// The results of a function for the numbers below `end`, in order, each thread with a function of its own.
 pub(super) fn by_number<T: Send, F: FnMut(u32) -> T>(
     end: u32,
     with: impl Fn() -> F + Sync,

@@ -1,13 +1,14 @@
 //! Pictures for a volumetric display: a screen that turns about an axis, and onto which slices of the scene are projected as it turns.
 //!
 //! Popescu et al., "3D Display Rendering Acceleration Using Occlusion Camera Reference Images", sections VI and VII. A scene comes as
-//! triangles ([`Volume::of_triangles`]) or, in a fraction of the time, as the reference image of what one viewer can see of it
-//! ([`Volume::of_reference`]); `program` makes that of what a program has shown, whose triangles nobody has. `exposure` makes it as bright as can be, `dither` makes light of its colours, with one bit for each channel, `stack` keeps that as a folder of pictures,
-//! `eye` shows what is seen of it, and `compare` says how far two volumes are apart.
+//! triangles ([`Volume::of_triangles`]) or, in a fraction of the time, as a reference image from the place of one viewer
+//! ([`Volume::of_reference`]). `program` makes that image from the samples of a program, whose triangles are not known. `exposure` scales
+//! the light, `dither` gives it one bit for each channel, and `stack` keeps it as a folder of pictures. `eye` shows the slices as an eye
+//! sees them, and `compare` measures the difference of two volumes.
 //!
-//! Voxels. A slice stands for the sector that the screen goes through while it is shown, half a sector to either side of its plane; its pixels are
-//! voxels: rings cut by sectors, a pixel high and a pixel deep. A surface lights each voxel that a piece of it is found in, wherever in the sector that is. To draw the
-//! line in which it meets the plane itself, as a slice of a solid would, loses what lies between two planes: all of a surface that is parallel to one.
+//! Voxels. A slice stands for the sector that the screen sweeps while it is shown, half a sector to either side of its plane. Its pixels are
+//! voxels: rings cut by sectors, a pixel high and a pixel deep. A surface lights each voxel that has a piece of it, anywhere in the sector. To draw only the
+//! line in which it meets the plane itself, as a slice of a solid would, loses everything between two planes, such as a whole surface that is parallel to them.
 //! No point of a surface is farther than a voxel from one of its pieces, in sectors, pixels outwards or pixels down: a slice has no gaps.
 #![forbid(unsafe_code)]
 

@@ -3,13 +3,13 @@
 use super::display::{Cells, Place, rounded};
 use super::fragments::{Fragments, packed};
 
-/// A surface over no more sectors than this is a straight line in them, to a fifth of a pixel.
+/// Over no more sectors than this, a surface is straight in the grid, to a fifth of a pixel.
 pub(super) const BENT: f32 = 1.5;
 
-/// Over an angle no wider, in radians, and a distance from the axis that changes by no larger part than this, steps in space are even enough.
+/// Up to this angle, in radians, and this relative change of the distance from the axis, steps in space are even enough.
 const NARROW: f32 = 0.25;
 
-/// Pixels: what is nearer to the axis has no direction to speak of.
+/// Pixels from the axis; a nearer point has no useful direction.
 const AXIS: f32 = 0.5;
 
 /// Pieces that are placed together.
@@ -66,7 +66,7 @@ impl<const N: usize> Shape<N> {
     }
 }
 
-/// The least of some numbers, and how far the greatest is from it.
+/// The least of some numbers, and the distance to the greatest.
 #[inline(always)]
 pub(super) fn extent<const N: usize>(values: [f32; N]) -> (f32, f32) {
     let (mut least, mut greatest) = (values[0], values[0]);
@@ -119,7 +119,7 @@ pub(super) fn fill_straight(corners: &[Corner; 4], places: &[Place; 4], fragment
     });
 }
 
-/// The same over one that is straight in space; corners are in pixels.
+/// The same over a surface that is straight in space; corners are in pixels.
 #[inline(never)]
 pub(super) fn fill_in_space(corners: &[Corner; 4], places: &[Place; 4], fragments: &mut Fragments) {
     let cells = fragments.cells;
@@ -182,7 +182,7 @@ pub(super) fn fill_triangle(corners: &[Corner; 3], fragments: &mut Fragments) {
     fill_anywhere(&[top, top, left, right], fragments);
 }
 
-/// The corners, first that across the shortest edge; edges are across the corners of their numbers.
+/// The corners, first the one opposite the shortest edge. An edge has the number of the corner opposite to it.
 #[inline(always)]
 pub(super) fn turned(edges: [f32; 3]) -> [usize; 3] {
     match edges {
@@ -240,7 +240,7 @@ fn around_axis(corners: &[Corner; 4], (start, length): (f32, f32), fragments: &m
     }
 }
 
-/// Where the shortest arc over some directions begins, and how long it is, in sectors.
+/// Begin and length of the shortest arc over some directions, in sectors.
 fn arc(all: f32, mut turns: [f32; 4]) -> (f32, f32) {
     turns.sort_by(f32::total_cmp);
     let [a, b, c, d] = turns;
@@ -254,7 +254,7 @@ fn arc(all: f32, mut turns: [f32; 4]) -> (f32, f32) {
     (widest.0, all - widest.1)
 }
 
-/// Puts pieces over the surface between corners, so many steps apart: along the upper edge, the lower one, and the longer of the others.
+/// Puts pieces over the surface between corners. The numbers of steps are for the upper edge, the lower one, and the longer of the others.
 #[inline(always)]
 fn fill(
     corners: &[Corner; 4],

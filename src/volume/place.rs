@@ -1,29 +1,29 @@
 //! Where in the display the scene of a program stands.
 //!
-//! A program has eye space in units of its own, and a picture whose angle is mostly wider than the 11° at which the display is seen. So the scene is not
-//! scaled alike in all directions, but so that the display's viewer sees the program's own picture: 1/distance from the viewer is a straight line over
-//! 1/w. That is a projective map: lines stay lines, planes planes, what is infinitely far comes to lie somewhere, and from beside the
-//! viewer things are parted as they are from beside the program's camera.
+//! A program has an eye space in units of its own, and its field of view is mostly wider than the 11° of the display. So the scene is not
+//! scaled equally in all directions, but so that the display's viewer sees the program's own picture: 1/distance from the viewer is linear in
+//! 1/w. That is a projective map. Lines stay lines, planes stay planes, and infinity gets a finite place. From beside the
+//! viewer, points have the parallax that they have from beside the program's camera.
 //!
 //! The picture's corners, as far back as half a radius behind the axis, touch the sphere; the scene lies between there and as far before the axis. Samples
-//! that are farther or nearer than all but one in 200 do not count. What is outside of the sphere is cut off there.
+//! that are farther or nearer than all but one in 200 do not count. Parts outside of the sphere are cut off there.
 
 use super::RotatingScreen;
 use crate::synthesis::Pinhole;
 
-/// Of the box before and behind the axis, in radii.
+/// Depth of the box before and behind the axis, in radii.
 const DEPTH: f64 = 0.5;
 
 /// One sample in so many, at the far and at the near end, does not count.
 const SPECKS: usize = 200;
 
-/// 1/w over which the box reaches at least, of that in its middle: a flat scene is not made a deep one.
+/// Least range of 1/w in the box, as a part of that in its middle, so that a flat scene stays flat.
 const LEAST: f64 = 0.1;
 
-/// To the side of the viewer, inches: as far as the paper's go.
+/// Distance of the farthest eye to the side of the viewer, inches, as in the paper.
 const SIDE: f64 = 4.0;
 
-/// From what a camera has seen to display space.
+/// From the samples of a camera to display space.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Box {
     /// The viewer as a camera that sees the program's picture; its 1/w are in inches.
@@ -84,7 +84,7 @@ impl Box {
         self.line[0] * inverse + self.line[1]
     }
 
-    /// Pixels by which the farthest eye parts things per unit of 1/inches.
+    /// Disparity for the farthest eye, pixels per unit of 1/inches.
     pub(super) fn parallax(&self, screen: &RotatingScreen) -> f64 {
         self.scale * screen.viewer * SIDE
     }

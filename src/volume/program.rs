@@ -1,4 +1,4 @@
-//! What slices are made of the samples of a running program.
+//! Slices from the samples of a running program.
 
 use super::place::Box;
 use super::samples::{Head, MAGIC, NOTHING, Picture, Samples};
@@ -8,14 +8,14 @@ use crate::synthesis::{Reference, Vertex};
 /// A depth is that of a clear if it is no farther from it than this: one of 24 bits comes back with the error of one step.
 const STEP: f32 = 1e-7;
 
-/// What is joined may be parted by no more than this on the way to the farthest eye, pixels. Four, which views of the bench take, put sheets between
+/// Neighbours are joined if they part by no more than this on the way to the farthest eye, pixels. Four, which views of the bench take, put sheets between
 /// surfaces: 2 to 14 % of the voxels of its models had none of the surface near them, with one less than 1 %.
 const PARTED: f64 = 1.0;
 
-/// What slices are made of.
+/// The source of slices.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Source {
-    /// The reference image, and what of the own view is missing there.
+    /// The reference image, and the samples of the own view that are missing there.
     Reference,
     /// The own view alone.
     Own,
@@ -97,8 +97,8 @@ impl Samples {
         })
     }
 
-    /// The samples in display space, in a box in the middle of the display. `focal`: what has zero parallax is
-    /// in the plane of the display's axis; else that is wherever the scene fills the box best.
+    /// The samples in display space, in a box in the middle of the display. With `focal` the plane of zero parallax is
+    /// that of the display's axis; else the scene fills the box.
     pub fn image(
         &self,
         screen: &RotatingScreen,

@@ -1,7 +1,7 @@
 //! The reference image of a scene, by the mesh of its samples.
 //!
-//! Popescu et al., section VI: each sample is joined to its neighbours. Here the mesh is not made: a sample is placed in the grid of the voxels once,
-//! for all its neighbours, and four of them are one surface with straight sides there.
+//! Popescu et al., section VI: each sample is joined to its neighbours. The mesh is not built here. A sample is placed in the grid of the voxels once
+//! for all its neighbours, and four samples are one surface with straight sides there.
 
 use super::display::{Cells, Place};
 use super::fragments::{Fragments, collect, packed};
@@ -11,7 +11,7 @@ use super::patch::{
 use super::{RotatingScreen, Vertex, Volume, VolumeError};
 use std::ops::Range;
 
-/// With which of its neighbours a sample is of one surface.
+/// The neighbours that a sample is joined to, as one surface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Joined {
     /// Neither the right nor the lower one.
@@ -44,7 +44,7 @@ impl Joined {
     }
 }
 
-/// What a pixel of a reference image has seen.
+/// The sample of a pixel of a reference image.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sample {
     /// In display space, inches.
@@ -122,7 +122,7 @@ fn quad(upper: &[Option<Sample>], lower: &[Option<Sample>], x: usize) -> Option<
 }
 
 impl Volume {
-    /// The voxels that the mesh of a reference image goes through, and those of samples that are joined to too few others for that.
+    /// The voxels that the mesh of a reference image goes through, and those of samples without a triangle.
     pub fn of_reference(
         screen: &RotatingScreen,
         image: &ReferenceImage,
@@ -161,7 +161,7 @@ struct Row {
     places: Vec<Place>,
     /// Samples that belong to a surface.
     used: Vec<bool>,
-    /// From the first sample that there is to the last one.
+    /// From the first sample with a depth to the last one.
     filled: Range<usize>,
 }
 
@@ -200,7 +200,7 @@ impl Row {
     }
 }
 
-/// Which samples of two rows the surfaces between them have.
+/// The samples of two rows that the surfaces between them use.
 fn mark(above: &[Option<Sample>], below: &[Option<Sample>], upper: &Row, lower: &mut Row) {
     for x in upper.filled.clone() {
         if quad(above, below, x).is_some() {
@@ -209,7 +209,7 @@ fn mark(above: &[Option<Sample>], below: &[Option<Sample>], upper: &Row, lower: 
     }
 }
 
-/// The surfaces between two rows, and what the upper one has beside surfaces.
+/// The surfaces between two rows, and the single samples of the upper one.
 fn draw_row(
     above: &[Option<Sample>],
     below: &[Option<Sample>],

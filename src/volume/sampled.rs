@@ -4,8 +4,8 @@ use super::{Joined, ReferenceImage, Sample};
 use crate::synthesis::{Pinhole, Reference};
 
 impl ReferenceImage {
-    /// What a camera in display space has seen, with straight rays or bent ones; `threshold` is the step in 1/w from which surfaces are not joined
-    /// (see [`crate::synthesis::Edges::of`]). What is infinitely far is left out.
+    /// The reference image of a camera in display space, with straight or distorted rays; `threshold` is the step in 1/w from which surfaces are not joined
+    /// (see [`crate::synthesis::Edges::of`]). Samples at infinity are left out.
     pub fn of(image: &Reference, camera: &Pinhole, threshold: f64) -> ReferenceImage {
         let sample = |(vertex, [right, below]): (crate::synthesis::Vertex, [bool; 2])| {
             let place = camera.unproject(vertex.at, vertex.inverse);

@@ -1,7 +1,7 @@
 //! The samples of a program's frame with their depths, in a file between the layer, which writes it, and the command, which reads it.
 //!
-//! A program hands over samples with depths, not its geometry: those that its own camera sees, and those of the reference image, which reach behind.
-//! The file is a line that says what it is, a line of JSON ([`Head`]), and the planes: colours and depths of the own view, colours, depths and
+//! The geometry of a program is not known, but its samples with depths are: those that its own camera sees, and those of the reference image, which reach
+//! behind occluders. The file is a line that names the format, a line of JSON ([`Head`]), and the planes: colours and depths of the own view, colours, depths and
 //! by how many pixels each sample is moved of the reference image. Depths and pixels are 32-bit floats with the lowest byte first; rows from the top.
 
 use serde::{Deserialize, Serialize};
@@ -22,9 +22,9 @@ pub struct Head {
     pub viewport: [i32; 4],
     /// Slope and offset of 1/w over the depth.
     pub line: [f64; 2],
-    /// What stands before everything, such as a weapon in the hand.
+    /// The part of the depth range before everything else, such as a weapon in the hand.
     pub before: Option<Before>,
-    /// The depth of what nothing was drawn on.
+    /// The depth of pixels that no draw has covered.
     pub clear: f32,
     /// Clip-space w of zero parallax.
     pub focal: f64,
@@ -52,7 +52,7 @@ pub struct Samples {
     pub own: Picture,
     /// The reference image.
     pub reference: Picture,
-    /// Pixels to the right by which each sample of it lies beside its place.
+    /// Pixels to the right by which each of its samples was moved.
     pub moved: Vec<f32>,
 }
 

@@ -96,7 +96,7 @@ impl Slices {
     }
 }
 
-/// What a stack may take the place of: the names in a folder that is there; none where there is no folder yet, but one for it.
+/// The files that a stack may replace: the names in a folder that is there; none where there is no folder yet, but one for it.
 fn names(folder: &Path) -> Result<Option<Vec<String>>, String> {
     if !folder.exists() {
         let parent = folder.parent().filter(|parent| *parent != Path::new(""));

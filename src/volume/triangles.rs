@@ -1,7 +1,7 @@
 //! Any triangles.
 //!
-//! Nearly all triangles of a large scene are smaller than a voxel, and such a one is a single piece. A larger one is filled with pieces: straight in the
-//! grid of the voxels where that bends little, else in space. What is near the axis or goes far around it is halved before.
+//! Nearly all triangles of a large scene are smaller than a voxel, and are a single piece. A larger triangle is filled with pieces: straight in the
+//! grid of the voxels where it is nearly straight there, else in space. Triangles near the axis, or that go far around it, are halved before.
 
 use super::display::Place;
 use super::fragments::{Fragments, collect};
@@ -24,7 +24,7 @@ pub type Triangle = [Vertex; 3];
 const BLOCK: usize = 64;
 
 impl Volume {
-    /// The voxels that triangles go through. What is outside of the sphere is cut off; corners that are no numbers make no triangle.
+    /// The voxels that triangles go through. Parts outside of the sphere are cut off; corners that are no numbers make no triangle.
     pub fn of_triangles(
         screen: &RotatingScreen,
         triangles: &[Triangle],

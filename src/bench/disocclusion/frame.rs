@@ -8,12 +8,12 @@ use image::{Rgb, RgbImage};
 /// Marks a sample that is missing, as Figure 20 does.
 const WHITE: Rgb<u8> = Rgb([255; 3]);
 
-/// What a frame has of the true picture.
+/// A frame compared with the true picture.
 #[derive(Clone, Debug)]
 pub struct Frame {
     /// Pixels of the true picture that show the scene.
     pub samples: usize,
-    /// By pixel: there is such a sample and it is not in the frame.
+    /// By pixel: the sample of the truth is missing in the frame.
     pub missing: Vec<bool>,
     /// Samples that are not at their own pixel; those at silhouettes that lie a pixel off are among them.
     pub displaced: usize,
@@ -21,7 +21,7 @@ pub struct Frame {
     pub holes_percent: f64,
     /// The whole picture, holes black.
     pub all: Comparison,
-    /// With what is missing taken from the truth.
+    /// With the missing samples taken from the truth.
     pub present: Comparison,
     /// Of all pixels where both show the scene.
     pub disparity: Disparity,
@@ -29,7 +29,7 @@ pub struct Frame {
     pub picture: RgbImage,
 }
 
-/// Pixels by which what is shown parts from the truth on the way to the farthest viewpoint; what shows something else is not left out.
+/// Disparity errors of a frame on the way to the farthest viewpoint, pixels. Pixels that show another surface count.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Disparity {
     /// Half of the pixels have no more.
@@ -43,7 +43,7 @@ pub struct Disparity {
 }
 
 impl Disparity {
-    /// What a pixel may have, in pixels.
+    /// The error that a pixel may have, in pixels.
     pub const ASKED: f64 = 0.5;
 
     /// Of such pixels; none are without error.
@@ -107,7 +107,7 @@ impl Frame {
         self.missing.iter().filter(|missing| **missing).count()
     }
 
-    /// The frame, darker, with what is missing in white.
+    /// The frame, darker, with the missing samples in white.
     #[must_use]
     pub fn marked(&self) -> RgbImage {
         let mut picture = self.picture.clone();

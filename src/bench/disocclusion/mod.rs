@@ -1,4 +1,4 @@
-//! Samples of the true picture that views of a depth image, and of an occlusion camera's reference image, have not.
+//! Samples of the true picture that are missing in views of a depth image, and of an occlusion camera's reference image.
 //!
 //! Popescu, Rosen and Aliaga, section VIII: "We measure the disocclusion errors present in a frame by rendering a ground truth image from
 //! geometry and counting how many ground truth image samples are not present in the frame. We rendered sequences of frames by moving the
@@ -18,11 +18,11 @@ use crate::model::{Surface, project, triangles};
 use crate::synthesis::{Distortions, Edges, Pinhole, Reference, Splats, Triangle};
 use std::time::{Duration, Instant};
 
-/// What the paper says is left of a depth image's missing samples, on average of its scenes, %.
+/// Share of a depth image's missing samples that is left in the paper, on average of its scenes, %.
 pub const PAPER: f64 = 4.5;
-/// What the frames are made of. The last is the occlusion camera's reference image in twice as many columns and rows.
+/// The sources of the frames. The last is the occlusion camera's reference image in twice as many columns and rows.
 pub const IMAGES: [&str; 3] = ["depth image", "occlusion camera", "twice as fine"];
-/// What is compared with the truth: a frame of each of those, and the truth itself, sampled half a pixel aside. Two pictures of samples part by as much
+/// The pictures that are compared with the truth: a frame of each of those, and the truth itself, sampled half a pixel aside. Two pictures of samples part by as much
 /// as that without either being wrong.
 pub const FRAMES: [&str; 4] = [IMAGES[0], IMAGES[1], IMAGES[2], "truth, aside"];
 /// "The decrease in resolution can be alleviated by increasing the resolution of the reference image" (section IV.C, Figure 15).
@@ -42,13 +42,13 @@ const PAPER_SIZE: [f64; 2] = [720.0, 480.0];
 const RADIUS: f64 = 30.0;
 /// α, at most.
 const ASYMMETRY: f64 = 4.0;
-/// Splats reach so much farther than the edges of the cube ask for.
+/// Factor by which splats reach farther than the edges of the cube need.
 const MORE: f64 = 1.1;
-/// A step in depth is one that opens a hole wider than this at the farthest viewpoint, pixels. Less is joined.
+/// A depth discontinuity opens a hole wider than this at the farthest viewpoint, pixels. Smaller steps are joined.
 const STEP: f64 = 4.0;
 /// Rays are distorted where one of this opens.
 const EDGE: f64 = 3.5;
-/// A sample is another one if it parts from it by more than this on the way to the farthest viewpoint, pixels.
+/// Two samples differ if they part by more than this on the way to the farthest viewpoint, pixels.
 const TOLERANCE: f64 = 1.0;
 
 /// How it is measured.
@@ -58,7 +58,7 @@ pub struct Experiment {
     pub size: [u32; 2],
 }
 
-/// What frames are made of.
+/// The source of a frame.
 #[derive(Clone, Debug)]
 pub struct Images {
     /// As [`IMAGES`] has them.
@@ -76,7 +76,7 @@ impl Experiment {
         SCALE * w.min(h)
     }
 
-    /// Pixels by which the farthest viewpoint parts things per unit of 1/w.
+    /// Disparity for the farthest viewpoint, pixels per unit of 1/w.
     fn parallax(&self) -> f64 {
         self.scale() * DISTANCE * HALF * 2_f64.sqrt()
     }
@@ -99,7 +99,7 @@ impl Experiment {
         Pinhole::through(self.size, self.scale(), [x, y, DISTANCE + z])
     }
 
-    /// What a camera sees of the geometry.
+    /// The picture of the geometry by a camera.
     #[must_use]
     pub fn draw(&self, camera: &Pinhole, scene: &[Surface]) -> Reference {
         self.draw_moved(camera, scene, 0.0)
@@ -123,7 +123,7 @@ impl Experiment {
         drawn
     }
 
-    /// The rays of the occlusion camera, of what the reference viewpoint sees.
+    /// The rays of the occlusion camera, from the depth image of the reference viewpoint.
     #[must_use]
     pub fn distortions(&self, depth_image: &Reference) -> Distortions {
         let edges = Edges::of(&depth_image.depth_image(), EDGE / self.parallax());
@@ -161,7 +161,7 @@ impl Experiment {
         }
     }
 
-    /// What is seen of an image from so many inches beside the reference viewpoint.
+    /// The view of an image from so many inches beside the reference viewpoint.
     #[must_use]
     pub fn seen(&self, image: &Reference, offset: [f64; 3]) -> Reference {
         let own = Experiment { size: image.size() };

@@ -1,4 +1,4 @@
-//! What was measured, as text, JSON and CSV.
+//! The results as text, JSON and CSV.
 
 use super::{Experiment, FRAMES, Frame, IMAGES, Images, PAPER};
 use crate::bench::error::BenchError;
@@ -23,7 +23,7 @@ pub struct Outcome {
     pub views: Vec<View>,
 }
 
-/// A scene, and what its images cost.
+/// A scene, and the time to make its images.
 #[derive(Clone, Debug, Serialize)]
 pub struct Scene {
     /// Name of the model.
@@ -38,7 +38,7 @@ pub struct Scene {
     pub single_ms: f64,
     /// Of the reference images.
     pub references: Vec<Made>,
-    /// What is left in the paper, on average of its scenes, %.
+    /// The share that is left in the paper, on average of its scenes, %.
     pub paper_left_percent: f64,
 }
 
@@ -78,17 +78,17 @@ pub struct View {
     pub psnr: Option<f64>,
     /// At most 1.
     pub ssim: f64,
-    /// With what is missing taken from the truth.
+    /// With the missing samples taken from the truth.
     pub present_psnr: Option<f64>,
     /// The same.
     pub present_ssim: f64,
-    /// Pixels by which what is not a hole parts from the truth: half of it no more than this.
+    /// Disparity error of pixels that are no holes, the median, pixels.
     pub disparity_median: f64,
     /// 95 % of it no more than this.
     pub disparity_95: f64,
     /// The worst.
     pub disparity_max: f64,
-    /// Of what is not a hole, %: more than half a pixel.
+    /// Share of the pixels that are no holes with an error of more than half a pixel, %.
     pub disparity_over_half_percent: f64,
 }
 

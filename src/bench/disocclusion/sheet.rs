@@ -5,8 +5,8 @@ use super::{Experiment, Frame, IMAGES, Images, View};
 use crate::model::Surface;
 use image::{RgbImage, imageops};
 
-/// Of one scene, from left to right: [`IMAGES`] in the size of the picture, the frame of each at the viewpoint where most is missing of the
-/// occlusion camera, what is missing in white, and the truth there.
+/// Of one scene, from left to right: [`IMAGES`] in the size of the picture, the frame of each at the viewpoint where the occlusion camera misses most,
+/// with the missing samples in white, and the truth there.
 #[must_use]
 pub fn sheet(
     experiment: &Experiment,

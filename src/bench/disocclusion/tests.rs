@@ -1,4 +1,4 @@
-//! What is missing of scenes where that can be computed.
+//! Missing samples of scenes where their number can be computed.
 
 use super::*;
 use crate::model::MODELS;

@@ -398,7 +398,7 @@ const CLIPPED: &[&str] = &[
     "geometry-cut",
 ];
 
-/// What misses its bound, and why. What no longer does has to leave this list.
+/// The cases that miss their bound, with the reason. A case that no longer does has to leave this list.
 pub const MISSES: &[Miss] = &[
     Miss {
         case: "texture",

@@ -1,4 +1,4 @@
-//! What is measured of pictures. None of it knows how they were made.
+//! Measurements of pictures. They do not depend on how the pictures were drawn.
 
 use crate::display::{Display, Kind, MaskError, Number, Placement, Slanted};
 use image::{Rgb, RgbImage};
@@ -15,7 +15,7 @@ pub struct Marker {
     pub depth: f64,
 }
 
-/// What a scene said of its markers: `lens A` and `marker RRGGBB X DEPTH` lines.
+/// The markers that a scene has printed: `lens A` and `marker RRGGBB X DEPTH` lines.
 #[must_use]
 pub fn markers(text: &str) -> (f64, Vec<Marker>) {
     let mut lens = 0.0;
@@ -113,8 +113,8 @@ pub fn worst_step(expected: &RgbImage, actual: &RgbImage) -> f64 {
     from_nearest(expected, actual).max().map_or(0.0, f64::from)
 }
 
-/// Pixels that are more than 8 steps from every expected pixel within one pixel, and the other way round: what is there and should not be,
-/// and what is not.
+/// Pixels that are more than 8 steps from every expected pixel within one pixel, and the other way round: excess pixels,
+/// and missing ones.
 #[must_use]
 pub fn foreign(expected: &RgbImage, actual: &RgbImage) -> f64 {
     if expected.dimensions() != actual.dimensions() {

@@ -1,6 +1,6 @@
 //! The hard cases: scenes that several views at once are most likely to spoil, each with a bound on how far they may be off.
 //!
-//! Pure: the table, what is measured of pictures, verdicts. The command draws, and `tests/hard.rs` asserts what it says.
+//! Pure: the table, the measurements of pictures, the verdicts. The command draws, and `tests/hard.rs` asserts the verdicts.
 
 mod cases;
 pub mod measure;
@@ -11,7 +11,7 @@ use crate::config::OptionId;
 pub use cases::{CASES, MISSES};
 pub use outcome::{Outcome, Verdict, text, write_csv};
 
-/// A scene and what has to hold of it.
+/// A scene and its bound.
 #[derive(Debug)]
 pub struct Case {
     /// For `--case`.
@@ -20,13 +20,13 @@ pub struct Case {
     pub about: &'static str,
     /// What is drawn.
     pub subject: Subject,
-    /// What has to hold.
+    /// The bound.
     pub bounds: &'static [Bound],
     /// Where the number comes from.
     pub source: &'static str,
 }
 
-/// What a case looks at.
+/// The quantity that a case measures.
 #[derive(Debug)]
 pub enum Subject {
     /// A scene of the program `hard`.
@@ -69,7 +69,7 @@ pub fn why(case: &str, strategy: &str) -> Option<&'static str> {
 /// A quantity and its largest value.
 #[derive(Clone, Copy, Debug)]
 pub struct Bound {
-    /// What is measured, the worst of all views.
+    /// The measured value, the worst of all views.
     pub measure: Measure,
     /// Inclusive. Replay into layers makes the program's own calls: where pictures are compared it has to have 0.
     pub most: f64,
@@ -77,14 +77,14 @@ pub struct Bound {
     pub beside: f64,
 }
 
-/// What is measured. The oracle is the scene drawing the view itself, by fixed function, at the place where the layer's view lies.
+/// A quantity. The oracle is the scene drawing the view itself, by fixed function, at the place where the layer's view lies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Measure {
     /// Pixels that differ from the oracle's, %.
     Differing,
     /// Steps of 255 by which a pixel is off every pixel of the oracle's within one pixel of it: edges may be rounded, colours may not.
     Steps,
-    /// Pixels that are more than 8 steps off every one of the oracle's within one pixel: what leaks, and what is drawn wrong.
+    /// Pixels that are more than 8 steps off every one of the oracle's within one pixel: leaks and wrong draws.
     Foreign,
     /// How far the centre of a marker is from where the equation of the cameras puts it, pixels.
     Place,

@@ -1,4 +1,4 @@
-//! What was measured of the cases: verdicts, table, CSV.
+//! The results of the cases: verdicts, table, CSV.
 
 use crate::bench::error::BenchError;
 use crate::bench::table::columns;
@@ -25,7 +25,7 @@ pub struct Outcome {
     pub case: &'static str,
     /// Name of the configuration; empty where none has a part in it.
     pub strategy: &'static str,
-    /// What is measured, in its unit.
+    /// The measured value, in its unit.
     pub unit: &'static str,
     /// The largest value, inclusive.
     pub bound: Option<f64>,

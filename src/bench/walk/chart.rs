@@ -1,4 +1,4 @@
-//! Views drawn, rate, error and holes of each frame, under each other.
+//! True views, rate, error and disocclusions of each frame, in plots under each other.
 
 use super::Walk;
 use crate::bench::chart::{Area, COLOURS, Drawing, GREY, INK, font, save};
@@ -9,7 +9,7 @@ use std::path::Path;
 /// Pixels of one plot, and of the title.
 const PLOT: (u32, u32) = (1200, 260);
 const TITLE: u32 = 84;
-/// What equal pictures have, dB.
+/// The PSNR that stands for equal pictures, dB.
 const EXACT: f64 = 100.0;
 
 /// Draws the walk into a file.

@@ -1,4 +1,4 @@
-//! A recorded walk under `--strategy hybrid`: what each frame takes, how many of its views are drawn, and what that costs in the picture.
+//! A recorded walk under `--strategy hybrid`: time, number of true views, and error of each frame.
 //!
 //! The rate is measured in a run of its own, in which nothing is written. Pictures are compared afterwards, with as many views drawn in
 //! every frame as that run drew in it, so the program has to draw the same frames each time: a replayed trace does.
@@ -41,12 +41,12 @@ pub struct Frame {
     pub drawn: u32,
     /// Of the picture shown, against that with all views drawn, dB; none where they are equal.
     pub psnr: Option<f64>,
-    /// Pixels of it that show something of which nothing is known, %.
+    /// Share of its pixels that are disocclusions, %.
     pub hole_percent: f64,
 }
 
 impl Walk {
-    /// What is printed.
+    /// The text that is printed.
     #[must_use]
     pub fn text(&self) -> String {
         let budget = 1e3 / self.rate;
@@ -106,7 +106,7 @@ fn middle(values: &[f64]) -> f64 {
     Spread::of(values).map_or(0.0, |spread| spread.median)
 }
 
-/// Milliseconds and views drawn of frames, from what the layer reports: how many frames there were, and these of the last of them.
+/// Milliseconds and true views of frames, from the layer's report: the number of all frames, and the values of the last of them.
 /// None where one is not told of.
 #[must_use]
 pub fn told(

@@ -59,7 +59,7 @@ pub(super) fn run(arguments: &Arguments, preset: &'static Preset, size: (u32, u3
     Ok(ExitCode::SUCCESS)
 }
 
-/// What goes with programs does not go with this; the one size.
+/// Refuses options that are for programs; returns the one size.
 pub(super) fn check(
     arguments: &Arguments,
     sizes: Vec<(u32, u32)>,

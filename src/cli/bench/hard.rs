@@ -19,7 +19,7 @@ use std::process::ExitCode;
 
 /// Pixels of the window. Markers are 149 rows high, and tiles are a multiple of 32 pixels apart: these touch.
 const SIZE: [u32; 2] = [256, 192];
-/// What the views have to fit into to lie where the oracle draws them. Drivers that can hold less put them elsewhere.
+/// Size of the atlas that the oracle assumes. Drivers with a smaller maximum place the views elsewhere.
 const LIMITS: Limits = Limits {
     side: 16384,
     layers: 2048,
@@ -177,7 +177,7 @@ fn outcome(
     }
 }
 
-/// One scene: what it draws itself, and what the layer makes of it.
+/// One scene: its own pictures, and those under the layer.
 struct Runner<'a> {
     case: &'static Case,
     scene: &'static str,
@@ -193,7 +193,7 @@ struct Runner<'a> {
     drawn: HashMap<(Option<u32>, u32, u32), (RgbImage, String)>,
 }
 
-/// What a run under the layer gave.
+/// The results of a run under the layer.
 struct Layered {
     views: Vec<RgbImage>,
     said: String,
@@ -296,7 +296,7 @@ impl Runner<'_> {
         })
     }
 
-    /// What the scene draws and says without the layer: a view of it, or the program as it is.
+    /// The picture and the answers of the scene without the layer: one view, or the program as it is.
     fn oracle(
         &mut self,
         view: Option<u32>,

@@ -24,10 +24,10 @@ const WARM_UP: u32 = 4;
 const TURN: f64 = 15.0;
 const MOST_OF_A_TURN: u32 = 10;
 
-/// Frames in which `auto` finds what it takes.
+/// Frames in which `auto` makes its choice.
 const TRIAL: u32 = 80;
 
-/// What takes turns.
+/// The programs that take turns.
 pub(super) struct Group {
     pub(super) scene: &'static Scene,
     /// Pixels of the window.
@@ -154,7 +154,7 @@ pub(super) fn bar(steps: u64) -> ProgressBar {
     ProgressBar::new(steps).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
 }
 
-/// What the bare program reaches; the best where it ran several times.
+/// The rate of the bare program; the best one of several runs.
 fn limit(bench: &mut Bench, group: &Group) {
     let (scene, (width, height)) = (group.scene.name, group.size);
     let Some(row) = bench.rows.last() else { return };
@@ -300,7 +300,7 @@ impl Runner<'_> {
         })
     }
 
-    /// What `auto` comes to, drawn by itself: pictures that are captured are replayed. None for other configurations.
+    /// The choice of `auto`, as a configuration of its own, because captured pictures are replayed. None for other configurations.
     fn found(
         &self,
         variant: &Variant,
@@ -406,7 +406,7 @@ impl Place {
     }
 }
 
-/// What we read of the layer's report.
+/// The fields that are read from the layer's report.
 #[derive(Default, serde::Deserialize)]
 pub(super) struct Report {
     draws: BTreeMap<String, u64>,
@@ -422,7 +422,7 @@ impl Report {
         serde_json::from_str(&text).unwrap_or_default()
     }
 
-    /// Why draws fell to replay, and what else there is to say.
+    /// Why draws fell to replay, and other notes.
     pub(super) fn words(self) -> String {
         let reasons: Vec<_> = self.fallbacks.into_keys().chain(self.notes).collect();
         reasons.join("; ")

@@ -1,4 +1,4 @@
-//! `manyview bench`: what may be asked for; `measure` does it.
+//! `manyview bench`: its options; `measure` does the work.
 #![forbid(unsafe_code)]
 
 mod disocclusion;
@@ -76,7 +76,7 @@ pub(crate) struct Arguments {
         conflicts_with = "preset"
     )]
     disable: Vec<String>,
-    /// What --disable was called
+    /// The former name of --disable
     #[arg(long, hide = true, value_delimiter = ',', conflicts_with_all = ["preset", "disable"])]
     without: Vec<String>,
     /// Size of the window in pixels [default: 512x384, or the preset's]
@@ -199,7 +199,7 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
     Ok(ExitCode::SUCCESS)
 }
 
-/// What is written in the end can be written.
+/// Checks that the files can be written before anything is measured.
 fn check_files(arguments: &Arguments) -> Result<(), LaunchError> {
     for (purpose, file) in [
         ("the JSON", &arguments.json),
@@ -216,7 +216,7 @@ fn check_files(arguments: &Arguments) -> Result<(), LaunchError> {
     Ok(())
 }
 
-/// What is measured, as JSON, and says so.
+/// Writes the results as JSON, and says so.
 fn write_json(measured: &impl serde::Serialize, file: &Path) -> Result<(), LaunchError> {
     std::fs::write(file, json(measured)?).map_err(|error| unwritten(file, &error))?;
     tell(&format_args!("wrote {}", file.display()));
@@ -231,7 +231,7 @@ fn unwritten(file: &Path, reason: &dyn std::fmt::Display) -> LaunchError {
     .into()
 }
 
-/// What is measured together, checked: each is one scene, size and number of views, drawn in turns by all configurations.
+/// The groups that are measured together, checked. Each is one scene, size and number of views, drawn in turns by all configurations.
 fn groups(
     arguments: &Arguments,
     preset: Option<&'static Preset>,
@@ -297,7 +297,7 @@ fn groups(
     Ok(groups)
 }
 
-/// What was given, or else the preset's or the default.
+/// The given values, else those of the preset, else the default.
 fn sizes(
     arguments: &Arguments,
     preset: Option<&'static Preset>,
@@ -312,7 +312,7 @@ fn sizes(
     Ok(sizes)
 }
 
-/// What was given, or else the default.
+/// The given values, else the default.
 fn or_default(given: &[String], default: &[&str]) -> Vec<String> {
     match given {
         [] => owned(default),

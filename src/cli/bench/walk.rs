@@ -24,7 +24,7 @@ const MOST: u64 = 900;
 /// For one run of the program.
 const LIMIT: Duration = Duration::from_secs(900);
 
-/// What one run of the program is asked for.
+/// The request for one run of the program.
 struct Run<'a> {
     arguments: &'a Arguments,
     scratch: &'a Path,

@@ -13,10 +13,10 @@ use std::ffi::OsString;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-/// Where nobody says how many: the own view is the middle one, and the outermost ones are those that hidden samples are for.
+/// Number of views unless given: the own view is the middle one, and hidden samples are for the outer ones.
 const VIEWS: &str = "3";
 
-/// Separation where nobody places the cameras: hidden samples as far behind as an eye 4 inches beside the viewer sees, in most scenes.
+/// Separation unless the cameras are given. In most scenes hidden samples then reach as far as an eye 4 inches beside the viewer sees.
 const SEPARATION: &str = "0.1";
 
 #[derive(Args)]
@@ -27,7 +27,7 @@ pub(crate) struct Arguments {
     /// Frame to take, counted from 1 [default: 30]
     #[arg(long, value_name = "N", allow_hyphen_values = true)]
     frame: Option<String>,
-    /// What slices are made of: the reference image of an occlusion camera, or the program's own picture with its depths
+    /// Source of the slices: the reference image of an occlusion camera, or the program's own picture with its depths
     #[arg(long, value_name = "reference|own", default_value = "reference")]
     of: Of,
     /// Give up after this many seconds
@@ -101,7 +101,7 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
     Ok(ExitCode::SUCCESS)
 }
 
-/// Sets what slices need, and answers whether the user says where zero parallax is.
+/// Sets the options that slices need, and answers whether the user has placed the zero parallax.
 fn complete(settings: &mut Settings) -> Result<bool, LaunchError> {
     if let Some((field, value)) = settings.field(OptionId::Strategy)
         && field.origin == Origin::CommandLine

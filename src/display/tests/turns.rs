@@ -1,4 +1,4 @@
-//! Where the lenses are, against what the masks show.
+//! The phases of the lenses against the masks.
 
 use super::*;
 

@@ -1,4 +1,4 @@
-//! Volumes against a voxeliser that shares nothing with them, and what is made of volumes.
+//! Volumes against a voxeliser that shares no code with them; dithering, stacks and views of volumes.
 
 mod program;
 mod shown;

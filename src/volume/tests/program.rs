@@ -1,4 +1,4 @@
-//! What a program has shown, by samples whose places are known.
+//! The scene of a program, by samples whose places are known.
 
 use super::super::{Before, Head, Samples, Source};
 use super::*;

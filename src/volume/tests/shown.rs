@@ -1,4 +1,4 @@
-//! Dithering, stacks, what eyes see, and comparison.
+//! Dithering, stacks, views of an eye, and comparison.
 
 use super::*;
 use crate::interleave::reference::linear;
