@@ -4271,10 +4271,10 @@ pub(crate) static EXPORTS: [(&[u8], usize, crate::Address); 1382] = [
 ];
 
 export! { 0, glVertex2d, first_glVertex2d, hook_glVertex2d, (x: f64, y: f64) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertex2d, Effect::VERTEX) {
+    if !imm::record(slot::glVertex2d, Effect::VERTEX, |rec| {
         rec.f64(x);
         rec.f64(y);
-    } else {
+    }) {
         imm::direct(Effect::VERTEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -4282,10 +4282,10 @@ export! { 0, glVertex2d, first_glVertex2d, hook_glVertex2d, (x: f64, y: f64) -> 
     }
 } }
 export! { 1, glVertex2dv, first_glVertex2dv, hook_glVertex2dv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertex2dv, Effect::VERTEX) {
+    if !imm::record(slot::glVertex2dv, Effect::VERTEX, |rec| {
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const f64, 2) };
-    } else {
+    }) {
         imm::direct(Effect::VERTEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -4293,10 +4293,10 @@ export! { 1, glVertex2dv, first_glVertex2dv, hook_glVertex2dv, (v: Ptr) -> (), {
     }
 } }
 export! { 2, glVertex2f, first_glVertex2f, hook_glVertex2f, (x: f32, y: f32) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertex2f, Effect::VERTEX) {
+    if !imm::record(slot::glVertex2f, Effect::VERTEX, |rec| {
         rec.f32(x);
         rec.f32(y);
-    } else {
+    }) {
         imm::direct(Effect::VERTEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -4304,10 +4304,10 @@ export! { 2, glVertex2f, first_glVertex2f, hook_glVertex2f, (x: f32, y: f32) -> 
     }
 } }
 export! { 3, glVertex2fv, first_glVertex2fv, hook_glVertex2fv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertex2fv, Effect::VERTEX) {
+    if !imm::record(slot::glVertex2fv, Effect::VERTEX, |rec| {
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const f32, 2) };
-    } else {
+    }) {
         imm::direct(Effect::VERTEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -4315,10 +4315,10 @@ export! { 3, glVertex2fv, first_glVertex2fv, hook_glVertex2fv, (v: Ptr) -> (), {
     }
 } }
 export! { 4, glVertex2i, first_glVertex2i, hook_glVertex2i, (x: i32, y: i32) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertex2i, Effect::VERTEX) {
+    if !imm::record(slot::glVertex2i, Effect::VERTEX, |rec| {
         rec.i32(x);
         rec.i32(y);
-    } else {
+    }) {
         imm::direct(Effect::VERTEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -4326,10 +4326,10 @@ export! { 4, glVertex2i, first_glVertex2i, hook_glVertex2i, (x: i32, y: i32) -> 
     }
 } }
 export! { 5, glVertex2iv, first_glVertex2iv, hook_glVertex2iv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertex2iv, Effect::VERTEX) {
+    if !imm::record(slot::glVertex2iv, Effect::VERTEX, |rec| {
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const i32, 2) };
-    } else {
+    }) {
         imm::direct(Effect::VERTEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -4337,10 +4337,10 @@ export! { 5, glVertex2iv, first_glVertex2iv, hook_glVertex2iv, (v: Ptr) -> (), {
     }
 } }
 export! { 6, glVertex2s, first_glVertex2s, hook_glVertex2s, (x: i16, y: i16) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertex2s, Effect::VERTEX) {
+    if !imm::record(slot::glVertex2s, Effect::VERTEX, |rec| {
         rec.i16(x);
         rec.i16(y);
-    } else {
+    }) {
         imm::direct(Effect::VERTEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -4348,10 +4348,10 @@ export! { 6, glVertex2s, first_glVertex2s, hook_glVertex2s, (x: i16, y: i16) -> 
     }
 } }
 export! { 7, glVertex2sv, first_glVertex2sv, hook_glVertex2sv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertex2sv, Effect::VERTEX) {
+    if !imm::record(slot::glVertex2sv, Effect::VERTEX, |rec| {
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const i16, 2) };
-    } else {
+    }) {
         imm::direct(Effect::VERTEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -4359,11 +4359,11 @@ export! { 7, glVertex2sv, first_glVertex2sv, hook_glVertex2sv, (v: Ptr) -> (), {
     }
 } }
 export! { 8, glVertex3d, first_glVertex3d, hook_glVertex3d, (x: f64, y: f64, z: f64) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertex3d, Effect::VERTEX) {
+    if !imm::record(slot::glVertex3d, Effect::VERTEX, |rec| {
         rec.f64(x);
         rec.f64(y);
         rec.f64(z);
-    } else {
+    }) {
         imm::direct(Effect::VERTEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -4371,10 +4371,10 @@ export! { 8, glVertex3d, first_glVertex3d, hook_glVertex3d, (x: f64, y: f64, z: 
     }
 } }
 export! { 9, glVertex3dv, first_glVertex3dv, hook_glVertex3dv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertex3dv, Effect::VERTEX) {
+    if !imm::record(slot::glVertex3dv, Effect::VERTEX, |rec| {
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const f64, 3) };
-    } else {
+    }) {
         imm::direct(Effect::VERTEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -4382,11 +4382,11 @@ export! { 9, glVertex3dv, first_glVertex3dv, hook_glVertex3dv, (v: Ptr) -> (), {
     }
 } }
 export! { 10, glVertex3f, first_glVertex3f, hook_glVertex3f, (x: f32, y: f32, z: f32) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertex3f, Effect::VERTEX) {
+    if !imm::record(slot::glVertex3f, Effect::VERTEX, |rec| {
         rec.f32(x);
         rec.f32(y);
         rec.f32(z);
-    } else {
+    }) {
         imm::direct(Effect::VERTEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -4394,10 +4394,10 @@ export! { 10, glVertex3f, first_glVertex3f, hook_glVertex3f, (x: f32, y: f32, z:
     }
 } }
 export! { 11, glVertex3fv, first_glVertex3fv, hook_glVertex3fv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertex3fv, Effect::VERTEX) {
+    if !imm::record(slot::glVertex3fv, Effect::VERTEX, |rec| {
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const f32, 3) };
-    } else {
+    }) {
         imm::direct(Effect::VERTEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -4405,11 +4405,11 @@ export! { 11, glVertex3fv, first_glVertex3fv, hook_glVertex3fv, (v: Ptr) -> (), 
     }
 } }
 export! { 12, glVertex3i, first_glVertex3i, hook_glVertex3i, (x: i32, y: i32, z: i32) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertex3i, Effect::VERTEX) {
+    if !imm::record(slot::glVertex3i, Effect::VERTEX, |rec| {
         rec.i32(x);
         rec.i32(y);
         rec.i32(z);
-    } else {
+    }) {
         imm::direct(Effect::VERTEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -4417,10 +4417,10 @@ export! { 12, glVertex3i, first_glVertex3i, hook_glVertex3i, (x: i32, y: i32, z:
     }
 } }
 export! { 13, glVertex3iv, first_glVertex3iv, hook_glVertex3iv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertex3iv, Effect::VERTEX) {
+    if !imm::record(slot::glVertex3iv, Effect::VERTEX, |rec| {
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const i32, 3) };
-    } else {
+    }) {
         imm::direct(Effect::VERTEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -4428,11 +4428,11 @@ export! { 13, glVertex3iv, first_glVertex3iv, hook_glVertex3iv, (v: Ptr) -> (), 
     }
 } }
 export! { 14, glVertex3s, first_glVertex3s, hook_glVertex3s, (x: i16, y: i16, z: i16) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertex3s, Effect::VERTEX) {
+    if !imm::record(slot::glVertex3s, Effect::VERTEX, |rec| {
         rec.i16(x);
         rec.i16(y);
         rec.i16(z);
-    } else {
+    }) {
         imm::direct(Effect::VERTEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -4440,10 +4440,10 @@ export! { 14, glVertex3s, first_glVertex3s, hook_glVertex3s, (x: i16, y: i16, z:
     }
 } }
 export! { 15, glVertex3sv, first_glVertex3sv, hook_glVertex3sv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertex3sv, Effect::VERTEX) {
+    if !imm::record(slot::glVertex3sv, Effect::VERTEX, |rec| {
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const i16, 3) };
-    } else {
+    }) {
         imm::direct(Effect::VERTEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -4451,12 +4451,12 @@ export! { 15, glVertex3sv, first_glVertex3sv, hook_glVertex3sv, (v: Ptr) -> (), 
     }
 } }
 export! { 16, glVertex4d, first_glVertex4d, hook_glVertex4d, (x: f64, y: f64, z: f64, w: f64) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertex4d, Effect::VERTEX) {
+    if !imm::record(slot::glVertex4d, Effect::VERTEX, |rec| {
         rec.f64(x);
         rec.f64(y);
         rec.f64(z);
         rec.f64(w);
-    } else {
+    }) {
         imm::direct(Effect::VERTEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -4464,10 +4464,10 @@ export! { 16, glVertex4d, first_glVertex4d, hook_glVertex4d, (x: f64, y: f64, z:
     }
 } }
 export! { 17, glVertex4dv, first_glVertex4dv, hook_glVertex4dv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertex4dv, Effect::VERTEX) {
+    if !imm::record(slot::glVertex4dv, Effect::VERTEX, |rec| {
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const f64, 4) };
-    } else {
+    }) {
         imm::direct(Effect::VERTEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -4475,12 +4475,12 @@ export! { 17, glVertex4dv, first_glVertex4dv, hook_glVertex4dv, (v: Ptr) -> (), 
     }
 } }
 export! { 18, glVertex4f, first_glVertex4f, hook_glVertex4f, (x: f32, y: f32, z: f32, w: f32) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertex4f, Effect::VERTEX) {
+    if !imm::record(slot::glVertex4f, Effect::VERTEX, |rec| {
         rec.f32(x);
         rec.f32(y);
         rec.f32(z);
         rec.f32(w);
-    } else {
+    }) {
         imm::direct(Effect::VERTEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -4488,10 +4488,10 @@ export! { 18, glVertex4f, first_glVertex4f, hook_glVertex4f, (x: f32, y: f32, z:
     }
 } }
 export! { 19, glVertex4fv, first_glVertex4fv, hook_glVertex4fv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertex4fv, Effect::VERTEX) {
+    if !imm::record(slot::glVertex4fv, Effect::VERTEX, |rec| {
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const f32, 4) };
-    } else {
+    }) {
         imm::direct(Effect::VERTEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -4499,12 +4499,12 @@ export! { 19, glVertex4fv, first_glVertex4fv, hook_glVertex4fv, (v: Ptr) -> (), 
     }
 } }
 export! { 20, glVertex4i, first_glVertex4i, hook_glVertex4i, (x: i32, y: i32, z: i32, w: i32) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertex4i, Effect::VERTEX) {
+    if !imm::record(slot::glVertex4i, Effect::VERTEX, |rec| {
         rec.i32(x);
         rec.i32(y);
         rec.i32(z);
         rec.i32(w);
-    } else {
+    }) {
         imm::direct(Effect::VERTEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -4512,10 +4512,10 @@ export! { 20, glVertex4i, first_glVertex4i, hook_glVertex4i, (x: i32, y: i32, z:
     }
 } }
 export! { 21, glVertex4iv, first_glVertex4iv, hook_glVertex4iv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertex4iv, Effect::VERTEX) {
+    if !imm::record(slot::glVertex4iv, Effect::VERTEX, |rec| {
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const i32, 4) };
-    } else {
+    }) {
         imm::direct(Effect::VERTEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -4523,12 +4523,12 @@ export! { 21, glVertex4iv, first_glVertex4iv, hook_glVertex4iv, (v: Ptr) -> (), 
     }
 } }
 export! { 22, glVertex4s, first_glVertex4s, hook_glVertex4s, (x: i16, y: i16, z: i16, w: i16) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertex4s, Effect::VERTEX) {
+    if !imm::record(slot::glVertex4s, Effect::VERTEX, |rec| {
         rec.i16(x);
         rec.i16(y);
         rec.i16(z);
         rec.i16(w);
-    } else {
+    }) {
         imm::direct(Effect::VERTEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -4536,10 +4536,10 @@ export! { 22, glVertex4s, first_glVertex4s, hook_glVertex4s, (x: i16, y: i16, z:
     }
 } }
 export! { 23, glVertex4sv, first_glVertex4sv, hook_glVertex4sv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertex4sv, Effect::VERTEX) {
+    if !imm::record(slot::glVertex4sv, Effect::VERTEX, |rec| {
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const i16, 4) };
-    } else {
+    }) {
         imm::direct(Effect::VERTEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -4547,10 +4547,10 @@ export! { 23, glVertex4sv, first_glVertex4sv, hook_glVertex4sv, (v: Ptr) -> (), 
     }
 } }
 export! { 24, glVertex2hNV, first_glVertex2hNV, hook_glVertex2hNV, (x: u16, y: u16) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertex2hNV, Effect::VERTEX) {
+    if !imm::record(slot::glVertex2hNV, Effect::VERTEX, |rec| {
         rec.u16(x);
         rec.u16(y);
-    } else {
+    }) {
         imm::direct(Effect::VERTEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -4558,10 +4558,10 @@ export! { 24, glVertex2hNV, first_glVertex2hNV, hook_glVertex2hNV, (x: u16, y: u
     }
 } }
 export! { 25, glVertex2hvNV, first_glVertex2hvNV, hook_glVertex2hvNV, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertex2hvNV, Effect::VERTEX) {
+    if !imm::record(slot::glVertex2hvNV, Effect::VERTEX, |rec| {
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const u16, 2) };
-    } else {
+    }) {
         imm::direct(Effect::VERTEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -4569,11 +4569,11 @@ export! { 25, glVertex2hvNV, first_glVertex2hvNV, hook_glVertex2hvNV, (v: Ptr) -
     }
 } }
 export! { 26, glVertex3hNV, first_glVertex3hNV, hook_glVertex3hNV, (x: u16, y: u16, z: u16) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertex3hNV, Effect::VERTEX) {
+    if !imm::record(slot::glVertex3hNV, Effect::VERTEX, |rec| {
         rec.u16(x);
         rec.u16(y);
         rec.u16(z);
-    } else {
+    }) {
         imm::direct(Effect::VERTEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -4581,10 +4581,10 @@ export! { 26, glVertex3hNV, first_glVertex3hNV, hook_glVertex3hNV, (x: u16, y: u
     }
 } }
 export! { 27, glVertex3hvNV, first_glVertex3hvNV, hook_glVertex3hvNV, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertex3hvNV, Effect::VERTEX) {
+    if !imm::record(slot::glVertex3hvNV, Effect::VERTEX, |rec| {
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const u16, 3) };
-    } else {
+    }) {
         imm::direct(Effect::VERTEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -4592,12 +4592,12 @@ export! { 27, glVertex3hvNV, first_glVertex3hvNV, hook_glVertex3hvNV, (v: Ptr) -
     }
 } }
 export! { 28, glVertex4hNV, first_glVertex4hNV, hook_glVertex4hNV, (x: u16, y: u16, z: u16, w: u16) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertex4hNV, Effect::VERTEX) {
+    if !imm::record(slot::glVertex4hNV, Effect::VERTEX, |rec| {
         rec.u16(x);
         rec.u16(y);
         rec.u16(z);
         rec.u16(w);
-    } else {
+    }) {
         imm::direct(Effect::VERTEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -4605,10 +4605,10 @@ export! { 28, glVertex4hNV, first_glVertex4hNV, hook_glVertex4hNV, (x: u16, y: u
     }
 } }
 export! { 29, glVertex4hvNV, first_glVertex4hvNV, hook_glVertex4hvNV, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertex4hvNV, Effect::VERTEX) {
+    if !imm::record(slot::glVertex4hvNV, Effect::VERTEX, |rec| {
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const u16, 4) };
-    } else {
+    }) {
         imm::direct(Effect::VERTEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -4616,11 +4616,11 @@ export! { 29, glVertex4hvNV, first_glVertex4hvNV, hook_glVertex4hvNV, (v: Ptr) -
     }
 } }
 export! { 30, glColor3b, first_glColor3b, hook_glColor3b, (red: i8, green: i8, blue: i8) -> (), {
-    if let Some(rec) = imm::recording(slot::glColor3b, Effect::COLOR) {
+    if !imm::record(slot::glColor3b, Effect::COLOR, |rec| {
         rec.i8(red);
         rec.i8(green);
         rec.i8(blue);
-    } else {
+    }) {
         imm::direct(Effect::COLOR);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -4628,10 +4628,10 @@ export! { 30, glColor3b, first_glColor3b, hook_glColor3b, (red: i8, green: i8, b
     }
 } }
 export! { 31, glColor3bv, first_glColor3bv, hook_glColor3bv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glColor3bv, Effect::COLOR) {
+    if !imm::record(slot::glColor3bv, Effect::COLOR, |rec| {
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const i8, 3) };
-    } else {
+    }) {
         imm::direct(Effect::COLOR);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -4639,11 +4639,11 @@ export! { 31, glColor3bv, first_glColor3bv, hook_glColor3bv, (v: Ptr) -> (), {
     }
 } }
 export! { 32, glColor3d, first_glColor3d, hook_glColor3d, (red: f64, green: f64, blue: f64) -> (), {
-    if let Some(rec) = imm::recording(slot::glColor3d, Effect::COLOR) {
+    if !imm::record(slot::glColor3d, Effect::COLOR, |rec| {
         rec.f64(red);
         rec.f64(green);
         rec.f64(blue);
-    } else {
+    }) {
         imm::direct(Effect::COLOR);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -4651,10 +4651,10 @@ export! { 32, glColor3d, first_glColor3d, hook_glColor3d, (red: f64, green: f64,
     }
 } }
 export! { 33, glColor3dv, first_glColor3dv, hook_glColor3dv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glColor3dv, Effect::COLOR) {
+    if !imm::record(slot::glColor3dv, Effect::COLOR, |rec| {
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const f64, 3) };
-    } else {
+    }) {
         imm::direct(Effect::COLOR);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -4662,11 +4662,11 @@ export! { 33, glColor3dv, first_glColor3dv, hook_glColor3dv, (v: Ptr) -> (), {
     }
 } }
 export! { 34, glColor3f, first_glColor3f, hook_glColor3f, (red: f32, green: f32, blue: f32) -> (), {
-    if let Some(rec) = imm::recording(slot::glColor3f, Effect::COLOR) {
+    if !imm::record(slot::glColor3f, Effect::COLOR, |rec| {
         rec.f32(red);
         rec.f32(green);
         rec.f32(blue);
-    } else {
+    }) {
         imm::direct(Effect::COLOR);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -4674,10 +4674,10 @@ export! { 34, glColor3f, first_glColor3f, hook_glColor3f, (red: f32, green: f32,
     }
 } }
 export! { 35, glColor3fv, first_glColor3fv, hook_glColor3fv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glColor3fv, Effect::COLOR) {
+    if !imm::record(slot::glColor3fv, Effect::COLOR, |rec| {
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const f32, 3) };
-    } else {
+    }) {
         imm::direct(Effect::COLOR);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -4685,11 +4685,11 @@ export! { 35, glColor3fv, first_glColor3fv, hook_glColor3fv, (v: Ptr) -> (), {
     }
 } }
 export! { 36, glColor3i, first_glColor3i, hook_glColor3i, (red: i32, green: i32, blue: i32) -> (), {
-    if let Some(rec) = imm::recording(slot::glColor3i, Effect::COLOR) {
+    if !imm::record(slot::glColor3i, Effect::COLOR, |rec| {
         rec.i32(red);
         rec.i32(green);
         rec.i32(blue);
-    } else {
+    }) {
         imm::direct(Effect::COLOR);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -4697,10 +4697,10 @@ export! { 36, glColor3i, first_glColor3i, hook_glColor3i, (red: i32, green: i32,
     }
 } }
 export! { 37, glColor3iv, first_glColor3iv, hook_glColor3iv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glColor3iv, Effect::COLOR) {
+    if !imm::record(slot::glColor3iv, Effect::COLOR, |rec| {
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const i32, 3) };
-    } else {
+    }) {
         imm::direct(Effect::COLOR);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -4708,11 +4708,11 @@ export! { 37, glColor3iv, first_glColor3iv, hook_glColor3iv, (v: Ptr) -> (), {
     }
 } }
 export! { 38, glColor3s, first_glColor3s, hook_glColor3s, (red: i16, green: i16, blue: i16) -> (), {
-    if let Some(rec) = imm::recording(slot::glColor3s, Effect::COLOR) {
+    if !imm::record(slot::glColor3s, Effect::COLOR, |rec| {
         rec.i16(red);
         rec.i16(green);
         rec.i16(blue);
-    } else {
+    }) {
         imm::direct(Effect::COLOR);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -4720,10 +4720,10 @@ export! { 38, glColor3s, first_glColor3s, hook_glColor3s, (red: i16, green: i16,
     }
 } }
 export! { 39, glColor3sv, first_glColor3sv, hook_glColor3sv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glColor3sv, Effect::COLOR) {
+    if !imm::record(slot::glColor3sv, Effect::COLOR, |rec| {
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const i16, 3) };
-    } else {
+    }) {
         imm::direct(Effect::COLOR);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -4731,11 +4731,11 @@ export! { 39, glColor3sv, first_glColor3sv, hook_glColor3sv, (v: Ptr) -> (), {
     }
 } }
 export! { 40, glColor3ub, first_glColor3ub, hook_glColor3ub, (red: u8, green: u8, blue: u8) -> (), {
-    if let Some(rec) = imm::recording(slot::glColor3ub, Effect::COLOR) {
+    if !imm::record(slot::glColor3ub, Effect::COLOR, |rec| {
         rec.u8(red);
         rec.u8(green);
         rec.u8(blue);
-    } else {
+    }) {
         imm::direct(Effect::COLOR);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -4743,10 +4743,10 @@ export! { 40, glColor3ub, first_glColor3ub, hook_glColor3ub, (red: u8, green: u8
     }
 } }
 export! { 41, glColor3ubv, first_glColor3ubv, hook_glColor3ubv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glColor3ubv, Effect::COLOR) {
+    if !imm::record(slot::glColor3ubv, Effect::COLOR, |rec| {
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const u8, 3) };
-    } else {
+    }) {
         imm::direct(Effect::COLOR);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -4754,11 +4754,11 @@ export! { 41, glColor3ubv, first_glColor3ubv, hook_glColor3ubv, (v: Ptr) -> (), 
     }
 } }
 export! { 42, glColor3ui, first_glColor3ui, hook_glColor3ui, (red: u32, green: u32, blue: u32) -> (), {
-    if let Some(rec) = imm::recording(slot::glColor3ui, Effect::COLOR) {
+    if !imm::record(slot::glColor3ui, Effect::COLOR, |rec| {
         rec.u32(red);
         rec.u32(green);
         rec.u32(blue);
-    } else {
+    }) {
         imm::direct(Effect::COLOR);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -4766,10 +4766,10 @@ export! { 42, glColor3ui, first_glColor3ui, hook_glColor3ui, (red: u32, green: u
     }
 } }
 export! { 43, glColor3uiv, first_glColor3uiv, hook_glColor3uiv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glColor3uiv, Effect::COLOR) {
+    if !imm::record(slot::glColor3uiv, Effect::COLOR, |rec| {
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const u32, 3) };
-    } else {
+    }) {
         imm::direct(Effect::COLOR);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -4777,11 +4777,11 @@ export! { 43, glColor3uiv, first_glColor3uiv, hook_glColor3uiv, (v: Ptr) -> (), 
     }
 } }
 export! { 44, glColor3us, first_glColor3us, hook_glColor3us, (red: u16, green: u16, blue: u16) -> (), {
-    if let Some(rec) = imm::recording(slot::glColor3us, Effect::COLOR) {
+    if !imm::record(slot::glColor3us, Effect::COLOR, |rec| {
         rec.u16(red);
         rec.u16(green);
         rec.u16(blue);
-    } else {
+    }) {
         imm::direct(Effect::COLOR);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -4789,10 +4789,10 @@ export! { 44, glColor3us, first_glColor3us, hook_glColor3us, (red: u16, green: u
     }
 } }
 export! { 45, glColor3usv, first_glColor3usv, hook_glColor3usv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glColor3usv, Effect::COLOR) {
+    if !imm::record(slot::glColor3usv, Effect::COLOR, |rec| {
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const u16, 3) };
-    } else {
+    }) {
         imm::direct(Effect::COLOR);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -4800,12 +4800,12 @@ export! { 45, glColor3usv, first_glColor3usv, hook_glColor3usv, (v: Ptr) -> (), 
     }
 } }
 export! { 46, glColor4b, first_glColor4b, hook_glColor4b, (red: i8, green: i8, blue: i8, alpha: i8) -> (), {
-    if let Some(rec) = imm::recording(slot::glColor4b, Effect::COLOR) {
+    if !imm::record(slot::glColor4b, Effect::COLOR, |rec| {
         rec.i8(red);
         rec.i8(green);
         rec.i8(blue);
         rec.i8(alpha);
-    } else {
+    }) {
         imm::direct(Effect::COLOR);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -4813,10 +4813,10 @@ export! { 46, glColor4b, first_glColor4b, hook_glColor4b, (red: i8, green: i8, b
     }
 } }
 export! { 47, glColor4bv, first_glColor4bv, hook_glColor4bv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glColor4bv, Effect::COLOR) {
+    if !imm::record(slot::glColor4bv, Effect::COLOR, |rec| {
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const i8, 4) };
-    } else {
+    }) {
         imm::direct(Effect::COLOR);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -4824,12 +4824,12 @@ export! { 47, glColor4bv, first_glColor4bv, hook_glColor4bv, (v: Ptr) -> (), {
     }
 } }
 export! { 48, glColor4d, first_glColor4d, hook_glColor4d, (red: f64, green: f64, blue: f64, alpha: f64) -> (), {
-    if let Some(rec) = imm::recording(slot::glColor4d, Effect::COLOR) {
+    if !imm::record(slot::glColor4d, Effect::COLOR, |rec| {
         rec.f64(red);
         rec.f64(green);
         rec.f64(blue);
         rec.f64(alpha);
-    } else {
+    }) {
         imm::direct(Effect::COLOR);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -4837,10 +4837,10 @@ export! { 48, glColor4d, first_glColor4d, hook_glColor4d, (red: f64, green: f64,
     }
 } }
 export! { 49, glColor4dv, first_glColor4dv, hook_glColor4dv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glColor4dv, Effect::COLOR) {
+    if !imm::record(slot::glColor4dv, Effect::COLOR, |rec| {
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const f64, 4) };
-    } else {
+    }) {
         imm::direct(Effect::COLOR);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -4848,12 +4848,12 @@ export! { 49, glColor4dv, first_glColor4dv, hook_glColor4dv, (v: Ptr) -> (), {
     }
 } }
 export! { 50, glColor4f, first_glColor4f, hook_glColor4f, (red: f32, green: f32, blue: f32, alpha: f32) -> (), {
-    if let Some(rec) = imm::recording(slot::glColor4f, Effect::COLOR) {
+    if !imm::record(slot::glColor4f, Effect::COLOR, |rec| {
         rec.f32(red);
         rec.f32(green);
         rec.f32(blue);
         rec.f32(alpha);
-    } else {
+    }) {
         imm::direct(Effect::COLOR);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -4861,10 +4861,10 @@ export! { 50, glColor4f, first_glColor4f, hook_glColor4f, (red: f32, green: f32,
     }
 } }
 export! { 51, glColor4fv, first_glColor4fv, hook_glColor4fv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glColor4fv, Effect::COLOR) {
+    if !imm::record(slot::glColor4fv, Effect::COLOR, |rec| {
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const f32, 4) };
-    } else {
+    }) {
         imm::direct(Effect::COLOR);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -4872,12 +4872,12 @@ export! { 51, glColor4fv, first_glColor4fv, hook_glColor4fv, (v: Ptr) -> (), {
     }
 } }
 export! { 52, glColor4i, first_glColor4i, hook_glColor4i, (red: i32, green: i32, blue: i32, alpha: i32) -> (), {
-    if let Some(rec) = imm::recording(slot::glColor4i, Effect::COLOR) {
+    if !imm::record(slot::glColor4i, Effect::COLOR, |rec| {
         rec.i32(red);
         rec.i32(green);
         rec.i32(blue);
         rec.i32(alpha);
-    } else {
+    }) {
         imm::direct(Effect::COLOR);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -4885,10 +4885,10 @@ export! { 52, glColor4i, first_glColor4i, hook_glColor4i, (red: i32, green: i32,
     }
 } }
 export! { 53, glColor4iv, first_glColor4iv, hook_glColor4iv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glColor4iv, Effect::COLOR) {
+    if !imm::record(slot::glColor4iv, Effect::COLOR, |rec| {
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const i32, 4) };
-    } else {
+    }) {
         imm::direct(Effect::COLOR);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -4896,12 +4896,12 @@ export! { 53, glColor4iv, first_glColor4iv, hook_glColor4iv, (v: Ptr) -> (), {
     }
 } }
 export! { 54, glColor4s, first_glColor4s, hook_glColor4s, (red: i16, green: i16, blue: i16, alpha: i16) -> (), {
-    if let Some(rec) = imm::recording(slot::glColor4s, Effect::COLOR) {
+    if !imm::record(slot::glColor4s, Effect::COLOR, |rec| {
         rec.i16(red);
         rec.i16(green);
         rec.i16(blue);
         rec.i16(alpha);
-    } else {
+    }) {
         imm::direct(Effect::COLOR);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -4909,10 +4909,10 @@ export! { 54, glColor4s, first_glColor4s, hook_glColor4s, (red: i16, green: i16,
     }
 } }
 export! { 55, glColor4sv, first_glColor4sv, hook_glColor4sv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glColor4sv, Effect::COLOR) {
+    if !imm::record(slot::glColor4sv, Effect::COLOR, |rec| {
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const i16, 4) };
-    } else {
+    }) {
         imm::direct(Effect::COLOR);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -4920,12 +4920,12 @@ export! { 55, glColor4sv, first_glColor4sv, hook_glColor4sv, (v: Ptr) -> (), {
     }
 } }
 export! { 56, glColor4ub, first_glColor4ub, hook_glColor4ub, (red: u8, green: u8, blue: u8, alpha: u8) -> (), {
-    if let Some(rec) = imm::recording(slot::glColor4ub, Effect::COLOR) {
+    if !imm::record(slot::glColor4ub, Effect::COLOR, |rec| {
         rec.u8(red);
         rec.u8(green);
         rec.u8(blue);
         rec.u8(alpha);
-    } else {
+    }) {
         imm::direct(Effect::COLOR);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -4933,10 +4933,10 @@ export! { 56, glColor4ub, first_glColor4ub, hook_glColor4ub, (red: u8, green: u8
     }
 } }
 export! { 57, glColor4ubv, first_glColor4ubv, hook_glColor4ubv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glColor4ubv, Effect::COLOR) {
+    if !imm::record(slot::glColor4ubv, Effect::COLOR, |rec| {
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const u8, 4) };
-    } else {
+    }) {
         imm::direct(Effect::COLOR);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -4944,12 +4944,12 @@ export! { 57, glColor4ubv, first_glColor4ubv, hook_glColor4ubv, (v: Ptr) -> (), 
     }
 } }
 export! { 58, glColor4ui, first_glColor4ui, hook_glColor4ui, (red: u32, green: u32, blue: u32, alpha: u32) -> (), {
-    if let Some(rec) = imm::recording(slot::glColor4ui, Effect::COLOR) {
+    if !imm::record(slot::glColor4ui, Effect::COLOR, |rec| {
         rec.u32(red);
         rec.u32(green);
         rec.u32(blue);
         rec.u32(alpha);
-    } else {
+    }) {
         imm::direct(Effect::COLOR);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -4957,10 +4957,10 @@ export! { 58, glColor4ui, first_glColor4ui, hook_glColor4ui, (red: u32, green: u
     }
 } }
 export! { 59, glColor4uiv, first_glColor4uiv, hook_glColor4uiv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glColor4uiv, Effect::COLOR) {
+    if !imm::record(slot::glColor4uiv, Effect::COLOR, |rec| {
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const u32, 4) };
-    } else {
+    }) {
         imm::direct(Effect::COLOR);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -4968,12 +4968,12 @@ export! { 59, glColor4uiv, first_glColor4uiv, hook_glColor4uiv, (v: Ptr) -> (), 
     }
 } }
 export! { 60, glColor4us, first_glColor4us, hook_glColor4us, (red: u16, green: u16, blue: u16, alpha: u16) -> (), {
-    if let Some(rec) = imm::recording(slot::glColor4us, Effect::COLOR) {
+    if !imm::record(slot::glColor4us, Effect::COLOR, |rec| {
         rec.u16(red);
         rec.u16(green);
         rec.u16(blue);
         rec.u16(alpha);
-    } else {
+    }) {
         imm::direct(Effect::COLOR);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -4981,10 +4981,10 @@ export! { 60, glColor4us, first_glColor4us, hook_glColor4us, (red: u16, green: u
     }
 } }
 export! { 61, glColor4usv, first_glColor4usv, hook_glColor4usv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glColor4usv, Effect::COLOR) {
+    if !imm::record(slot::glColor4usv, Effect::COLOR, |rec| {
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const u16, 4) };
-    } else {
+    }) {
         imm::direct(Effect::COLOR);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -4992,11 +4992,11 @@ export! { 61, glColor4usv, first_glColor4usv, hook_glColor4usv, (v: Ptr) -> (), 
     }
 } }
 export! { 62, glColor3hNV, first_glColor3hNV, hook_glColor3hNV, (red: u16, green: u16, blue: u16) -> (), {
-    if let Some(rec) = imm::recording(slot::glColor3hNV, Effect::COLOR) {
+    if !imm::record(slot::glColor3hNV, Effect::COLOR, |rec| {
         rec.u16(red);
         rec.u16(green);
         rec.u16(blue);
-    } else {
+    }) {
         imm::direct(Effect::COLOR);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -5004,10 +5004,10 @@ export! { 62, glColor3hNV, first_glColor3hNV, hook_glColor3hNV, (red: u16, green
     }
 } }
 export! { 63, glColor3hvNV, first_glColor3hvNV, hook_glColor3hvNV, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glColor3hvNV, Effect::COLOR) {
+    if !imm::record(slot::glColor3hvNV, Effect::COLOR, |rec| {
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const u16, 3) };
-    } else {
+    }) {
         imm::direct(Effect::COLOR);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -5015,12 +5015,12 @@ export! { 63, glColor3hvNV, first_glColor3hvNV, hook_glColor3hvNV, (v: Ptr) -> (
     }
 } }
 export! { 64, glColor4hNV, first_glColor4hNV, hook_glColor4hNV, (red: u16, green: u16, blue: u16, alpha: u16) -> (), {
-    if let Some(rec) = imm::recording(slot::glColor4hNV, Effect::COLOR) {
+    if !imm::record(slot::glColor4hNV, Effect::COLOR, |rec| {
         rec.u16(red);
         rec.u16(green);
         rec.u16(blue);
         rec.u16(alpha);
-    } else {
+    }) {
         imm::direct(Effect::COLOR);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -5028,10 +5028,10 @@ export! { 64, glColor4hNV, first_glColor4hNV, hook_glColor4hNV, (red: u16, green
     }
 } }
 export! { 65, glColor4hvNV, first_glColor4hvNV, hook_glColor4hvNV, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glColor4hvNV, Effect::COLOR) {
+    if !imm::record(slot::glColor4hvNV, Effect::COLOR, |rec| {
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const u16, 4) };
-    } else {
+    }) {
         imm::direct(Effect::COLOR);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -5039,11 +5039,11 @@ export! { 65, glColor4hvNV, first_glColor4hvNV, hook_glColor4hvNV, (v: Ptr) -> (
     }
 } }
 export! { 66, glNormal3b, first_glNormal3b, hook_glNormal3b, (nx: i8, ny: i8, nz: i8) -> (), {
-    if let Some(rec) = imm::recording(slot::glNormal3b, Effect::NORMAL) {
+    if !imm::record(slot::glNormal3b, Effect::NORMAL, |rec| {
         rec.i8(nx);
         rec.i8(ny);
         rec.i8(nz);
-    } else {
+    }) {
         imm::direct(Effect::NORMAL);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -5051,10 +5051,10 @@ export! { 66, glNormal3b, first_glNormal3b, hook_glNormal3b, (nx: i8, ny: i8, nz
     }
 } }
 export! { 67, glNormal3bv, first_glNormal3bv, hook_glNormal3bv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glNormal3bv, Effect::NORMAL) {
+    if !imm::record(slot::glNormal3bv, Effect::NORMAL, |rec| {
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const i8, 3) };
-    } else {
+    }) {
         imm::direct(Effect::NORMAL);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -5062,11 +5062,11 @@ export! { 67, glNormal3bv, first_glNormal3bv, hook_glNormal3bv, (v: Ptr) -> (), 
     }
 } }
 export! { 68, glNormal3d, first_glNormal3d, hook_glNormal3d, (nx: f64, ny: f64, nz: f64) -> (), {
-    if let Some(rec) = imm::recording(slot::glNormal3d, Effect::NORMAL) {
+    if !imm::record(slot::glNormal3d, Effect::NORMAL, |rec| {
         rec.f64(nx);
         rec.f64(ny);
         rec.f64(nz);
-    } else {
+    }) {
         imm::direct(Effect::NORMAL);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -5074,10 +5074,10 @@ export! { 68, glNormal3d, first_glNormal3d, hook_glNormal3d, (nx: f64, ny: f64, 
     }
 } }
 export! { 69, glNormal3dv, first_glNormal3dv, hook_glNormal3dv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glNormal3dv, Effect::NORMAL) {
+    if !imm::record(slot::glNormal3dv, Effect::NORMAL, |rec| {
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const f64, 3) };
-    } else {
+    }) {
         imm::direct(Effect::NORMAL);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -5085,11 +5085,11 @@ export! { 69, glNormal3dv, first_glNormal3dv, hook_glNormal3dv, (v: Ptr) -> (), 
     }
 } }
 export! { 70, glNormal3f, first_glNormal3f, hook_glNormal3f, (nx: f32, ny: f32, nz: f32) -> (), {
-    if let Some(rec) = imm::recording(slot::glNormal3f, Effect::NORMAL) {
+    if !imm::record(slot::glNormal3f, Effect::NORMAL, |rec| {
         rec.f32(nx);
         rec.f32(ny);
         rec.f32(nz);
-    } else {
+    }) {
         imm::direct(Effect::NORMAL);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -5097,10 +5097,10 @@ export! { 70, glNormal3f, first_glNormal3f, hook_glNormal3f, (nx: f32, ny: f32, 
     }
 } }
 export! { 71, glNormal3fv, first_glNormal3fv, hook_glNormal3fv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glNormal3fv, Effect::NORMAL) {
+    if !imm::record(slot::glNormal3fv, Effect::NORMAL, |rec| {
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const f32, 3) };
-    } else {
+    }) {
         imm::direct(Effect::NORMAL);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -5108,11 +5108,11 @@ export! { 71, glNormal3fv, first_glNormal3fv, hook_glNormal3fv, (v: Ptr) -> (), 
     }
 } }
 export! { 72, glNormal3i, first_glNormal3i, hook_glNormal3i, (nx: i32, ny: i32, nz: i32) -> (), {
-    if let Some(rec) = imm::recording(slot::glNormal3i, Effect::NORMAL) {
+    if !imm::record(slot::glNormal3i, Effect::NORMAL, |rec| {
         rec.i32(nx);
         rec.i32(ny);
         rec.i32(nz);
-    } else {
+    }) {
         imm::direct(Effect::NORMAL);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -5120,10 +5120,10 @@ export! { 72, glNormal3i, first_glNormal3i, hook_glNormal3i, (nx: i32, ny: i32, 
     }
 } }
 export! { 73, glNormal3iv, first_glNormal3iv, hook_glNormal3iv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glNormal3iv, Effect::NORMAL) {
+    if !imm::record(slot::glNormal3iv, Effect::NORMAL, |rec| {
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const i32, 3) };
-    } else {
+    }) {
         imm::direct(Effect::NORMAL);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -5131,11 +5131,11 @@ export! { 73, glNormal3iv, first_glNormal3iv, hook_glNormal3iv, (v: Ptr) -> (), 
     }
 } }
 export! { 74, glNormal3s, first_glNormal3s, hook_glNormal3s, (nx: i16, ny: i16, nz: i16) -> (), {
-    if let Some(rec) = imm::recording(slot::glNormal3s, Effect::NORMAL) {
+    if !imm::record(slot::glNormal3s, Effect::NORMAL, |rec| {
         rec.i16(nx);
         rec.i16(ny);
         rec.i16(nz);
-    } else {
+    }) {
         imm::direct(Effect::NORMAL);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -5143,10 +5143,10 @@ export! { 74, glNormal3s, first_glNormal3s, hook_glNormal3s, (nx: i16, ny: i16, 
     }
 } }
 export! { 75, glNormal3sv, first_glNormal3sv, hook_glNormal3sv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glNormal3sv, Effect::NORMAL) {
+    if !imm::record(slot::glNormal3sv, Effect::NORMAL, |rec| {
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const i16, 3) };
-    } else {
+    }) {
         imm::direct(Effect::NORMAL);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -5154,11 +5154,11 @@ export! { 75, glNormal3sv, first_glNormal3sv, hook_glNormal3sv, (v: Ptr) -> (), 
     }
 } }
 export! { 76, glNormal3hNV, first_glNormal3hNV, hook_glNormal3hNV, (nx: u16, ny: u16, nz: u16) -> (), {
-    if let Some(rec) = imm::recording(slot::glNormal3hNV, Effect::NORMAL) {
+    if !imm::record(slot::glNormal3hNV, Effect::NORMAL, |rec| {
         rec.u16(nx);
         rec.u16(ny);
         rec.u16(nz);
-    } else {
+    }) {
         imm::direct(Effect::NORMAL);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -5166,10 +5166,10 @@ export! { 76, glNormal3hNV, first_glNormal3hNV, hook_glNormal3hNV, (nx: u16, ny:
     }
 } }
 export! { 77, glNormal3hvNV, first_glNormal3hvNV, hook_glNormal3hvNV, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glNormal3hvNV, Effect::NORMAL) {
+    if !imm::record(slot::glNormal3hvNV, Effect::NORMAL, |rec| {
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const u16, 3) };
-    } else {
+    }) {
         imm::direct(Effect::NORMAL);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -5177,9 +5177,9 @@ export! { 77, glNormal3hvNV, first_glNormal3hvNV, hook_glNormal3hvNV, (v: Ptr) -
     }
 } }
 export! { 78, glTexCoord1d, first_glTexCoord1d, hook_glTexCoord1d, (s: f64) -> (), {
-    if let Some(rec) = imm::recording(slot::glTexCoord1d, Effect::TEXCOORD) {
+    if !imm::record(slot::glTexCoord1d, Effect::TEXCOORD, |rec| {
         rec.f64(s);
-    } else {
+    }) {
         imm::direct(Effect::TEXCOORD);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -5187,10 +5187,10 @@ export! { 78, glTexCoord1d, first_glTexCoord1d, hook_glTexCoord1d, (s: f64) -> (
     }
 } }
 export! { 79, glTexCoord1dv, first_glTexCoord1dv, hook_glTexCoord1dv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glTexCoord1dv, Effect::TEXCOORD) {
+    if !imm::record(slot::glTexCoord1dv, Effect::TEXCOORD, |rec| {
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const f64, 1) };
-    } else {
+    }) {
         imm::direct(Effect::TEXCOORD);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -5198,9 +5198,9 @@ export! { 79, glTexCoord1dv, first_glTexCoord1dv, hook_glTexCoord1dv, (v: Ptr) -
     }
 } }
 export! { 80, glTexCoord1f, first_glTexCoord1f, hook_glTexCoord1f, (s: f32) -> (), {
-    if let Some(rec) = imm::recording(slot::glTexCoord1f, Effect::TEXCOORD) {
+    if !imm::record(slot::glTexCoord1f, Effect::TEXCOORD, |rec| {
         rec.f32(s);
-    } else {
+    }) {
         imm::direct(Effect::TEXCOORD);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -5208,10 +5208,10 @@ export! { 80, glTexCoord1f, first_glTexCoord1f, hook_glTexCoord1f, (s: f32) -> (
     }
 } }
 export! { 81, glTexCoord1fv, first_glTexCoord1fv, hook_glTexCoord1fv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glTexCoord1fv, Effect::TEXCOORD) {
+    if !imm::record(slot::glTexCoord1fv, Effect::TEXCOORD, |rec| {
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const f32, 1) };
-    } else {
+    }) {
         imm::direct(Effect::TEXCOORD);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -5219,9 +5219,9 @@ export! { 81, glTexCoord1fv, first_glTexCoord1fv, hook_glTexCoord1fv, (v: Ptr) -
     }
 } }
 export! { 82, glTexCoord1i, first_glTexCoord1i, hook_glTexCoord1i, (s: i32) -> (), {
-    if let Some(rec) = imm::recording(slot::glTexCoord1i, Effect::TEXCOORD) {
+    if !imm::record(slot::glTexCoord1i, Effect::TEXCOORD, |rec| {
         rec.i32(s);
-    } else {
+    }) {
         imm::direct(Effect::TEXCOORD);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -5229,10 +5229,10 @@ export! { 82, glTexCoord1i, first_glTexCoord1i, hook_glTexCoord1i, (s: i32) -> (
     }
 } }
 export! { 83, glTexCoord1iv, first_glTexCoord1iv, hook_glTexCoord1iv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glTexCoord1iv, Effect::TEXCOORD) {
+    if !imm::record(slot::glTexCoord1iv, Effect::TEXCOORD, |rec| {
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const i32, 1) };
-    } else {
+    }) {
         imm::direct(Effect::TEXCOORD);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -5240,9 +5240,9 @@ export! { 83, glTexCoord1iv, first_glTexCoord1iv, hook_glTexCoord1iv, (v: Ptr) -
     }
 } }
 export! { 84, glTexCoord1s, first_glTexCoord1s, hook_glTexCoord1s, (s: i16) -> (), {
-    if let Some(rec) = imm::recording(slot::glTexCoord1s, Effect::TEXCOORD) {
+    if !imm::record(slot::glTexCoord1s, Effect::TEXCOORD, |rec| {
         rec.i16(s);
-    } else {
+    }) {
         imm::direct(Effect::TEXCOORD);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -5250,10 +5250,10 @@ export! { 84, glTexCoord1s, first_glTexCoord1s, hook_glTexCoord1s, (s: i16) -> (
     }
 } }
 export! { 85, glTexCoord1sv, first_glTexCoord1sv, hook_glTexCoord1sv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glTexCoord1sv, Effect::TEXCOORD) {
+    if !imm::record(slot::glTexCoord1sv, Effect::TEXCOORD, |rec| {
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const i16, 1) };
-    } else {
+    }) {
         imm::direct(Effect::TEXCOORD);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -5261,10 +5261,10 @@ export! { 85, glTexCoord1sv, first_glTexCoord1sv, hook_glTexCoord1sv, (v: Ptr) -
     }
 } }
 export! { 86, glTexCoord2d, first_glTexCoord2d, hook_glTexCoord2d, (s: f64, t: f64) -> (), {
-    if let Some(rec) = imm::recording(slot::glTexCoord2d, Effect::TEXCOORD) {
+    if !imm::record(slot::glTexCoord2d, Effect::TEXCOORD, |rec| {
         rec.f64(s);
         rec.f64(t);
-    } else {
+    }) {
         imm::direct(Effect::TEXCOORD);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -5272,10 +5272,10 @@ export! { 86, glTexCoord2d, first_glTexCoord2d, hook_glTexCoord2d, (s: f64, t: f
     }
 } }
 export! { 87, glTexCoord2dv, first_glTexCoord2dv, hook_glTexCoord2dv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glTexCoord2dv, Effect::TEXCOORD) {
+    if !imm::record(slot::glTexCoord2dv, Effect::TEXCOORD, |rec| {
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const f64, 2) };
-    } else {
+    }) {
         imm::direct(Effect::TEXCOORD);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -5283,10 +5283,10 @@ export! { 87, glTexCoord2dv, first_glTexCoord2dv, hook_glTexCoord2dv, (v: Ptr) -
     }
 } }
 export! { 88, glTexCoord2f, first_glTexCoord2f, hook_glTexCoord2f, (s: f32, t: f32) -> (), {
-    if let Some(rec) = imm::recording(slot::glTexCoord2f, Effect::TEXCOORD) {
+    if !imm::record(slot::glTexCoord2f, Effect::TEXCOORD, |rec| {
         rec.f32(s);
         rec.f32(t);
-    } else {
+    }) {
         imm::direct(Effect::TEXCOORD);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -5294,10 +5294,10 @@ export! { 88, glTexCoord2f, first_glTexCoord2f, hook_glTexCoord2f, (s: f32, t: f
     }
 } }
 export! { 89, glTexCoord2fv, first_glTexCoord2fv, hook_glTexCoord2fv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glTexCoord2fv, Effect::TEXCOORD) {
+    if !imm::record(slot::glTexCoord2fv, Effect::TEXCOORD, |rec| {
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const f32, 2) };
-    } else {
+    }) {
         imm::direct(Effect::TEXCOORD);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -5305,10 +5305,10 @@ export! { 89, glTexCoord2fv, first_glTexCoord2fv, hook_glTexCoord2fv, (v: Ptr) -
     }
 } }
 export! { 90, glTexCoord2i, first_glTexCoord2i, hook_glTexCoord2i, (s: i32, t: i32) -> (), {
-    if let Some(rec) = imm::recording(slot::glTexCoord2i, Effect::TEXCOORD) {
+    if !imm::record(slot::glTexCoord2i, Effect::TEXCOORD, |rec| {
         rec.i32(s);
         rec.i32(t);
-    } else {
+    }) {
         imm::direct(Effect::TEXCOORD);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -5316,10 +5316,10 @@ export! { 90, glTexCoord2i, first_glTexCoord2i, hook_glTexCoord2i, (s: i32, t: i
     }
 } }
 export! { 91, glTexCoord2iv, first_glTexCoord2iv, hook_glTexCoord2iv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glTexCoord2iv, Effect::TEXCOORD) {
+    if !imm::record(slot::glTexCoord2iv, Effect::TEXCOORD, |rec| {
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const i32, 2) };
-    } else {
+    }) {
         imm::direct(Effect::TEXCOORD);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -5327,10 +5327,10 @@ export! { 91, glTexCoord2iv, first_glTexCoord2iv, hook_glTexCoord2iv, (v: Ptr) -
     }
 } }
 export! { 92, glTexCoord2s, first_glTexCoord2s, hook_glTexCoord2s, (s: i16, t: i16) -> (), {
-    if let Some(rec) = imm::recording(slot::glTexCoord2s, Effect::TEXCOORD) {
+    if !imm::record(slot::glTexCoord2s, Effect::TEXCOORD, |rec| {
         rec.i16(s);
         rec.i16(t);
-    } else {
+    }) {
         imm::direct(Effect::TEXCOORD);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -5338,10 +5338,10 @@ export! { 92, glTexCoord2s, first_glTexCoord2s, hook_glTexCoord2s, (s: i16, t: i
     }
 } }
 export! { 93, glTexCoord2sv, first_glTexCoord2sv, hook_glTexCoord2sv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glTexCoord2sv, Effect::TEXCOORD) {
+    if !imm::record(slot::glTexCoord2sv, Effect::TEXCOORD, |rec| {
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const i16, 2) };
-    } else {
+    }) {
         imm::direct(Effect::TEXCOORD);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -5349,11 +5349,11 @@ export! { 93, glTexCoord2sv, first_glTexCoord2sv, hook_glTexCoord2sv, (v: Ptr) -
     }
 } }
 export! { 94, glTexCoord3d, first_glTexCoord3d, hook_glTexCoord3d, (s: f64, t: f64, r: f64) -> (), {
-    if let Some(rec) = imm::recording(slot::glTexCoord3d, Effect::TEXCOORD) {
+    if !imm::record(slot::glTexCoord3d, Effect::TEXCOORD, |rec| {
         rec.f64(s);
         rec.f64(t);
         rec.f64(r);
-    } else {
+    }) {
         imm::direct(Effect::TEXCOORD);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -5361,10 +5361,10 @@ export! { 94, glTexCoord3d, first_glTexCoord3d, hook_glTexCoord3d, (s: f64, t: f
     }
 } }
 export! { 95, glTexCoord3dv, first_glTexCoord3dv, hook_glTexCoord3dv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glTexCoord3dv, Effect::TEXCOORD) {
+    if !imm::record(slot::glTexCoord3dv, Effect::TEXCOORD, |rec| {
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const f64, 3) };
-    } else {
+    }) {
         imm::direct(Effect::TEXCOORD);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -5372,11 +5372,11 @@ export! { 95, glTexCoord3dv, first_glTexCoord3dv, hook_glTexCoord3dv, (v: Ptr) -
     }
 } }
 export! { 96, glTexCoord3f, first_glTexCoord3f, hook_glTexCoord3f, (s: f32, t: f32, r: f32) -> (), {
-    if let Some(rec) = imm::recording(slot::glTexCoord3f, Effect::TEXCOORD) {
+    if !imm::record(slot::glTexCoord3f, Effect::TEXCOORD, |rec| {
         rec.f32(s);
         rec.f32(t);
         rec.f32(r);
-    } else {
+    }) {
         imm::direct(Effect::TEXCOORD);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -5384,10 +5384,10 @@ export! { 96, glTexCoord3f, first_glTexCoord3f, hook_glTexCoord3f, (s: f32, t: f
     }
 } }
 export! { 97, glTexCoord3fv, first_glTexCoord3fv, hook_glTexCoord3fv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glTexCoord3fv, Effect::TEXCOORD) {
+    if !imm::record(slot::glTexCoord3fv, Effect::TEXCOORD, |rec| {
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const f32, 3) };
-    } else {
+    }) {
         imm::direct(Effect::TEXCOORD);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -5395,11 +5395,11 @@ export! { 97, glTexCoord3fv, first_glTexCoord3fv, hook_glTexCoord3fv, (v: Ptr) -
     }
 } }
 export! { 98, glTexCoord3i, first_glTexCoord3i, hook_glTexCoord3i, (s: i32, t: i32, r: i32) -> (), {
-    if let Some(rec) = imm::recording(slot::glTexCoord3i, Effect::TEXCOORD) {
+    if !imm::record(slot::glTexCoord3i, Effect::TEXCOORD, |rec| {
         rec.i32(s);
         rec.i32(t);
         rec.i32(r);
-    } else {
+    }) {
         imm::direct(Effect::TEXCOORD);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -5407,10 +5407,10 @@ export! { 98, glTexCoord3i, first_glTexCoord3i, hook_glTexCoord3i, (s: i32, t: i
     }
 } }
 export! { 99, glTexCoord3iv, first_glTexCoord3iv, hook_glTexCoord3iv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glTexCoord3iv, Effect::TEXCOORD) {
+    if !imm::record(slot::glTexCoord3iv, Effect::TEXCOORD, |rec| {
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const i32, 3) };
-    } else {
+    }) {
         imm::direct(Effect::TEXCOORD);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -5418,11 +5418,11 @@ export! { 99, glTexCoord3iv, first_glTexCoord3iv, hook_glTexCoord3iv, (v: Ptr) -
     }
 } }
 export! { 100, glTexCoord3s, first_glTexCoord3s, hook_glTexCoord3s, (s: i16, t: i16, r: i16) -> (), {
-    if let Some(rec) = imm::recording(slot::glTexCoord3s, Effect::TEXCOORD) {
+    if !imm::record(slot::glTexCoord3s, Effect::TEXCOORD, |rec| {
         rec.i16(s);
         rec.i16(t);
         rec.i16(r);
-    } else {
+    }) {
         imm::direct(Effect::TEXCOORD);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -5430,10 +5430,10 @@ export! { 100, glTexCoord3s, first_glTexCoord3s, hook_glTexCoord3s, (s: i16, t: 
     }
 } }
 export! { 101, glTexCoord3sv, first_glTexCoord3sv, hook_glTexCoord3sv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glTexCoord3sv, Effect::TEXCOORD) {
+    if !imm::record(slot::glTexCoord3sv, Effect::TEXCOORD, |rec| {
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const i16, 3) };
-    } else {
+    }) {
         imm::direct(Effect::TEXCOORD);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -5441,12 +5441,12 @@ export! { 101, glTexCoord3sv, first_glTexCoord3sv, hook_glTexCoord3sv, (v: Ptr) 
     }
 } }
 export! { 102, glTexCoord4d, first_glTexCoord4d, hook_glTexCoord4d, (s: f64, t: f64, r: f64, q: f64) -> (), {
-    if let Some(rec) = imm::recording(slot::glTexCoord4d, Effect::TEXCOORD) {
+    if !imm::record(slot::glTexCoord4d, Effect::TEXCOORD, |rec| {
         rec.f64(s);
         rec.f64(t);
         rec.f64(r);
         rec.f64(q);
-    } else {
+    }) {
         imm::direct(Effect::TEXCOORD);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -5454,10 +5454,10 @@ export! { 102, glTexCoord4d, first_glTexCoord4d, hook_glTexCoord4d, (s: f64, t: 
     }
 } }
 export! { 103, glTexCoord4dv, first_glTexCoord4dv, hook_glTexCoord4dv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glTexCoord4dv, Effect::TEXCOORD) {
+    if !imm::record(slot::glTexCoord4dv, Effect::TEXCOORD, |rec| {
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const f64, 4) };
-    } else {
+    }) {
         imm::direct(Effect::TEXCOORD);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -5465,12 +5465,12 @@ export! { 103, glTexCoord4dv, first_glTexCoord4dv, hook_glTexCoord4dv, (v: Ptr) 
     }
 } }
 export! { 104, glTexCoord4f, first_glTexCoord4f, hook_glTexCoord4f, (s: f32, t: f32, r: f32, q: f32) -> (), {
-    if let Some(rec) = imm::recording(slot::glTexCoord4f, Effect::TEXCOORD) {
+    if !imm::record(slot::glTexCoord4f, Effect::TEXCOORD, |rec| {
         rec.f32(s);
         rec.f32(t);
         rec.f32(r);
         rec.f32(q);
-    } else {
+    }) {
         imm::direct(Effect::TEXCOORD);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -5478,10 +5478,10 @@ export! { 104, glTexCoord4f, first_glTexCoord4f, hook_glTexCoord4f, (s: f32, t: 
     }
 } }
 export! { 105, glTexCoord4fv, first_glTexCoord4fv, hook_glTexCoord4fv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glTexCoord4fv, Effect::TEXCOORD) {
+    if !imm::record(slot::glTexCoord4fv, Effect::TEXCOORD, |rec| {
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const f32, 4) };
-    } else {
+    }) {
         imm::direct(Effect::TEXCOORD);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -5489,12 +5489,12 @@ export! { 105, glTexCoord4fv, first_glTexCoord4fv, hook_glTexCoord4fv, (v: Ptr) 
     }
 } }
 export! { 106, glTexCoord4i, first_glTexCoord4i, hook_glTexCoord4i, (s: i32, t: i32, r: i32, q: i32) -> (), {
-    if let Some(rec) = imm::recording(slot::glTexCoord4i, Effect::TEXCOORD) {
+    if !imm::record(slot::glTexCoord4i, Effect::TEXCOORD, |rec| {
         rec.i32(s);
         rec.i32(t);
         rec.i32(r);
         rec.i32(q);
-    } else {
+    }) {
         imm::direct(Effect::TEXCOORD);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -5502,10 +5502,10 @@ export! { 106, glTexCoord4i, first_glTexCoord4i, hook_glTexCoord4i, (s: i32, t: 
     }
 } }
 export! { 107, glTexCoord4iv, first_glTexCoord4iv, hook_glTexCoord4iv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glTexCoord4iv, Effect::TEXCOORD) {
+    if !imm::record(slot::glTexCoord4iv, Effect::TEXCOORD, |rec| {
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const i32, 4) };
-    } else {
+    }) {
         imm::direct(Effect::TEXCOORD);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -5513,12 +5513,12 @@ export! { 107, glTexCoord4iv, first_glTexCoord4iv, hook_glTexCoord4iv, (v: Ptr) 
     }
 } }
 export! { 108, glTexCoord4s, first_glTexCoord4s, hook_glTexCoord4s, (s: i16, t: i16, r: i16, q: i16) -> (), {
-    if let Some(rec) = imm::recording(slot::glTexCoord4s, Effect::TEXCOORD) {
+    if !imm::record(slot::glTexCoord4s, Effect::TEXCOORD, |rec| {
         rec.i16(s);
         rec.i16(t);
         rec.i16(r);
         rec.i16(q);
-    } else {
+    }) {
         imm::direct(Effect::TEXCOORD);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -5526,10 +5526,10 @@ export! { 108, glTexCoord4s, first_glTexCoord4s, hook_glTexCoord4s, (s: i16, t: 
     }
 } }
 export! { 109, glTexCoord4sv, first_glTexCoord4sv, hook_glTexCoord4sv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glTexCoord4sv, Effect::TEXCOORD) {
+    if !imm::record(slot::glTexCoord4sv, Effect::TEXCOORD, |rec| {
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const i16, 4) };
-    } else {
+    }) {
         imm::direct(Effect::TEXCOORD);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -5537,9 +5537,9 @@ export! { 109, glTexCoord4sv, first_glTexCoord4sv, hook_glTexCoord4sv, (v: Ptr) 
     }
 } }
 export! { 110, glTexCoord1hNV, first_glTexCoord1hNV, hook_glTexCoord1hNV, (s: u16) -> (), {
-    if let Some(rec) = imm::recording(slot::glTexCoord1hNV, Effect::TEXCOORD) {
+    if !imm::record(slot::glTexCoord1hNV, Effect::TEXCOORD, |rec| {
         rec.u16(s);
-    } else {
+    }) {
         imm::direct(Effect::TEXCOORD);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -5547,10 +5547,10 @@ export! { 110, glTexCoord1hNV, first_glTexCoord1hNV, hook_glTexCoord1hNV, (s: u1
     }
 } }
 export! { 111, glTexCoord1hvNV, first_glTexCoord1hvNV, hook_glTexCoord1hvNV, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glTexCoord1hvNV, Effect::TEXCOORD) {
+    if !imm::record(slot::glTexCoord1hvNV, Effect::TEXCOORD, |rec| {
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const u16, 1) };
-    } else {
+    }) {
         imm::direct(Effect::TEXCOORD);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -5558,10 +5558,10 @@ export! { 111, glTexCoord1hvNV, first_glTexCoord1hvNV, hook_glTexCoord1hvNV, (v:
     }
 } }
 export! { 112, glTexCoord2hNV, first_glTexCoord2hNV, hook_glTexCoord2hNV, (s: u16, t: u16) -> (), {
-    if let Some(rec) = imm::recording(slot::glTexCoord2hNV, Effect::TEXCOORD) {
+    if !imm::record(slot::glTexCoord2hNV, Effect::TEXCOORD, |rec| {
         rec.u16(s);
         rec.u16(t);
-    } else {
+    }) {
         imm::direct(Effect::TEXCOORD);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -5569,10 +5569,10 @@ export! { 112, glTexCoord2hNV, first_glTexCoord2hNV, hook_glTexCoord2hNV, (s: u1
     }
 } }
 export! { 113, glTexCoord2hvNV, first_glTexCoord2hvNV, hook_glTexCoord2hvNV, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glTexCoord2hvNV, Effect::TEXCOORD) {
+    if !imm::record(slot::glTexCoord2hvNV, Effect::TEXCOORD, |rec| {
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const u16, 2) };
-    } else {
+    }) {
         imm::direct(Effect::TEXCOORD);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -5580,11 +5580,11 @@ export! { 113, glTexCoord2hvNV, first_glTexCoord2hvNV, hook_glTexCoord2hvNV, (v:
     }
 } }
 export! { 114, glTexCoord3hNV, first_glTexCoord3hNV, hook_glTexCoord3hNV, (s: u16, t: u16, r: u16) -> (), {
-    if let Some(rec) = imm::recording(slot::glTexCoord3hNV, Effect::TEXCOORD) {
+    if !imm::record(slot::glTexCoord3hNV, Effect::TEXCOORD, |rec| {
         rec.u16(s);
         rec.u16(t);
         rec.u16(r);
-    } else {
+    }) {
         imm::direct(Effect::TEXCOORD);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -5592,10 +5592,10 @@ export! { 114, glTexCoord3hNV, first_glTexCoord3hNV, hook_glTexCoord3hNV, (s: u1
     }
 } }
 export! { 115, glTexCoord3hvNV, first_glTexCoord3hvNV, hook_glTexCoord3hvNV, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glTexCoord3hvNV, Effect::TEXCOORD) {
+    if !imm::record(slot::glTexCoord3hvNV, Effect::TEXCOORD, |rec| {
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const u16, 3) };
-    } else {
+    }) {
         imm::direct(Effect::TEXCOORD);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -5603,12 +5603,12 @@ export! { 115, glTexCoord3hvNV, first_glTexCoord3hvNV, hook_glTexCoord3hvNV, (v:
     }
 } }
 export! { 116, glTexCoord4hNV, first_glTexCoord4hNV, hook_glTexCoord4hNV, (s: u16, t: u16, r: u16, q: u16) -> (), {
-    if let Some(rec) = imm::recording(slot::glTexCoord4hNV, Effect::TEXCOORD) {
+    if !imm::record(slot::glTexCoord4hNV, Effect::TEXCOORD, |rec| {
         rec.u16(s);
         rec.u16(t);
         rec.u16(r);
         rec.u16(q);
-    } else {
+    }) {
         imm::direct(Effect::TEXCOORD);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -5616,10 +5616,10 @@ export! { 116, glTexCoord4hNV, first_glTexCoord4hNV, hook_glTexCoord4hNV, (s: u1
     }
 } }
 export! { 117, glTexCoord4hvNV, first_glTexCoord4hvNV, hook_glTexCoord4hvNV, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glTexCoord4hvNV, Effect::TEXCOORD) {
+    if !imm::record(slot::glTexCoord4hvNV, Effect::TEXCOORD, |rec| {
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const u16, 4) };
-    } else {
+    }) {
         imm::direct(Effect::TEXCOORD);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -5627,10 +5627,10 @@ export! { 117, glTexCoord4hvNV, first_glTexCoord4hvNV, hook_glTexCoord4hvNV, (v:
     }
 } }
 export! { 118, glMultiTexCoord1d, first_glMultiTexCoord1d, hook_glMultiTexCoord1d, (target: u32, s: f64) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord1d, Effect::MULTITEX) {
+    if !imm::record(slot::glMultiTexCoord1d, Effect::MULTITEX, |rec| {
         rec.u32(target);
         rec.f64(s);
-    } else {
+    }) {
         imm::direct(Effect::MULTITEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -5638,10 +5638,10 @@ export! { 118, glMultiTexCoord1d, first_glMultiTexCoord1d, hook_glMultiTexCoord1
     }
 } }
 export! { 119, glMultiTexCoord1dARB, first_glMultiTexCoord1dARB, hook_glMultiTexCoord1dARB, (target: u32, s: f64) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord1dARB, Effect::MULTITEX) {
+    if !imm::record(slot::glMultiTexCoord1dARB, Effect::MULTITEX, |rec| {
         rec.u32(target);
         rec.f64(s);
-    } else {
+    }) {
         imm::direct(Effect::MULTITEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -5649,11 +5649,11 @@ export! { 119, glMultiTexCoord1dARB, first_glMultiTexCoord1dARB, hook_glMultiTex
     }
 } }
 export! { 120, glMultiTexCoord1dv, first_glMultiTexCoord1dv, hook_glMultiTexCoord1dv, (target: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord1dv, Effect::MULTITEX) {
+    if !imm::record(slot::glMultiTexCoord1dv, Effect::MULTITEX, |rec| {
         rec.u32(target);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const f64, 1) };
-    } else {
+    }) {
         imm::direct(Effect::MULTITEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -5661,11 +5661,11 @@ export! { 120, glMultiTexCoord1dv, first_glMultiTexCoord1dv, hook_glMultiTexCoor
     }
 } }
 export! { 121, glMultiTexCoord1dvARB, first_glMultiTexCoord1dvARB, hook_glMultiTexCoord1dvARB, (target: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord1dvARB, Effect::MULTITEX) {
+    if !imm::record(slot::glMultiTexCoord1dvARB, Effect::MULTITEX, |rec| {
         rec.u32(target);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const f64, 1) };
-    } else {
+    }) {
         imm::direct(Effect::MULTITEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -5673,10 +5673,10 @@ export! { 121, glMultiTexCoord1dvARB, first_glMultiTexCoord1dvARB, hook_glMultiT
     }
 } }
 export! { 122, glMultiTexCoord1f, first_glMultiTexCoord1f, hook_glMultiTexCoord1f, (target: u32, s: f32) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord1f, Effect::MULTITEX) {
+    if !imm::record(slot::glMultiTexCoord1f, Effect::MULTITEX, |rec| {
         rec.u32(target);
         rec.f32(s);
-    } else {
+    }) {
         imm::direct(Effect::MULTITEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -5684,10 +5684,10 @@ export! { 122, glMultiTexCoord1f, first_glMultiTexCoord1f, hook_glMultiTexCoord1
     }
 } }
 export! { 123, glMultiTexCoord1fARB, first_glMultiTexCoord1fARB, hook_glMultiTexCoord1fARB, (target: u32, s: f32) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord1fARB, Effect::MULTITEX) {
+    if !imm::record(slot::glMultiTexCoord1fARB, Effect::MULTITEX, |rec| {
         rec.u32(target);
         rec.f32(s);
-    } else {
+    }) {
         imm::direct(Effect::MULTITEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -5695,11 +5695,11 @@ export! { 123, glMultiTexCoord1fARB, first_glMultiTexCoord1fARB, hook_glMultiTex
     }
 } }
 export! { 124, glMultiTexCoord1fv, first_glMultiTexCoord1fv, hook_glMultiTexCoord1fv, (target: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord1fv, Effect::MULTITEX) {
+    if !imm::record(slot::glMultiTexCoord1fv, Effect::MULTITEX, |rec| {
         rec.u32(target);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const f32, 1) };
-    } else {
+    }) {
         imm::direct(Effect::MULTITEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -5707,11 +5707,11 @@ export! { 124, glMultiTexCoord1fv, first_glMultiTexCoord1fv, hook_glMultiTexCoor
     }
 } }
 export! { 125, glMultiTexCoord1fvARB, first_glMultiTexCoord1fvARB, hook_glMultiTexCoord1fvARB, (target: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord1fvARB, Effect::MULTITEX) {
+    if !imm::record(slot::glMultiTexCoord1fvARB, Effect::MULTITEX, |rec| {
         rec.u32(target);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const f32, 1) };
-    } else {
+    }) {
         imm::direct(Effect::MULTITEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -5719,10 +5719,10 @@ export! { 125, glMultiTexCoord1fvARB, first_glMultiTexCoord1fvARB, hook_glMultiT
     }
 } }
 export! { 126, glMultiTexCoord1i, first_glMultiTexCoord1i, hook_glMultiTexCoord1i, (target: u32, s: i32) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord1i, Effect::MULTITEX) {
+    if !imm::record(slot::glMultiTexCoord1i, Effect::MULTITEX, |rec| {
         rec.u32(target);
         rec.i32(s);
-    } else {
+    }) {
         imm::direct(Effect::MULTITEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -5730,10 +5730,10 @@ export! { 126, glMultiTexCoord1i, first_glMultiTexCoord1i, hook_glMultiTexCoord1
     }
 } }
 export! { 127, glMultiTexCoord1iARB, first_glMultiTexCoord1iARB, hook_glMultiTexCoord1iARB, (target: u32, s: i32) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord1iARB, Effect::MULTITEX) {
+    if !imm::record(slot::glMultiTexCoord1iARB, Effect::MULTITEX, |rec| {
         rec.u32(target);
         rec.i32(s);
-    } else {
+    }) {
         imm::direct(Effect::MULTITEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -5741,11 +5741,11 @@ export! { 127, glMultiTexCoord1iARB, first_glMultiTexCoord1iARB, hook_glMultiTex
     }
 } }
 export! { 128, glMultiTexCoord1iv, first_glMultiTexCoord1iv, hook_glMultiTexCoord1iv, (target: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord1iv, Effect::MULTITEX) {
+    if !imm::record(slot::glMultiTexCoord1iv, Effect::MULTITEX, |rec| {
         rec.u32(target);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const i32, 1) };
-    } else {
+    }) {
         imm::direct(Effect::MULTITEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -5753,11 +5753,11 @@ export! { 128, glMultiTexCoord1iv, first_glMultiTexCoord1iv, hook_glMultiTexCoor
     }
 } }
 export! { 129, glMultiTexCoord1ivARB, first_glMultiTexCoord1ivARB, hook_glMultiTexCoord1ivARB, (target: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord1ivARB, Effect::MULTITEX) {
+    if !imm::record(slot::glMultiTexCoord1ivARB, Effect::MULTITEX, |rec| {
         rec.u32(target);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const i32, 1) };
-    } else {
+    }) {
         imm::direct(Effect::MULTITEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -5765,10 +5765,10 @@ export! { 129, glMultiTexCoord1ivARB, first_glMultiTexCoord1ivARB, hook_glMultiT
     }
 } }
 export! { 130, glMultiTexCoord1s, first_glMultiTexCoord1s, hook_glMultiTexCoord1s, (target: u32, s: i16) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord1s, Effect::MULTITEX) {
+    if !imm::record(slot::glMultiTexCoord1s, Effect::MULTITEX, |rec| {
         rec.u32(target);
         rec.i16(s);
-    } else {
+    }) {
         imm::direct(Effect::MULTITEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -5776,10 +5776,10 @@ export! { 130, glMultiTexCoord1s, first_glMultiTexCoord1s, hook_glMultiTexCoord1
     }
 } }
 export! { 131, glMultiTexCoord1sARB, first_glMultiTexCoord1sARB, hook_glMultiTexCoord1sARB, (target: u32, s: i16) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord1sARB, Effect::MULTITEX) {
+    if !imm::record(slot::glMultiTexCoord1sARB, Effect::MULTITEX, |rec| {
         rec.u32(target);
         rec.i16(s);
-    } else {
+    }) {
         imm::direct(Effect::MULTITEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -5787,11 +5787,11 @@ export! { 131, glMultiTexCoord1sARB, first_glMultiTexCoord1sARB, hook_glMultiTex
     }
 } }
 export! { 132, glMultiTexCoord1sv, first_glMultiTexCoord1sv, hook_glMultiTexCoord1sv, (target: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord1sv, Effect::MULTITEX) {
+    if !imm::record(slot::glMultiTexCoord1sv, Effect::MULTITEX, |rec| {
         rec.u32(target);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const i16, 1) };
-    } else {
+    }) {
         imm::direct(Effect::MULTITEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -5799,11 +5799,11 @@ export! { 132, glMultiTexCoord1sv, first_glMultiTexCoord1sv, hook_glMultiTexCoor
     }
 } }
 export! { 133, glMultiTexCoord1svARB, first_glMultiTexCoord1svARB, hook_glMultiTexCoord1svARB, (target: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord1svARB, Effect::MULTITEX) {
+    if !imm::record(slot::glMultiTexCoord1svARB, Effect::MULTITEX, |rec| {
         rec.u32(target);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const i16, 1) };
-    } else {
+    }) {
         imm::direct(Effect::MULTITEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -5811,11 +5811,11 @@ export! { 133, glMultiTexCoord1svARB, first_glMultiTexCoord1svARB, hook_glMultiT
     }
 } }
 export! { 134, glMultiTexCoord2d, first_glMultiTexCoord2d, hook_glMultiTexCoord2d, (target: u32, s: f64, t: f64) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord2d, Effect::MULTITEX) {
+    if !imm::record(slot::glMultiTexCoord2d, Effect::MULTITEX, |rec| {
         rec.u32(target);
         rec.f64(s);
         rec.f64(t);
-    } else {
+    }) {
         imm::direct(Effect::MULTITEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -5823,11 +5823,11 @@ export! { 134, glMultiTexCoord2d, first_glMultiTexCoord2d, hook_glMultiTexCoord2
     }
 } }
 export! { 135, glMultiTexCoord2dARB, first_glMultiTexCoord2dARB, hook_glMultiTexCoord2dARB, (target: u32, s: f64, t: f64) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord2dARB, Effect::MULTITEX) {
+    if !imm::record(slot::glMultiTexCoord2dARB, Effect::MULTITEX, |rec| {
         rec.u32(target);
         rec.f64(s);
         rec.f64(t);
-    } else {
+    }) {
         imm::direct(Effect::MULTITEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -5835,11 +5835,11 @@ export! { 135, glMultiTexCoord2dARB, first_glMultiTexCoord2dARB, hook_glMultiTex
     }
 } }
 export! { 136, glMultiTexCoord2dv, first_glMultiTexCoord2dv, hook_glMultiTexCoord2dv, (target: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord2dv, Effect::MULTITEX) {
+    if !imm::record(slot::glMultiTexCoord2dv, Effect::MULTITEX, |rec| {
         rec.u32(target);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const f64, 2) };
-    } else {
+    }) {
         imm::direct(Effect::MULTITEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -5847,11 +5847,11 @@ export! { 136, glMultiTexCoord2dv, first_glMultiTexCoord2dv, hook_glMultiTexCoor
     }
 } }
 export! { 137, glMultiTexCoord2dvARB, first_glMultiTexCoord2dvARB, hook_glMultiTexCoord2dvARB, (target: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord2dvARB, Effect::MULTITEX) {
+    if !imm::record(slot::glMultiTexCoord2dvARB, Effect::MULTITEX, |rec| {
         rec.u32(target);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const f64, 2) };
-    } else {
+    }) {
         imm::direct(Effect::MULTITEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -5859,11 +5859,11 @@ export! { 137, glMultiTexCoord2dvARB, first_glMultiTexCoord2dvARB, hook_glMultiT
     }
 } }
 export! { 138, glMultiTexCoord2f, first_glMultiTexCoord2f, hook_glMultiTexCoord2f, (target: u32, s: f32, t: f32) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord2f, Effect::MULTITEX) {
+    if !imm::record(slot::glMultiTexCoord2f, Effect::MULTITEX, |rec| {
         rec.u32(target);
         rec.f32(s);
         rec.f32(t);
-    } else {
+    }) {
         imm::direct(Effect::MULTITEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -5871,11 +5871,11 @@ export! { 138, glMultiTexCoord2f, first_glMultiTexCoord2f, hook_glMultiTexCoord2
     }
 } }
 export! { 139, glMultiTexCoord2fARB, first_glMultiTexCoord2fARB, hook_glMultiTexCoord2fARB, (target: u32, s: f32, t: f32) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord2fARB, Effect::MULTITEX) {
+    if !imm::record(slot::glMultiTexCoord2fARB, Effect::MULTITEX, |rec| {
         rec.u32(target);
         rec.f32(s);
         rec.f32(t);
-    } else {
+    }) {
         imm::direct(Effect::MULTITEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -5883,11 +5883,11 @@ export! { 139, glMultiTexCoord2fARB, first_glMultiTexCoord2fARB, hook_glMultiTex
     }
 } }
 export! { 140, glMultiTexCoord2fv, first_glMultiTexCoord2fv, hook_glMultiTexCoord2fv, (target: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord2fv, Effect::MULTITEX) {
+    if !imm::record(slot::glMultiTexCoord2fv, Effect::MULTITEX, |rec| {
         rec.u32(target);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const f32, 2) };
-    } else {
+    }) {
         imm::direct(Effect::MULTITEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -5895,11 +5895,11 @@ export! { 140, glMultiTexCoord2fv, first_glMultiTexCoord2fv, hook_glMultiTexCoor
     }
 } }
 export! { 141, glMultiTexCoord2fvARB, first_glMultiTexCoord2fvARB, hook_glMultiTexCoord2fvARB, (target: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord2fvARB, Effect::MULTITEX) {
+    if !imm::record(slot::glMultiTexCoord2fvARB, Effect::MULTITEX, |rec| {
         rec.u32(target);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const f32, 2) };
-    } else {
+    }) {
         imm::direct(Effect::MULTITEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -5907,11 +5907,11 @@ export! { 141, glMultiTexCoord2fvARB, first_glMultiTexCoord2fvARB, hook_glMultiT
     }
 } }
 export! { 142, glMultiTexCoord2i, first_glMultiTexCoord2i, hook_glMultiTexCoord2i, (target: u32, s: i32, t: i32) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord2i, Effect::MULTITEX) {
+    if !imm::record(slot::glMultiTexCoord2i, Effect::MULTITEX, |rec| {
         rec.u32(target);
         rec.i32(s);
         rec.i32(t);
-    } else {
+    }) {
         imm::direct(Effect::MULTITEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -5919,11 +5919,11 @@ export! { 142, glMultiTexCoord2i, first_glMultiTexCoord2i, hook_glMultiTexCoord2
     }
 } }
 export! { 143, glMultiTexCoord2iARB, first_glMultiTexCoord2iARB, hook_glMultiTexCoord2iARB, (target: u32, s: i32, t: i32) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord2iARB, Effect::MULTITEX) {
+    if !imm::record(slot::glMultiTexCoord2iARB, Effect::MULTITEX, |rec| {
         rec.u32(target);
         rec.i32(s);
         rec.i32(t);
-    } else {
+    }) {
         imm::direct(Effect::MULTITEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -5931,11 +5931,11 @@ export! { 143, glMultiTexCoord2iARB, first_glMultiTexCoord2iARB, hook_glMultiTex
     }
 } }
 export! { 144, glMultiTexCoord2iv, first_glMultiTexCoord2iv, hook_glMultiTexCoord2iv, (target: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord2iv, Effect::MULTITEX) {
+    if !imm::record(slot::glMultiTexCoord2iv, Effect::MULTITEX, |rec| {
         rec.u32(target);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const i32, 2) };
-    } else {
+    }) {
         imm::direct(Effect::MULTITEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -5943,11 +5943,11 @@ export! { 144, glMultiTexCoord2iv, first_glMultiTexCoord2iv, hook_glMultiTexCoor
     }
 } }
 export! { 145, glMultiTexCoord2ivARB, first_glMultiTexCoord2ivARB, hook_glMultiTexCoord2ivARB, (target: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord2ivARB, Effect::MULTITEX) {
+    if !imm::record(slot::glMultiTexCoord2ivARB, Effect::MULTITEX, |rec| {
         rec.u32(target);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const i32, 2) };
-    } else {
+    }) {
         imm::direct(Effect::MULTITEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -5955,11 +5955,11 @@ export! { 145, glMultiTexCoord2ivARB, first_glMultiTexCoord2ivARB, hook_glMultiT
     }
 } }
 export! { 146, glMultiTexCoord2s, first_glMultiTexCoord2s, hook_glMultiTexCoord2s, (target: u32, s: i16, t: i16) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord2s, Effect::MULTITEX) {
+    if !imm::record(slot::glMultiTexCoord2s, Effect::MULTITEX, |rec| {
         rec.u32(target);
         rec.i16(s);
         rec.i16(t);
-    } else {
+    }) {
         imm::direct(Effect::MULTITEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -5967,11 +5967,11 @@ export! { 146, glMultiTexCoord2s, first_glMultiTexCoord2s, hook_glMultiTexCoord2
     }
 } }
 export! { 147, glMultiTexCoord2sARB, first_glMultiTexCoord2sARB, hook_glMultiTexCoord2sARB, (target: u32, s: i16, t: i16) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord2sARB, Effect::MULTITEX) {
+    if !imm::record(slot::glMultiTexCoord2sARB, Effect::MULTITEX, |rec| {
         rec.u32(target);
         rec.i16(s);
         rec.i16(t);
-    } else {
+    }) {
         imm::direct(Effect::MULTITEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -5979,11 +5979,11 @@ export! { 147, glMultiTexCoord2sARB, first_glMultiTexCoord2sARB, hook_glMultiTex
     }
 } }
 export! { 148, glMultiTexCoord2sv, first_glMultiTexCoord2sv, hook_glMultiTexCoord2sv, (target: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord2sv, Effect::MULTITEX) {
+    if !imm::record(slot::glMultiTexCoord2sv, Effect::MULTITEX, |rec| {
         rec.u32(target);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const i16, 2) };
-    } else {
+    }) {
         imm::direct(Effect::MULTITEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -5991,11 +5991,11 @@ export! { 148, glMultiTexCoord2sv, first_glMultiTexCoord2sv, hook_glMultiTexCoor
     }
 } }
 export! { 149, glMultiTexCoord2svARB, first_glMultiTexCoord2svARB, hook_glMultiTexCoord2svARB, (target: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord2svARB, Effect::MULTITEX) {
+    if !imm::record(slot::glMultiTexCoord2svARB, Effect::MULTITEX, |rec| {
         rec.u32(target);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const i16, 2) };
-    } else {
+    }) {
         imm::direct(Effect::MULTITEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -6003,12 +6003,12 @@ export! { 149, glMultiTexCoord2svARB, first_glMultiTexCoord2svARB, hook_glMultiT
     }
 } }
 export! { 150, glMultiTexCoord3d, first_glMultiTexCoord3d, hook_glMultiTexCoord3d, (target: u32, s: f64, t: f64, r: f64) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord3d, Effect::MULTITEX) {
+    if !imm::record(slot::glMultiTexCoord3d, Effect::MULTITEX, |rec| {
         rec.u32(target);
         rec.f64(s);
         rec.f64(t);
         rec.f64(r);
-    } else {
+    }) {
         imm::direct(Effect::MULTITEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -6016,12 +6016,12 @@ export! { 150, glMultiTexCoord3d, first_glMultiTexCoord3d, hook_glMultiTexCoord3
     }
 } }
 export! { 151, glMultiTexCoord3dARB, first_glMultiTexCoord3dARB, hook_glMultiTexCoord3dARB, (target: u32, s: f64, t: f64, r: f64) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord3dARB, Effect::MULTITEX) {
+    if !imm::record(slot::glMultiTexCoord3dARB, Effect::MULTITEX, |rec| {
         rec.u32(target);
         rec.f64(s);
         rec.f64(t);
         rec.f64(r);
-    } else {
+    }) {
         imm::direct(Effect::MULTITEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -6029,11 +6029,11 @@ export! { 151, glMultiTexCoord3dARB, first_glMultiTexCoord3dARB, hook_glMultiTex
     }
 } }
 export! { 152, glMultiTexCoord3dv, first_glMultiTexCoord3dv, hook_glMultiTexCoord3dv, (target: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord3dv, Effect::MULTITEX) {
+    if !imm::record(slot::glMultiTexCoord3dv, Effect::MULTITEX, |rec| {
         rec.u32(target);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const f64, 3) };
-    } else {
+    }) {
         imm::direct(Effect::MULTITEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -6041,11 +6041,11 @@ export! { 152, glMultiTexCoord3dv, first_glMultiTexCoord3dv, hook_glMultiTexCoor
     }
 } }
 export! { 153, glMultiTexCoord3dvARB, first_glMultiTexCoord3dvARB, hook_glMultiTexCoord3dvARB, (target: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord3dvARB, Effect::MULTITEX) {
+    if !imm::record(slot::glMultiTexCoord3dvARB, Effect::MULTITEX, |rec| {
         rec.u32(target);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const f64, 3) };
-    } else {
+    }) {
         imm::direct(Effect::MULTITEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -6053,12 +6053,12 @@ export! { 153, glMultiTexCoord3dvARB, first_glMultiTexCoord3dvARB, hook_glMultiT
     }
 } }
 export! { 154, glMultiTexCoord3f, first_glMultiTexCoord3f, hook_glMultiTexCoord3f, (target: u32, s: f32, t: f32, r: f32) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord3f, Effect::MULTITEX) {
+    if !imm::record(slot::glMultiTexCoord3f, Effect::MULTITEX, |rec| {
         rec.u32(target);
         rec.f32(s);
         rec.f32(t);
         rec.f32(r);
-    } else {
+    }) {
         imm::direct(Effect::MULTITEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -6066,12 +6066,12 @@ export! { 154, glMultiTexCoord3f, first_glMultiTexCoord3f, hook_glMultiTexCoord3
     }
 } }
 export! { 155, glMultiTexCoord3fARB, first_glMultiTexCoord3fARB, hook_glMultiTexCoord3fARB, (target: u32, s: f32, t: f32, r: f32) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord3fARB, Effect::MULTITEX) {
+    if !imm::record(slot::glMultiTexCoord3fARB, Effect::MULTITEX, |rec| {
         rec.u32(target);
         rec.f32(s);
         rec.f32(t);
         rec.f32(r);
-    } else {
+    }) {
         imm::direct(Effect::MULTITEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -6079,11 +6079,11 @@ export! { 155, glMultiTexCoord3fARB, first_glMultiTexCoord3fARB, hook_glMultiTex
     }
 } }
 export! { 156, glMultiTexCoord3fv, first_glMultiTexCoord3fv, hook_glMultiTexCoord3fv, (target: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord3fv, Effect::MULTITEX) {
+    if !imm::record(slot::glMultiTexCoord3fv, Effect::MULTITEX, |rec| {
         rec.u32(target);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const f32, 3) };
-    } else {
+    }) {
         imm::direct(Effect::MULTITEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -6091,11 +6091,11 @@ export! { 156, glMultiTexCoord3fv, first_glMultiTexCoord3fv, hook_glMultiTexCoor
     }
 } }
 export! { 157, glMultiTexCoord3fvARB, first_glMultiTexCoord3fvARB, hook_glMultiTexCoord3fvARB, (target: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord3fvARB, Effect::MULTITEX) {
+    if !imm::record(slot::glMultiTexCoord3fvARB, Effect::MULTITEX, |rec| {
         rec.u32(target);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const f32, 3) };
-    } else {
+    }) {
         imm::direct(Effect::MULTITEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -6103,12 +6103,12 @@ export! { 157, glMultiTexCoord3fvARB, first_glMultiTexCoord3fvARB, hook_glMultiT
     }
 } }
 export! { 158, glMultiTexCoord3i, first_glMultiTexCoord3i, hook_glMultiTexCoord3i, (target: u32, s: i32, t: i32, r: i32) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord3i, Effect::MULTITEX) {
+    if !imm::record(slot::glMultiTexCoord3i, Effect::MULTITEX, |rec| {
         rec.u32(target);
         rec.i32(s);
         rec.i32(t);
         rec.i32(r);
-    } else {
+    }) {
         imm::direct(Effect::MULTITEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -6116,12 +6116,12 @@ export! { 158, glMultiTexCoord3i, first_glMultiTexCoord3i, hook_glMultiTexCoord3
     }
 } }
 export! { 159, glMultiTexCoord3iARB, first_glMultiTexCoord3iARB, hook_glMultiTexCoord3iARB, (target: u32, s: i32, t: i32, r: i32) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord3iARB, Effect::MULTITEX) {
+    if !imm::record(slot::glMultiTexCoord3iARB, Effect::MULTITEX, |rec| {
         rec.u32(target);
         rec.i32(s);
         rec.i32(t);
         rec.i32(r);
-    } else {
+    }) {
         imm::direct(Effect::MULTITEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -6129,11 +6129,11 @@ export! { 159, glMultiTexCoord3iARB, first_glMultiTexCoord3iARB, hook_glMultiTex
     }
 } }
 export! { 160, glMultiTexCoord3iv, first_glMultiTexCoord3iv, hook_glMultiTexCoord3iv, (target: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord3iv, Effect::MULTITEX) {
+    if !imm::record(slot::glMultiTexCoord3iv, Effect::MULTITEX, |rec| {
         rec.u32(target);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const i32, 3) };
-    } else {
+    }) {
         imm::direct(Effect::MULTITEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -6141,11 +6141,11 @@ export! { 160, glMultiTexCoord3iv, first_glMultiTexCoord3iv, hook_glMultiTexCoor
     }
 } }
 export! { 161, glMultiTexCoord3ivARB, first_glMultiTexCoord3ivARB, hook_glMultiTexCoord3ivARB, (target: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord3ivARB, Effect::MULTITEX) {
+    if !imm::record(slot::glMultiTexCoord3ivARB, Effect::MULTITEX, |rec| {
         rec.u32(target);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const i32, 3) };
-    } else {
+    }) {
         imm::direct(Effect::MULTITEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -6153,12 +6153,12 @@ export! { 161, glMultiTexCoord3ivARB, first_glMultiTexCoord3ivARB, hook_glMultiT
     }
 } }
 export! { 162, glMultiTexCoord3s, first_glMultiTexCoord3s, hook_glMultiTexCoord3s, (target: u32, s: i16, t: i16, r: i16) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord3s, Effect::MULTITEX) {
+    if !imm::record(slot::glMultiTexCoord3s, Effect::MULTITEX, |rec| {
         rec.u32(target);
         rec.i16(s);
         rec.i16(t);
         rec.i16(r);
-    } else {
+    }) {
         imm::direct(Effect::MULTITEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -6166,12 +6166,12 @@ export! { 162, glMultiTexCoord3s, first_glMultiTexCoord3s, hook_glMultiTexCoord3
     }
 } }
 export! { 163, glMultiTexCoord3sARB, first_glMultiTexCoord3sARB, hook_glMultiTexCoord3sARB, (target: u32, s: i16, t: i16, r: i16) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord3sARB, Effect::MULTITEX) {
+    if !imm::record(slot::glMultiTexCoord3sARB, Effect::MULTITEX, |rec| {
         rec.u32(target);
         rec.i16(s);
         rec.i16(t);
         rec.i16(r);
-    } else {
+    }) {
         imm::direct(Effect::MULTITEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -6179,11 +6179,11 @@ export! { 163, glMultiTexCoord3sARB, first_glMultiTexCoord3sARB, hook_glMultiTex
     }
 } }
 export! { 164, glMultiTexCoord3sv, first_glMultiTexCoord3sv, hook_glMultiTexCoord3sv, (target: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord3sv, Effect::MULTITEX) {
+    if !imm::record(slot::glMultiTexCoord3sv, Effect::MULTITEX, |rec| {
         rec.u32(target);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const i16, 3) };
-    } else {
+    }) {
         imm::direct(Effect::MULTITEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -6191,11 +6191,11 @@ export! { 164, glMultiTexCoord3sv, first_glMultiTexCoord3sv, hook_glMultiTexCoor
     }
 } }
 export! { 165, glMultiTexCoord3svARB, first_glMultiTexCoord3svARB, hook_glMultiTexCoord3svARB, (target: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord3svARB, Effect::MULTITEX) {
+    if !imm::record(slot::glMultiTexCoord3svARB, Effect::MULTITEX, |rec| {
         rec.u32(target);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const i16, 3) };
-    } else {
+    }) {
         imm::direct(Effect::MULTITEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -6203,13 +6203,13 @@ export! { 165, glMultiTexCoord3svARB, first_glMultiTexCoord3svARB, hook_glMultiT
     }
 } }
 export! { 166, glMultiTexCoord4d, first_glMultiTexCoord4d, hook_glMultiTexCoord4d, (target: u32, s: f64, t: f64, r: f64, q: f64) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord4d, Effect::MULTITEX) {
+    if !imm::record(slot::glMultiTexCoord4d, Effect::MULTITEX, |rec| {
         rec.u32(target);
         rec.f64(s);
         rec.f64(t);
         rec.f64(r);
         rec.f64(q);
-    } else {
+    }) {
         imm::direct(Effect::MULTITEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -6217,13 +6217,13 @@ export! { 166, glMultiTexCoord4d, first_glMultiTexCoord4d, hook_glMultiTexCoord4
     }
 } }
 export! { 167, glMultiTexCoord4dARB, first_glMultiTexCoord4dARB, hook_glMultiTexCoord4dARB, (target: u32, s: f64, t: f64, r: f64, q: f64) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord4dARB, Effect::MULTITEX) {
+    if !imm::record(slot::glMultiTexCoord4dARB, Effect::MULTITEX, |rec| {
         rec.u32(target);
         rec.f64(s);
         rec.f64(t);
         rec.f64(r);
         rec.f64(q);
-    } else {
+    }) {
         imm::direct(Effect::MULTITEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -6231,11 +6231,11 @@ export! { 167, glMultiTexCoord4dARB, first_glMultiTexCoord4dARB, hook_glMultiTex
     }
 } }
 export! { 168, glMultiTexCoord4dv, first_glMultiTexCoord4dv, hook_glMultiTexCoord4dv, (target: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord4dv, Effect::MULTITEX) {
+    if !imm::record(slot::glMultiTexCoord4dv, Effect::MULTITEX, |rec| {
         rec.u32(target);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const f64, 4) };
-    } else {
+    }) {
         imm::direct(Effect::MULTITEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -6243,11 +6243,11 @@ export! { 168, glMultiTexCoord4dv, first_glMultiTexCoord4dv, hook_glMultiTexCoor
     }
 } }
 export! { 169, glMultiTexCoord4dvARB, first_glMultiTexCoord4dvARB, hook_glMultiTexCoord4dvARB, (target: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord4dvARB, Effect::MULTITEX) {
+    if !imm::record(slot::glMultiTexCoord4dvARB, Effect::MULTITEX, |rec| {
         rec.u32(target);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const f64, 4) };
-    } else {
+    }) {
         imm::direct(Effect::MULTITEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -6255,13 +6255,13 @@ export! { 169, glMultiTexCoord4dvARB, first_glMultiTexCoord4dvARB, hook_glMultiT
     }
 } }
 export! { 170, glMultiTexCoord4f, first_glMultiTexCoord4f, hook_glMultiTexCoord4f, (target: u32, s: f32, t: f32, r: f32, q: f32) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord4f, Effect::MULTITEX) {
+    if !imm::record(slot::glMultiTexCoord4f, Effect::MULTITEX, |rec| {
         rec.u32(target);
         rec.f32(s);
         rec.f32(t);
         rec.f32(r);
         rec.f32(q);
-    } else {
+    }) {
         imm::direct(Effect::MULTITEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -6269,13 +6269,13 @@ export! { 170, glMultiTexCoord4f, first_glMultiTexCoord4f, hook_glMultiTexCoord4
     }
 } }
 export! { 171, glMultiTexCoord4fARB, first_glMultiTexCoord4fARB, hook_glMultiTexCoord4fARB, (target: u32, s: f32, t: f32, r: f32, q: f32) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord4fARB, Effect::MULTITEX) {
+    if !imm::record(slot::glMultiTexCoord4fARB, Effect::MULTITEX, |rec| {
         rec.u32(target);
         rec.f32(s);
         rec.f32(t);
         rec.f32(r);
         rec.f32(q);
-    } else {
+    }) {
         imm::direct(Effect::MULTITEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -6283,11 +6283,11 @@ export! { 171, glMultiTexCoord4fARB, first_glMultiTexCoord4fARB, hook_glMultiTex
     }
 } }
 export! { 172, glMultiTexCoord4fv, first_glMultiTexCoord4fv, hook_glMultiTexCoord4fv, (target: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord4fv, Effect::MULTITEX) {
+    if !imm::record(slot::glMultiTexCoord4fv, Effect::MULTITEX, |rec| {
         rec.u32(target);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const f32, 4) };
-    } else {
+    }) {
         imm::direct(Effect::MULTITEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -6295,11 +6295,11 @@ export! { 172, glMultiTexCoord4fv, first_glMultiTexCoord4fv, hook_glMultiTexCoor
     }
 } }
 export! { 173, glMultiTexCoord4fvARB, first_glMultiTexCoord4fvARB, hook_glMultiTexCoord4fvARB, (target: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord4fvARB, Effect::MULTITEX) {
+    if !imm::record(slot::glMultiTexCoord4fvARB, Effect::MULTITEX, |rec| {
         rec.u32(target);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const f32, 4) };
-    } else {
+    }) {
         imm::direct(Effect::MULTITEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -6307,13 +6307,13 @@ export! { 173, glMultiTexCoord4fvARB, first_glMultiTexCoord4fvARB, hook_glMultiT
     }
 } }
 export! { 174, glMultiTexCoord4i, first_glMultiTexCoord4i, hook_glMultiTexCoord4i, (target: u32, s: i32, t: i32, r: i32, q: i32) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord4i, Effect::MULTITEX) {
+    if !imm::record(slot::glMultiTexCoord4i, Effect::MULTITEX, |rec| {
         rec.u32(target);
         rec.i32(s);
         rec.i32(t);
         rec.i32(r);
         rec.i32(q);
-    } else {
+    }) {
         imm::direct(Effect::MULTITEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -6321,13 +6321,13 @@ export! { 174, glMultiTexCoord4i, first_glMultiTexCoord4i, hook_glMultiTexCoord4
     }
 } }
 export! { 175, glMultiTexCoord4iARB, first_glMultiTexCoord4iARB, hook_glMultiTexCoord4iARB, (target: u32, s: i32, t: i32, r: i32, q: i32) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord4iARB, Effect::MULTITEX) {
+    if !imm::record(slot::glMultiTexCoord4iARB, Effect::MULTITEX, |rec| {
         rec.u32(target);
         rec.i32(s);
         rec.i32(t);
         rec.i32(r);
         rec.i32(q);
-    } else {
+    }) {
         imm::direct(Effect::MULTITEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -6335,11 +6335,11 @@ export! { 175, glMultiTexCoord4iARB, first_glMultiTexCoord4iARB, hook_glMultiTex
     }
 } }
 export! { 176, glMultiTexCoord4iv, first_glMultiTexCoord4iv, hook_glMultiTexCoord4iv, (target: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord4iv, Effect::MULTITEX) {
+    if !imm::record(slot::glMultiTexCoord4iv, Effect::MULTITEX, |rec| {
         rec.u32(target);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const i32, 4) };
-    } else {
+    }) {
         imm::direct(Effect::MULTITEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -6347,11 +6347,11 @@ export! { 176, glMultiTexCoord4iv, first_glMultiTexCoord4iv, hook_glMultiTexCoor
     }
 } }
 export! { 177, glMultiTexCoord4ivARB, first_glMultiTexCoord4ivARB, hook_glMultiTexCoord4ivARB, (target: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord4ivARB, Effect::MULTITEX) {
+    if !imm::record(slot::glMultiTexCoord4ivARB, Effect::MULTITEX, |rec| {
         rec.u32(target);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const i32, 4) };
-    } else {
+    }) {
         imm::direct(Effect::MULTITEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -6359,13 +6359,13 @@ export! { 177, glMultiTexCoord4ivARB, first_glMultiTexCoord4ivARB, hook_glMultiT
     }
 } }
 export! { 178, glMultiTexCoord4s, first_glMultiTexCoord4s, hook_glMultiTexCoord4s, (target: u32, s: i16, t: i16, r: i16, q: i16) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord4s, Effect::MULTITEX) {
+    if !imm::record(slot::glMultiTexCoord4s, Effect::MULTITEX, |rec| {
         rec.u32(target);
         rec.i16(s);
         rec.i16(t);
         rec.i16(r);
         rec.i16(q);
-    } else {
+    }) {
         imm::direct(Effect::MULTITEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -6373,13 +6373,13 @@ export! { 178, glMultiTexCoord4s, first_glMultiTexCoord4s, hook_glMultiTexCoord4
     }
 } }
 export! { 179, glMultiTexCoord4sARB, first_glMultiTexCoord4sARB, hook_glMultiTexCoord4sARB, (target: u32, s: i16, t: i16, r: i16, q: i16) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord4sARB, Effect::MULTITEX) {
+    if !imm::record(slot::glMultiTexCoord4sARB, Effect::MULTITEX, |rec| {
         rec.u32(target);
         rec.i16(s);
         rec.i16(t);
         rec.i16(r);
         rec.i16(q);
-    } else {
+    }) {
         imm::direct(Effect::MULTITEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -6387,11 +6387,11 @@ export! { 179, glMultiTexCoord4sARB, first_glMultiTexCoord4sARB, hook_glMultiTex
     }
 } }
 export! { 180, glMultiTexCoord4sv, first_glMultiTexCoord4sv, hook_glMultiTexCoord4sv, (target: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord4sv, Effect::MULTITEX) {
+    if !imm::record(slot::glMultiTexCoord4sv, Effect::MULTITEX, |rec| {
         rec.u32(target);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const i16, 4) };
-    } else {
+    }) {
         imm::direct(Effect::MULTITEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -6399,11 +6399,11 @@ export! { 180, glMultiTexCoord4sv, first_glMultiTexCoord4sv, hook_glMultiTexCoor
     }
 } }
 export! { 181, glMultiTexCoord4svARB, first_glMultiTexCoord4svARB, hook_glMultiTexCoord4svARB, (target: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord4svARB, Effect::MULTITEX) {
+    if !imm::record(slot::glMultiTexCoord4svARB, Effect::MULTITEX, |rec| {
         rec.u32(target);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const i16, 4) };
-    } else {
+    }) {
         imm::direct(Effect::MULTITEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -6411,10 +6411,10 @@ export! { 181, glMultiTexCoord4svARB, first_glMultiTexCoord4svARB, hook_glMultiT
     }
 } }
 export! { 182, glMultiTexCoord1hNV, first_glMultiTexCoord1hNV, hook_glMultiTexCoord1hNV, (target: u32, s: u16) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord1hNV, Effect::MULTITEX) {
+    if !imm::record(slot::glMultiTexCoord1hNV, Effect::MULTITEX, |rec| {
         rec.u32(target);
         rec.u16(s);
-    } else {
+    }) {
         imm::direct(Effect::MULTITEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -6422,11 +6422,11 @@ export! { 182, glMultiTexCoord1hNV, first_glMultiTexCoord1hNV, hook_glMultiTexCo
     }
 } }
 export! { 183, glMultiTexCoord1hvNV, first_glMultiTexCoord1hvNV, hook_glMultiTexCoord1hvNV, (target: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord1hvNV, Effect::MULTITEX) {
+    if !imm::record(slot::glMultiTexCoord1hvNV, Effect::MULTITEX, |rec| {
         rec.u32(target);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const u16, 1) };
-    } else {
+    }) {
         imm::direct(Effect::MULTITEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -6434,11 +6434,11 @@ export! { 183, glMultiTexCoord1hvNV, first_glMultiTexCoord1hvNV, hook_glMultiTex
     }
 } }
 export! { 184, glMultiTexCoord2hNV, first_glMultiTexCoord2hNV, hook_glMultiTexCoord2hNV, (target: u32, s: u16, t: u16) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord2hNV, Effect::MULTITEX) {
+    if !imm::record(slot::glMultiTexCoord2hNV, Effect::MULTITEX, |rec| {
         rec.u32(target);
         rec.u16(s);
         rec.u16(t);
-    } else {
+    }) {
         imm::direct(Effect::MULTITEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -6446,11 +6446,11 @@ export! { 184, glMultiTexCoord2hNV, first_glMultiTexCoord2hNV, hook_glMultiTexCo
     }
 } }
 export! { 185, glMultiTexCoord2hvNV, first_glMultiTexCoord2hvNV, hook_glMultiTexCoord2hvNV, (target: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord2hvNV, Effect::MULTITEX) {
+    if !imm::record(slot::glMultiTexCoord2hvNV, Effect::MULTITEX, |rec| {
         rec.u32(target);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const u16, 2) };
-    } else {
+    }) {
         imm::direct(Effect::MULTITEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -6458,12 +6458,12 @@ export! { 185, glMultiTexCoord2hvNV, first_glMultiTexCoord2hvNV, hook_glMultiTex
     }
 } }
 export! { 186, glMultiTexCoord3hNV, first_glMultiTexCoord3hNV, hook_glMultiTexCoord3hNV, (target: u32, s: u16, t: u16, r: u16) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord3hNV, Effect::MULTITEX) {
+    if !imm::record(slot::glMultiTexCoord3hNV, Effect::MULTITEX, |rec| {
         rec.u32(target);
         rec.u16(s);
         rec.u16(t);
         rec.u16(r);
-    } else {
+    }) {
         imm::direct(Effect::MULTITEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -6471,11 +6471,11 @@ export! { 186, glMultiTexCoord3hNV, first_glMultiTexCoord3hNV, hook_glMultiTexCo
     }
 } }
 export! { 187, glMultiTexCoord3hvNV, first_glMultiTexCoord3hvNV, hook_glMultiTexCoord3hvNV, (target: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord3hvNV, Effect::MULTITEX) {
+    if !imm::record(slot::glMultiTexCoord3hvNV, Effect::MULTITEX, |rec| {
         rec.u32(target);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const u16, 3) };
-    } else {
+    }) {
         imm::direct(Effect::MULTITEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -6483,13 +6483,13 @@ export! { 187, glMultiTexCoord3hvNV, first_glMultiTexCoord3hvNV, hook_glMultiTex
     }
 } }
 export! { 188, glMultiTexCoord4hNV, first_glMultiTexCoord4hNV, hook_glMultiTexCoord4hNV, (target: u32, s: u16, t: u16, r: u16, q: u16) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord4hNV, Effect::MULTITEX) {
+    if !imm::record(slot::glMultiTexCoord4hNV, Effect::MULTITEX, |rec| {
         rec.u32(target);
         rec.u16(s);
         rec.u16(t);
         rec.u16(r);
         rec.u16(q);
-    } else {
+    }) {
         imm::direct(Effect::MULTITEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -6497,11 +6497,11 @@ export! { 188, glMultiTexCoord4hNV, first_glMultiTexCoord4hNV, hook_glMultiTexCo
     }
 } }
 export! { 189, glMultiTexCoord4hvNV, first_glMultiTexCoord4hvNV, hook_glMultiTexCoord4hvNV, (target: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoord4hvNV, Effect::MULTITEX) {
+    if !imm::record(slot::glMultiTexCoord4hvNV, Effect::MULTITEX, |rec| {
         rec.u32(target);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const u16, 4) };
-    } else {
+    }) {
         imm::direct(Effect::MULTITEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -6509,11 +6509,11 @@ export! { 189, glMultiTexCoord4hvNV, first_glMultiTexCoord4hvNV, hook_glMultiTex
     }
 } }
 export! { 190, glSecondaryColor3b, first_glSecondaryColor3b, hook_glSecondaryColor3b, (red: i8, green: i8, blue: i8) -> (), {
-    if let Some(rec) = imm::recording(slot::glSecondaryColor3b, Effect::SECONDARY) {
+    if !imm::record(slot::glSecondaryColor3b, Effect::SECONDARY, |rec| {
         rec.i8(red);
         rec.i8(green);
         rec.i8(blue);
-    } else {
+    }) {
         imm::direct(Effect::SECONDARY);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -6521,11 +6521,11 @@ export! { 190, glSecondaryColor3b, first_glSecondaryColor3b, hook_glSecondaryCol
     }
 } }
 export! { 191, glSecondaryColor3bEXT, first_glSecondaryColor3bEXT, hook_glSecondaryColor3bEXT, (red: i8, green: i8, blue: i8) -> (), {
-    if let Some(rec) = imm::recording(slot::glSecondaryColor3bEXT, Effect::SECONDARY) {
+    if !imm::record(slot::glSecondaryColor3bEXT, Effect::SECONDARY, |rec| {
         rec.i8(red);
         rec.i8(green);
         rec.i8(blue);
-    } else {
+    }) {
         imm::direct(Effect::SECONDARY);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -6533,10 +6533,10 @@ export! { 191, glSecondaryColor3bEXT, first_glSecondaryColor3bEXT, hook_glSecond
     }
 } }
 export! { 192, glSecondaryColor3bv, first_glSecondaryColor3bv, hook_glSecondaryColor3bv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glSecondaryColor3bv, Effect::SECONDARY) {
+    if !imm::record(slot::glSecondaryColor3bv, Effect::SECONDARY, |rec| {
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const i8, 3) };
-    } else {
+    }) {
         imm::direct(Effect::SECONDARY);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -6544,10 +6544,10 @@ export! { 192, glSecondaryColor3bv, first_glSecondaryColor3bv, hook_glSecondaryC
     }
 } }
 export! { 193, glSecondaryColor3bvEXT, first_glSecondaryColor3bvEXT, hook_glSecondaryColor3bvEXT, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glSecondaryColor3bvEXT, Effect::SECONDARY) {
+    if !imm::record(slot::glSecondaryColor3bvEXT, Effect::SECONDARY, |rec| {
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const i8, 3) };
-    } else {
+    }) {
         imm::direct(Effect::SECONDARY);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -6555,11 +6555,11 @@ export! { 193, glSecondaryColor3bvEXT, first_glSecondaryColor3bvEXT, hook_glSeco
     }
 } }
 export! { 194, glSecondaryColor3d, first_glSecondaryColor3d, hook_glSecondaryColor3d, (red: f64, green: f64, blue: f64) -> (), {
-    if let Some(rec) = imm::recording(slot::glSecondaryColor3d, Effect::SECONDARY) {
+    if !imm::record(slot::glSecondaryColor3d, Effect::SECONDARY, |rec| {
         rec.f64(red);
         rec.f64(green);
         rec.f64(blue);
-    } else {
+    }) {
         imm::direct(Effect::SECONDARY);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -6567,11 +6567,11 @@ export! { 194, glSecondaryColor3d, first_glSecondaryColor3d, hook_glSecondaryCol
     }
 } }
 export! { 195, glSecondaryColor3dEXT, first_glSecondaryColor3dEXT, hook_glSecondaryColor3dEXT, (red: f64, green: f64, blue: f64) -> (), {
-    if let Some(rec) = imm::recording(slot::glSecondaryColor3dEXT, Effect::SECONDARY) {
+    if !imm::record(slot::glSecondaryColor3dEXT, Effect::SECONDARY, |rec| {
         rec.f64(red);
         rec.f64(green);
         rec.f64(blue);
-    } else {
+    }) {
         imm::direct(Effect::SECONDARY);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -6579,10 +6579,10 @@ export! { 195, glSecondaryColor3dEXT, first_glSecondaryColor3dEXT, hook_glSecond
     }
 } }
 export! { 196, glSecondaryColor3dv, first_glSecondaryColor3dv, hook_glSecondaryColor3dv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glSecondaryColor3dv, Effect::SECONDARY) {
+    if !imm::record(slot::glSecondaryColor3dv, Effect::SECONDARY, |rec| {
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const f64, 3) };
-    } else {
+    }) {
         imm::direct(Effect::SECONDARY);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -6590,10 +6590,10 @@ export! { 196, glSecondaryColor3dv, first_glSecondaryColor3dv, hook_glSecondaryC
     }
 } }
 export! { 197, glSecondaryColor3dvEXT, first_glSecondaryColor3dvEXT, hook_glSecondaryColor3dvEXT, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glSecondaryColor3dvEXT, Effect::SECONDARY) {
+    if !imm::record(slot::glSecondaryColor3dvEXT, Effect::SECONDARY, |rec| {
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const f64, 3) };
-    } else {
+    }) {
         imm::direct(Effect::SECONDARY);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -6601,11 +6601,11 @@ export! { 197, glSecondaryColor3dvEXT, first_glSecondaryColor3dvEXT, hook_glSeco
     }
 } }
 export! { 198, glSecondaryColor3f, first_glSecondaryColor3f, hook_glSecondaryColor3f, (red: f32, green: f32, blue: f32) -> (), {
-    if let Some(rec) = imm::recording(slot::glSecondaryColor3f, Effect::SECONDARY) {
+    if !imm::record(slot::glSecondaryColor3f, Effect::SECONDARY, |rec| {
         rec.f32(red);
         rec.f32(green);
         rec.f32(blue);
-    } else {
+    }) {
         imm::direct(Effect::SECONDARY);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -6613,11 +6613,11 @@ export! { 198, glSecondaryColor3f, first_glSecondaryColor3f, hook_glSecondaryCol
     }
 } }
 export! { 199, glSecondaryColor3fEXT, first_glSecondaryColor3fEXT, hook_glSecondaryColor3fEXT, (red: f32, green: f32, blue: f32) -> (), {
-    if let Some(rec) = imm::recording(slot::glSecondaryColor3fEXT, Effect::SECONDARY) {
+    if !imm::record(slot::glSecondaryColor3fEXT, Effect::SECONDARY, |rec| {
         rec.f32(red);
         rec.f32(green);
         rec.f32(blue);
-    } else {
+    }) {
         imm::direct(Effect::SECONDARY);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -6625,10 +6625,10 @@ export! { 199, glSecondaryColor3fEXT, first_glSecondaryColor3fEXT, hook_glSecond
     }
 } }
 export! { 200, glSecondaryColor3fv, first_glSecondaryColor3fv, hook_glSecondaryColor3fv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glSecondaryColor3fv, Effect::SECONDARY) {
+    if !imm::record(slot::glSecondaryColor3fv, Effect::SECONDARY, |rec| {
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const f32, 3) };
-    } else {
+    }) {
         imm::direct(Effect::SECONDARY);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -6636,10 +6636,10 @@ export! { 200, glSecondaryColor3fv, first_glSecondaryColor3fv, hook_glSecondaryC
     }
 } }
 export! { 201, glSecondaryColor3fvEXT, first_glSecondaryColor3fvEXT, hook_glSecondaryColor3fvEXT, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glSecondaryColor3fvEXT, Effect::SECONDARY) {
+    if !imm::record(slot::glSecondaryColor3fvEXT, Effect::SECONDARY, |rec| {
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const f32, 3) };
-    } else {
+    }) {
         imm::direct(Effect::SECONDARY);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -6647,11 +6647,11 @@ export! { 201, glSecondaryColor3fvEXT, first_glSecondaryColor3fvEXT, hook_glSeco
     }
 } }
 export! { 202, glSecondaryColor3i, first_glSecondaryColor3i, hook_glSecondaryColor3i, (red: i32, green: i32, blue: i32) -> (), {
-    if let Some(rec) = imm::recording(slot::glSecondaryColor3i, Effect::SECONDARY) {
+    if !imm::record(slot::glSecondaryColor3i, Effect::SECONDARY, |rec| {
         rec.i32(red);
         rec.i32(green);
         rec.i32(blue);
-    } else {
+    }) {
         imm::direct(Effect::SECONDARY);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -6659,11 +6659,11 @@ export! { 202, glSecondaryColor3i, first_glSecondaryColor3i, hook_glSecondaryCol
     }
 } }
 export! { 203, glSecondaryColor3iEXT, first_glSecondaryColor3iEXT, hook_glSecondaryColor3iEXT, (red: i32, green: i32, blue: i32) -> (), {
-    if let Some(rec) = imm::recording(slot::glSecondaryColor3iEXT, Effect::SECONDARY) {
+    if !imm::record(slot::glSecondaryColor3iEXT, Effect::SECONDARY, |rec| {
         rec.i32(red);
         rec.i32(green);
         rec.i32(blue);
-    } else {
+    }) {
         imm::direct(Effect::SECONDARY);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -6671,10 +6671,10 @@ export! { 203, glSecondaryColor3iEXT, first_glSecondaryColor3iEXT, hook_glSecond
     }
 } }
 export! { 204, glSecondaryColor3iv, first_glSecondaryColor3iv, hook_glSecondaryColor3iv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glSecondaryColor3iv, Effect::SECONDARY) {
+    if !imm::record(slot::glSecondaryColor3iv, Effect::SECONDARY, |rec| {
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const i32, 3) };
-    } else {
+    }) {
         imm::direct(Effect::SECONDARY);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -6682,10 +6682,10 @@ export! { 204, glSecondaryColor3iv, first_glSecondaryColor3iv, hook_glSecondaryC
     }
 } }
 export! { 205, glSecondaryColor3ivEXT, first_glSecondaryColor3ivEXT, hook_glSecondaryColor3ivEXT, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glSecondaryColor3ivEXT, Effect::SECONDARY) {
+    if !imm::record(slot::glSecondaryColor3ivEXT, Effect::SECONDARY, |rec| {
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const i32, 3) };
-    } else {
+    }) {
         imm::direct(Effect::SECONDARY);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -6693,11 +6693,11 @@ export! { 205, glSecondaryColor3ivEXT, first_glSecondaryColor3ivEXT, hook_glSeco
     }
 } }
 export! { 206, glSecondaryColor3s, first_glSecondaryColor3s, hook_glSecondaryColor3s, (red: i16, green: i16, blue: i16) -> (), {
-    if let Some(rec) = imm::recording(slot::glSecondaryColor3s, Effect::SECONDARY) {
+    if !imm::record(slot::glSecondaryColor3s, Effect::SECONDARY, |rec| {
         rec.i16(red);
         rec.i16(green);
         rec.i16(blue);
-    } else {
+    }) {
         imm::direct(Effect::SECONDARY);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -6705,11 +6705,11 @@ export! { 206, glSecondaryColor3s, first_glSecondaryColor3s, hook_glSecondaryCol
     }
 } }
 export! { 207, glSecondaryColor3sEXT, first_glSecondaryColor3sEXT, hook_glSecondaryColor3sEXT, (red: i16, green: i16, blue: i16) -> (), {
-    if let Some(rec) = imm::recording(slot::glSecondaryColor3sEXT, Effect::SECONDARY) {
+    if !imm::record(slot::glSecondaryColor3sEXT, Effect::SECONDARY, |rec| {
         rec.i16(red);
         rec.i16(green);
         rec.i16(blue);
-    } else {
+    }) {
         imm::direct(Effect::SECONDARY);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -6717,10 +6717,10 @@ export! { 207, glSecondaryColor3sEXT, first_glSecondaryColor3sEXT, hook_glSecond
     }
 } }
 export! { 208, glSecondaryColor3sv, first_glSecondaryColor3sv, hook_glSecondaryColor3sv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glSecondaryColor3sv, Effect::SECONDARY) {
+    if !imm::record(slot::glSecondaryColor3sv, Effect::SECONDARY, |rec| {
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const i16, 3) };
-    } else {
+    }) {
         imm::direct(Effect::SECONDARY);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -6728,10 +6728,10 @@ export! { 208, glSecondaryColor3sv, first_glSecondaryColor3sv, hook_glSecondaryC
     }
 } }
 export! { 209, glSecondaryColor3svEXT, first_glSecondaryColor3svEXT, hook_glSecondaryColor3svEXT, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glSecondaryColor3svEXT, Effect::SECONDARY) {
+    if !imm::record(slot::glSecondaryColor3svEXT, Effect::SECONDARY, |rec| {
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const i16, 3) };
-    } else {
+    }) {
         imm::direct(Effect::SECONDARY);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -6739,11 +6739,11 @@ export! { 209, glSecondaryColor3svEXT, first_glSecondaryColor3svEXT, hook_glSeco
     }
 } }
 export! { 210, glSecondaryColor3ub, first_glSecondaryColor3ub, hook_glSecondaryColor3ub, (red: u8, green: u8, blue: u8) -> (), {
-    if let Some(rec) = imm::recording(slot::glSecondaryColor3ub, Effect::SECONDARY) {
+    if !imm::record(slot::glSecondaryColor3ub, Effect::SECONDARY, |rec| {
         rec.u8(red);
         rec.u8(green);
         rec.u8(blue);
-    } else {
+    }) {
         imm::direct(Effect::SECONDARY);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -6751,11 +6751,11 @@ export! { 210, glSecondaryColor3ub, first_glSecondaryColor3ub, hook_glSecondaryC
     }
 } }
 export! { 211, glSecondaryColor3ubEXT, first_glSecondaryColor3ubEXT, hook_glSecondaryColor3ubEXT, (red: u8, green: u8, blue: u8) -> (), {
-    if let Some(rec) = imm::recording(slot::glSecondaryColor3ubEXT, Effect::SECONDARY) {
+    if !imm::record(slot::glSecondaryColor3ubEXT, Effect::SECONDARY, |rec| {
         rec.u8(red);
         rec.u8(green);
         rec.u8(blue);
-    } else {
+    }) {
         imm::direct(Effect::SECONDARY);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -6763,10 +6763,10 @@ export! { 211, glSecondaryColor3ubEXT, first_glSecondaryColor3ubEXT, hook_glSeco
     }
 } }
 export! { 212, glSecondaryColor3ubv, first_glSecondaryColor3ubv, hook_glSecondaryColor3ubv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glSecondaryColor3ubv, Effect::SECONDARY) {
+    if !imm::record(slot::glSecondaryColor3ubv, Effect::SECONDARY, |rec| {
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const u8, 3) };
-    } else {
+    }) {
         imm::direct(Effect::SECONDARY);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -6774,10 +6774,10 @@ export! { 212, glSecondaryColor3ubv, first_glSecondaryColor3ubv, hook_glSecondar
     }
 } }
 export! { 213, glSecondaryColor3ubvEXT, first_glSecondaryColor3ubvEXT, hook_glSecondaryColor3ubvEXT, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glSecondaryColor3ubvEXT, Effect::SECONDARY) {
+    if !imm::record(slot::glSecondaryColor3ubvEXT, Effect::SECONDARY, |rec| {
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const u8, 3) };
-    } else {
+    }) {
         imm::direct(Effect::SECONDARY);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -6785,11 +6785,11 @@ export! { 213, glSecondaryColor3ubvEXT, first_glSecondaryColor3ubvEXT, hook_glSe
     }
 } }
 export! { 214, glSecondaryColor3ui, first_glSecondaryColor3ui, hook_glSecondaryColor3ui, (red: u32, green: u32, blue: u32) -> (), {
-    if let Some(rec) = imm::recording(slot::glSecondaryColor3ui, Effect::SECONDARY) {
+    if !imm::record(slot::glSecondaryColor3ui, Effect::SECONDARY, |rec| {
         rec.u32(red);
         rec.u32(green);
         rec.u32(blue);
-    } else {
+    }) {
         imm::direct(Effect::SECONDARY);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -6797,11 +6797,11 @@ export! { 214, glSecondaryColor3ui, first_glSecondaryColor3ui, hook_glSecondaryC
     }
 } }
 export! { 215, glSecondaryColor3uiEXT, first_glSecondaryColor3uiEXT, hook_glSecondaryColor3uiEXT, (red: u32, green: u32, blue: u32) -> (), {
-    if let Some(rec) = imm::recording(slot::glSecondaryColor3uiEXT, Effect::SECONDARY) {
+    if !imm::record(slot::glSecondaryColor3uiEXT, Effect::SECONDARY, |rec| {
         rec.u32(red);
         rec.u32(green);
         rec.u32(blue);
-    } else {
+    }) {
         imm::direct(Effect::SECONDARY);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -6809,10 +6809,10 @@ export! { 215, glSecondaryColor3uiEXT, first_glSecondaryColor3uiEXT, hook_glSeco
     }
 } }
 export! { 216, glSecondaryColor3uiv, first_glSecondaryColor3uiv, hook_glSecondaryColor3uiv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glSecondaryColor3uiv, Effect::SECONDARY) {
+    if !imm::record(slot::glSecondaryColor3uiv, Effect::SECONDARY, |rec| {
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const u32, 3) };
-    } else {
+    }) {
         imm::direct(Effect::SECONDARY);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -6820,10 +6820,10 @@ export! { 216, glSecondaryColor3uiv, first_glSecondaryColor3uiv, hook_glSecondar
     }
 } }
 export! { 217, glSecondaryColor3uivEXT, first_glSecondaryColor3uivEXT, hook_glSecondaryColor3uivEXT, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glSecondaryColor3uivEXT, Effect::SECONDARY) {
+    if !imm::record(slot::glSecondaryColor3uivEXT, Effect::SECONDARY, |rec| {
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const u32, 3) };
-    } else {
+    }) {
         imm::direct(Effect::SECONDARY);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -6831,11 +6831,11 @@ export! { 217, glSecondaryColor3uivEXT, first_glSecondaryColor3uivEXT, hook_glSe
     }
 } }
 export! { 218, glSecondaryColor3us, first_glSecondaryColor3us, hook_glSecondaryColor3us, (red: u16, green: u16, blue: u16) -> (), {
-    if let Some(rec) = imm::recording(slot::glSecondaryColor3us, Effect::SECONDARY) {
+    if !imm::record(slot::glSecondaryColor3us, Effect::SECONDARY, |rec| {
         rec.u16(red);
         rec.u16(green);
         rec.u16(blue);
-    } else {
+    }) {
         imm::direct(Effect::SECONDARY);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -6843,11 +6843,11 @@ export! { 218, glSecondaryColor3us, first_glSecondaryColor3us, hook_glSecondaryC
     }
 } }
 export! { 219, glSecondaryColor3usEXT, first_glSecondaryColor3usEXT, hook_glSecondaryColor3usEXT, (red: u16, green: u16, blue: u16) -> (), {
-    if let Some(rec) = imm::recording(slot::glSecondaryColor3usEXT, Effect::SECONDARY) {
+    if !imm::record(slot::glSecondaryColor3usEXT, Effect::SECONDARY, |rec| {
         rec.u16(red);
         rec.u16(green);
         rec.u16(blue);
-    } else {
+    }) {
         imm::direct(Effect::SECONDARY);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -6855,10 +6855,10 @@ export! { 219, glSecondaryColor3usEXT, first_glSecondaryColor3usEXT, hook_glSeco
     }
 } }
 export! { 220, glSecondaryColor3usv, first_glSecondaryColor3usv, hook_glSecondaryColor3usv, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glSecondaryColor3usv, Effect::SECONDARY) {
+    if !imm::record(slot::glSecondaryColor3usv, Effect::SECONDARY, |rec| {
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const u16, 3) };
-    } else {
+    }) {
         imm::direct(Effect::SECONDARY);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -6866,10 +6866,10 @@ export! { 220, glSecondaryColor3usv, first_glSecondaryColor3usv, hook_glSecondar
     }
 } }
 export! { 221, glSecondaryColor3usvEXT, first_glSecondaryColor3usvEXT, hook_glSecondaryColor3usvEXT, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glSecondaryColor3usvEXT, Effect::SECONDARY) {
+    if !imm::record(slot::glSecondaryColor3usvEXT, Effect::SECONDARY, |rec| {
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const u16, 3) };
-    } else {
+    }) {
         imm::direct(Effect::SECONDARY);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -6877,11 +6877,11 @@ export! { 221, glSecondaryColor3usvEXT, first_glSecondaryColor3usvEXT, hook_glSe
     }
 } }
 export! { 222, glSecondaryColor3hNV, first_glSecondaryColor3hNV, hook_glSecondaryColor3hNV, (red: u16, green: u16, blue: u16) -> (), {
-    if let Some(rec) = imm::recording(slot::glSecondaryColor3hNV, Effect::SECONDARY) {
+    if !imm::record(slot::glSecondaryColor3hNV, Effect::SECONDARY, |rec| {
         rec.u16(red);
         rec.u16(green);
         rec.u16(blue);
-    } else {
+    }) {
         imm::direct(Effect::SECONDARY);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -6889,10 +6889,10 @@ export! { 222, glSecondaryColor3hNV, first_glSecondaryColor3hNV, hook_glSecondar
     }
 } }
 export! { 223, glSecondaryColor3hvNV, first_glSecondaryColor3hvNV, hook_glSecondaryColor3hvNV, (v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glSecondaryColor3hvNV, Effect::SECONDARY) {
+    if !imm::record(slot::glSecondaryColor3hvNV, Effect::SECONDARY, |rec| {
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const u16, 3) };
-    } else {
+    }) {
         imm::direct(Effect::SECONDARY);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -6900,9 +6900,9 @@ export! { 223, glSecondaryColor3hvNV, first_glSecondaryColor3hvNV, hook_glSecond
     }
 } }
 export! { 224, glFogCoordd, first_glFogCoordd, hook_glFogCoordd, (coord: f64) -> (), {
-    if let Some(rec) = imm::recording(slot::glFogCoordd, Effect::FOG) {
+    if !imm::record(slot::glFogCoordd, Effect::FOG, |rec| {
         rec.f64(coord);
-    } else {
+    }) {
         imm::direct(Effect::FOG);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -6910,9 +6910,9 @@ export! { 224, glFogCoordd, first_glFogCoordd, hook_glFogCoordd, (coord: f64) ->
     }
 } }
 export! { 225, glFogCoorddEXT, first_glFogCoorddEXT, hook_glFogCoorddEXT, (coord: f64) -> (), {
-    if let Some(rec) = imm::recording(slot::glFogCoorddEXT, Effect::FOG) {
+    if !imm::record(slot::glFogCoorddEXT, Effect::FOG, |rec| {
         rec.f64(coord);
-    } else {
+    }) {
         imm::direct(Effect::FOG);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -6920,10 +6920,10 @@ export! { 225, glFogCoorddEXT, first_glFogCoorddEXT, hook_glFogCoorddEXT, (coord
     }
 } }
 export! { 226, glFogCoorddv, first_glFogCoorddv, hook_glFogCoorddv, (coord: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glFogCoorddv, Effect::FOG) {
+    if !imm::record(slot::glFogCoorddv, Effect::FOG, |rec| {
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(coord as *const f64, 1) };
-    } else {
+    }) {
         imm::direct(Effect::FOG);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -6931,10 +6931,10 @@ export! { 226, glFogCoorddv, first_glFogCoorddv, hook_glFogCoorddv, (coord: Ptr)
     }
 } }
 export! { 227, glFogCoorddvEXT, first_glFogCoorddvEXT, hook_glFogCoorddvEXT, (coord: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glFogCoorddvEXT, Effect::FOG) {
+    if !imm::record(slot::glFogCoorddvEXT, Effect::FOG, |rec| {
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(coord as *const f64, 1) };
-    } else {
+    }) {
         imm::direct(Effect::FOG);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -6942,9 +6942,9 @@ export! { 227, glFogCoorddvEXT, first_glFogCoorddvEXT, hook_glFogCoorddvEXT, (co
     }
 } }
 export! { 228, glFogCoordf, first_glFogCoordf, hook_glFogCoordf, (coord: f32) -> (), {
-    if let Some(rec) = imm::recording(slot::glFogCoordf, Effect::FOG) {
+    if !imm::record(slot::glFogCoordf, Effect::FOG, |rec| {
         rec.f32(coord);
-    } else {
+    }) {
         imm::direct(Effect::FOG);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -6952,9 +6952,9 @@ export! { 228, glFogCoordf, first_glFogCoordf, hook_glFogCoordf, (coord: f32) ->
     }
 } }
 export! { 229, glFogCoordfEXT, first_glFogCoordfEXT, hook_glFogCoordfEXT, (coord: f32) -> (), {
-    if let Some(rec) = imm::recording(slot::glFogCoordfEXT, Effect::FOG) {
+    if !imm::record(slot::glFogCoordfEXT, Effect::FOG, |rec| {
         rec.f32(coord);
-    } else {
+    }) {
         imm::direct(Effect::FOG);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -6962,10 +6962,10 @@ export! { 229, glFogCoordfEXT, first_glFogCoordfEXT, hook_glFogCoordfEXT, (coord
     }
 } }
 export! { 230, glFogCoordfv, first_glFogCoordfv, hook_glFogCoordfv, (coord: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glFogCoordfv, Effect::FOG) {
+    if !imm::record(slot::glFogCoordfv, Effect::FOG, |rec| {
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(coord as *const f32, 1) };
-    } else {
+    }) {
         imm::direct(Effect::FOG);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -6973,10 +6973,10 @@ export! { 230, glFogCoordfv, first_glFogCoordfv, hook_glFogCoordfv, (coord: Ptr)
     }
 } }
 export! { 231, glFogCoordfvEXT, first_glFogCoordfvEXT, hook_glFogCoordfvEXT, (coord: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glFogCoordfvEXT, Effect::FOG) {
+    if !imm::record(slot::glFogCoordfvEXT, Effect::FOG, |rec| {
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(coord as *const f32, 1) };
-    } else {
+    }) {
         imm::direct(Effect::FOG);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -6984,9 +6984,9 @@ export! { 231, glFogCoordfvEXT, first_glFogCoordfvEXT, hook_glFogCoordfvEXT, (co
     }
 } }
 export! { 232, glFogCoordhNV, first_glFogCoordhNV, hook_glFogCoordhNV, (fog: u16) -> (), {
-    if let Some(rec) = imm::recording(slot::glFogCoordhNV, Effect::FOG) {
+    if !imm::record(slot::glFogCoordhNV, Effect::FOG, |rec| {
         rec.u16(fog);
-    } else {
+    }) {
         imm::direct(Effect::FOG);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -6994,10 +6994,10 @@ export! { 232, glFogCoordhNV, first_glFogCoordhNV, hook_glFogCoordhNV, (fog: u16
     }
 } }
 export! { 233, glFogCoordhvNV, first_glFogCoordhvNV, hook_glFogCoordhvNV, (fog: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glFogCoordhvNV, Effect::FOG) {
+    if !imm::record(slot::glFogCoordhvNV, Effect::FOG, |rec| {
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(fog as *const u16, 1) };
-    } else {
+    }) {
         imm::direct(Effect::FOG);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -7005,9 +7005,9 @@ export! { 233, glFogCoordhvNV, first_glFogCoordhvNV, hook_glFogCoordhvNV, (fog: 
     }
 } }
 export! { 234, glEdgeFlag, first_glEdgeFlag, hook_glEdgeFlag, (flag: u8) -> (), {
-    if let Some(rec) = imm::recording(slot::glEdgeFlag, Effect::EDGE) {
+    if !imm::record(slot::glEdgeFlag, Effect::EDGE, |rec| {
         rec.u8(flag);
-    } else {
+    }) {
         imm::direct(Effect::EDGE);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -7015,10 +7015,10 @@ export! { 234, glEdgeFlag, first_glEdgeFlag, hook_glEdgeFlag, (flag: u8) -> (), 
     }
 } }
 export! { 235, glEdgeFlagv, first_glEdgeFlagv, hook_glEdgeFlagv, (flag: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glEdgeFlagv, Effect::EDGE) {
+    if !imm::record(slot::glEdgeFlagv, Effect::EDGE, |rec| {
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(flag as *const u8, 1) };
-    } else {
+    }) {
         imm::direct(Effect::EDGE);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -7026,9 +7026,9 @@ export! { 235, glEdgeFlagv, first_glEdgeFlagv, hook_glEdgeFlagv, (flag: Ptr) -> 
     }
 } }
 export! { 236, glIndexd, first_glIndexd, hook_glIndexd, (c: f64) -> (), {
-    if let Some(rec) = imm::recording(slot::glIndexd, Effect::INDEX) {
+    if !imm::record(slot::glIndexd, Effect::INDEX, |rec| {
         rec.f64(c);
-    } else {
+    }) {
         imm::direct(Effect::INDEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -7036,10 +7036,10 @@ export! { 236, glIndexd, first_glIndexd, hook_glIndexd, (c: f64) -> (), {
     }
 } }
 export! { 237, glIndexdv, first_glIndexdv, hook_glIndexdv, (c: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glIndexdv, Effect::INDEX) {
+    if !imm::record(slot::glIndexdv, Effect::INDEX, |rec| {
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(c as *const f64, 1) };
-    } else {
+    }) {
         imm::direct(Effect::INDEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -7047,9 +7047,9 @@ export! { 237, glIndexdv, first_glIndexdv, hook_glIndexdv, (c: Ptr) -> (), {
     }
 } }
 export! { 238, glIndexf, first_glIndexf, hook_glIndexf, (c: f32) -> (), {
-    if let Some(rec) = imm::recording(slot::glIndexf, Effect::INDEX) {
+    if !imm::record(slot::glIndexf, Effect::INDEX, |rec| {
         rec.f32(c);
-    } else {
+    }) {
         imm::direct(Effect::INDEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -7057,10 +7057,10 @@ export! { 238, glIndexf, first_glIndexf, hook_glIndexf, (c: f32) -> (), {
     }
 } }
 export! { 239, glIndexfv, first_glIndexfv, hook_glIndexfv, (c: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glIndexfv, Effect::INDEX) {
+    if !imm::record(slot::glIndexfv, Effect::INDEX, |rec| {
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(c as *const f32, 1) };
-    } else {
+    }) {
         imm::direct(Effect::INDEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -7068,9 +7068,9 @@ export! { 239, glIndexfv, first_glIndexfv, hook_glIndexfv, (c: Ptr) -> (), {
     }
 } }
 export! { 240, glIndexi, first_glIndexi, hook_glIndexi, (c: i32) -> (), {
-    if let Some(rec) = imm::recording(slot::glIndexi, Effect::INDEX) {
+    if !imm::record(slot::glIndexi, Effect::INDEX, |rec| {
         rec.i32(c);
-    } else {
+    }) {
         imm::direct(Effect::INDEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -7078,10 +7078,10 @@ export! { 240, glIndexi, first_glIndexi, hook_glIndexi, (c: i32) -> (), {
     }
 } }
 export! { 241, glIndexiv, first_glIndexiv, hook_glIndexiv, (c: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glIndexiv, Effect::INDEX) {
+    if !imm::record(slot::glIndexiv, Effect::INDEX, |rec| {
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(c as *const i32, 1) };
-    } else {
+    }) {
         imm::direct(Effect::INDEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -7089,9 +7089,9 @@ export! { 241, glIndexiv, first_glIndexiv, hook_glIndexiv, (c: Ptr) -> (), {
     }
 } }
 export! { 242, glIndexs, first_glIndexs, hook_glIndexs, (c: i16) -> (), {
-    if let Some(rec) = imm::recording(slot::glIndexs, Effect::INDEX) {
+    if !imm::record(slot::glIndexs, Effect::INDEX, |rec| {
         rec.i16(c);
-    } else {
+    }) {
         imm::direct(Effect::INDEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -7099,10 +7099,10 @@ export! { 242, glIndexs, first_glIndexs, hook_glIndexs, (c: i16) -> (), {
     }
 } }
 export! { 243, glIndexsv, first_glIndexsv, hook_glIndexsv, (c: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glIndexsv, Effect::INDEX) {
+    if !imm::record(slot::glIndexsv, Effect::INDEX, |rec| {
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(c as *const i16, 1) };
-    } else {
+    }) {
         imm::direct(Effect::INDEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -7110,9 +7110,9 @@ export! { 243, glIndexsv, first_glIndexsv, hook_glIndexsv, (c: Ptr) -> (), {
     }
 } }
 export! { 244, glIndexub, first_glIndexub, hook_glIndexub, (c: u8) -> (), {
-    if let Some(rec) = imm::recording(slot::glIndexub, Effect::INDEX) {
+    if !imm::record(slot::glIndexub, Effect::INDEX, |rec| {
         rec.u8(c);
-    } else {
+    }) {
         imm::direct(Effect::INDEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -7120,10 +7120,10 @@ export! { 244, glIndexub, first_glIndexub, hook_glIndexub, (c: u8) -> (), {
     }
 } }
 export! { 245, glIndexubv, first_glIndexubv, hook_glIndexubv, (c: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glIndexubv, Effect::INDEX) {
+    if !imm::record(slot::glIndexubv, Effect::INDEX, |rec| {
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(c as *const u8, 1) };
-    } else {
+    }) {
         imm::direct(Effect::INDEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -7131,12 +7131,12 @@ export! { 245, glIndexubv, first_glIndexubv, hook_glIndexubv, (c: Ptr) -> (), {
     }
 } }
 export! { 246, glMaterialf, first_glMaterialf, hook_glMaterialf, (face: u32, pname: u32, param: f32) -> (), {
-    if imm::is_material(face, pname)
-        && let Some(rec) = imm::recording(slot::glMaterialf, Effect::MATERIAL) {
+    if !(imm::is_material(face, pname)
+        && imm::record(slot::glMaterialf, Effect::MATERIAL, |rec| {
         rec.u32(face);
         rec.u32(pname);
         rec.f32(param);
-    } else {
+    })) {
         imm::direct(Effect::MATERIAL);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -7144,13 +7144,13 @@ export! { 246, glMaterialf, first_glMaterialf, hook_glMaterialf, (face: u32, pna
     }
 } }
 export! { 247, glMaterialfv, first_glMaterialfv, hook_glMaterialfv, (face: u32, pname: u32, params: Ptr) -> (), {
-    if imm::is_material(face, pname)
-        && let Some(rec) = imm::recording(slot::glMaterialfv, Effect::MATERIAL) {
+    if !(imm::is_material(face, pname)
+        && imm::record(slot::glMaterialfv, Effect::MATERIAL, |rec| {
         rec.u32(face);
         rec.u32(pname);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(params as *const f32, imm::material_len(pname)) };
-    } else {
+    })) {
         imm::direct(Effect::MATERIAL);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -7158,12 +7158,12 @@ export! { 247, glMaterialfv, first_glMaterialfv, hook_glMaterialfv, (face: u32, 
     }
 } }
 export! { 248, glMateriali, first_glMateriali, hook_glMateriali, (face: u32, pname: u32, param: i32) -> (), {
-    if imm::is_material(face, pname)
-        && let Some(rec) = imm::recording(slot::glMateriali, Effect::MATERIAL) {
+    if !(imm::is_material(face, pname)
+        && imm::record(slot::glMateriali, Effect::MATERIAL, |rec| {
         rec.u32(face);
         rec.u32(pname);
         rec.i32(param);
-    } else {
+    })) {
         imm::direct(Effect::MATERIAL);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -7171,13 +7171,13 @@ export! { 248, glMateriali, first_glMateriali, hook_glMateriali, (face: u32, pna
     }
 } }
 export! { 249, glMaterialiv, first_glMaterialiv, hook_glMaterialiv, (face: u32, pname: u32, params: Ptr) -> (), {
-    if imm::is_material(face, pname)
-        && let Some(rec) = imm::recording(slot::glMaterialiv, Effect::MATERIAL) {
+    if !(imm::is_material(face, pname)
+        && imm::record(slot::glMaterialiv, Effect::MATERIAL, |rec| {
         rec.u32(face);
         rec.u32(pname);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(params as *const i32, imm::material_len(pname)) };
-    } else {
+    })) {
         imm::direct(Effect::MATERIAL);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -7185,9 +7185,9 @@ export! { 249, glMaterialiv, first_glMaterialiv, hook_glMaterialiv, (face: u32, 
     }
 } }
 export! { 250, glEvalCoord1d, first_glEvalCoord1d, hook_glEvalCoord1d, (u: f64) -> (), {
-    if let Some(rec) = imm::recording(slot::glEvalCoord1d, Effect::UNKNOWN) {
+    if !imm::record(slot::glEvalCoord1d, Effect::UNKNOWN, |rec| {
         rec.f64(u);
-    } else {
+    }) {
         imm::direct(Effect::UNKNOWN);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -7195,10 +7195,10 @@ export! { 250, glEvalCoord1d, first_glEvalCoord1d, hook_glEvalCoord1d, (u: f64) 
     }
 } }
 export! { 251, glEvalCoord1dv, first_glEvalCoord1dv, hook_glEvalCoord1dv, (u: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glEvalCoord1dv, Effect::UNKNOWN) {
+    if !imm::record(slot::glEvalCoord1dv, Effect::UNKNOWN, |rec| {
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(u as *const f64, 1) };
-    } else {
+    }) {
         imm::direct(Effect::UNKNOWN);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -7206,9 +7206,9 @@ export! { 251, glEvalCoord1dv, first_glEvalCoord1dv, hook_glEvalCoord1dv, (u: Pt
     }
 } }
 export! { 252, glEvalCoord1f, first_glEvalCoord1f, hook_glEvalCoord1f, (u: f32) -> (), {
-    if let Some(rec) = imm::recording(slot::glEvalCoord1f, Effect::UNKNOWN) {
+    if !imm::record(slot::glEvalCoord1f, Effect::UNKNOWN, |rec| {
         rec.f32(u);
-    } else {
+    }) {
         imm::direct(Effect::UNKNOWN);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -7216,10 +7216,10 @@ export! { 252, glEvalCoord1f, first_glEvalCoord1f, hook_glEvalCoord1f, (u: f32) 
     }
 } }
 export! { 253, glEvalCoord1fv, first_glEvalCoord1fv, hook_glEvalCoord1fv, (u: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glEvalCoord1fv, Effect::UNKNOWN) {
+    if !imm::record(slot::glEvalCoord1fv, Effect::UNKNOWN, |rec| {
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(u as *const f32, 1) };
-    } else {
+    }) {
         imm::direct(Effect::UNKNOWN);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -7227,10 +7227,10 @@ export! { 253, glEvalCoord1fv, first_glEvalCoord1fv, hook_glEvalCoord1fv, (u: Pt
     }
 } }
 export! { 254, glEvalCoord2d, first_glEvalCoord2d, hook_glEvalCoord2d, (u: f64, v: f64) -> (), {
-    if let Some(rec) = imm::recording(slot::glEvalCoord2d, Effect::UNKNOWN) {
+    if !imm::record(slot::glEvalCoord2d, Effect::UNKNOWN, |rec| {
         rec.f64(u);
         rec.f64(v);
-    } else {
+    }) {
         imm::direct(Effect::UNKNOWN);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -7238,10 +7238,10 @@ export! { 254, glEvalCoord2d, first_glEvalCoord2d, hook_glEvalCoord2d, (u: f64, 
     }
 } }
 export! { 255, glEvalCoord2dv, first_glEvalCoord2dv, hook_glEvalCoord2dv, (u: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glEvalCoord2dv, Effect::UNKNOWN) {
+    if !imm::record(slot::glEvalCoord2dv, Effect::UNKNOWN, |rec| {
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(u as *const f64, 2) };
-    } else {
+    }) {
         imm::direct(Effect::UNKNOWN);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -7249,10 +7249,10 @@ export! { 255, glEvalCoord2dv, first_glEvalCoord2dv, hook_glEvalCoord2dv, (u: Pt
     }
 } }
 export! { 256, glEvalCoord2f, first_glEvalCoord2f, hook_glEvalCoord2f, (u: f32, v: f32) -> (), {
-    if let Some(rec) = imm::recording(slot::glEvalCoord2f, Effect::UNKNOWN) {
+    if !imm::record(slot::glEvalCoord2f, Effect::UNKNOWN, |rec| {
         rec.f32(u);
         rec.f32(v);
-    } else {
+    }) {
         imm::direct(Effect::UNKNOWN);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -7260,10 +7260,10 @@ export! { 256, glEvalCoord2f, first_glEvalCoord2f, hook_glEvalCoord2f, (u: f32, 
     }
 } }
 export! { 257, glEvalCoord2fv, first_glEvalCoord2fv, hook_glEvalCoord2fv, (u: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glEvalCoord2fv, Effect::UNKNOWN) {
+    if !imm::record(slot::glEvalCoord2fv, Effect::UNKNOWN, |rec| {
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(u as *const f32, 2) };
-    } else {
+    }) {
         imm::direct(Effect::UNKNOWN);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -7271,9 +7271,9 @@ export! { 257, glEvalCoord2fv, first_glEvalCoord2fv, hook_glEvalCoord2fv, (u: Pt
     }
 } }
 export! { 258, glEvalPoint1, first_glEvalPoint1, hook_glEvalPoint1, (i: i32) -> (), {
-    if let Some(rec) = imm::recording(slot::glEvalPoint1, Effect::UNKNOWN) {
+    if !imm::record(slot::glEvalPoint1, Effect::UNKNOWN, |rec| {
         rec.i32(i);
-    } else {
+    }) {
         imm::direct(Effect::UNKNOWN);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -7281,10 +7281,10 @@ export! { 258, glEvalPoint1, first_glEvalPoint1, hook_glEvalPoint1, (i: i32) -> 
     }
 } }
 export! { 259, glEvalPoint2, first_glEvalPoint2, hook_glEvalPoint2, (i: i32, j: i32) -> (), {
-    if let Some(rec) = imm::recording(slot::glEvalPoint2, Effect::UNKNOWN) {
+    if !imm::record(slot::glEvalPoint2, Effect::UNKNOWN, |rec| {
         rec.i32(i);
         rec.i32(j);
-    } else {
+    }) {
         imm::direct(Effect::UNKNOWN);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -7292,9 +7292,9 @@ export! { 259, glEvalPoint2, first_glEvalPoint2, hook_glEvalPoint2, (i: i32, j: 
     }
 } }
 export! { 260, glArrayElement, first_glArrayElement, hook_glArrayElement, (i: i32) -> (), {
-    if let Some(rec) = imm::recording(slot::glArrayElement, Effect::UNKNOWN) {
+    if !imm::record(slot::glArrayElement, Effect::UNKNOWN, |rec| {
         rec.i32(i);
-    } else {
+    }) {
         imm::direct(Effect::UNKNOWN);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -7302,9 +7302,9 @@ export! { 260, glArrayElement, first_glArrayElement, hook_glArrayElement, (i: i3
     }
 } }
 export! { 261, glArrayElementEXT, first_glArrayElementEXT, hook_glArrayElementEXT, (i: i32) -> (), {
-    if let Some(rec) = imm::recording(slot::glArrayElementEXT, Effect::UNKNOWN) {
+    if !imm::record(slot::glArrayElementEXT, Effect::UNKNOWN, |rec| {
         rec.i32(i);
-    } else {
+    }) {
         imm::direct(Effect::UNKNOWN);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -7312,10 +7312,10 @@ export! { 261, glArrayElementEXT, first_glArrayElementEXT, hook_glArrayElementEX
     }
 } }
 export! { 262, glVertexAttrib1d, first_glVertexAttrib1d, hook_glVertexAttrib1d, (index: u32, x: f64) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib1d, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttrib1d, Effect::ATTRIB, |rec| {
         rec.u32(index);
         rec.f64(x);
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -7323,10 +7323,10 @@ export! { 262, glVertexAttrib1d, first_glVertexAttrib1d, hook_glVertexAttrib1d, 
     }
 } }
 export! { 263, glVertexAttrib1dARB, first_glVertexAttrib1dARB, hook_glVertexAttrib1dARB, (index: u32, x: f64) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib1dARB, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttrib1dARB, Effect::ATTRIB, |rec| {
         rec.u32(index);
         rec.f64(x);
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -7334,10 +7334,10 @@ export! { 263, glVertexAttrib1dARB, first_glVertexAttrib1dARB, hook_glVertexAttr
     }
 } }
 export! { 264, glVertexAttrib1dNV, first_glVertexAttrib1dNV, hook_glVertexAttrib1dNV, (index: u32, x: f64) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib1dNV, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttrib1dNV, Effect::ATTRIB, |rec| {
         rec.u32(index);
         rec.f64(x);
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -7345,11 +7345,11 @@ export! { 264, glVertexAttrib1dNV, first_glVertexAttrib1dNV, hook_glVertexAttrib
     }
 } }
 export! { 265, glVertexAttrib1dv, first_glVertexAttrib1dv, hook_glVertexAttrib1dv, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib1dv, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttrib1dv, Effect::ATTRIB, |rec| {
         rec.u32(index);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const f64, 1) };
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -7357,11 +7357,11 @@ export! { 265, glVertexAttrib1dv, first_glVertexAttrib1dv, hook_glVertexAttrib1d
     }
 } }
 export! { 266, glVertexAttrib1dvARB, first_glVertexAttrib1dvARB, hook_glVertexAttrib1dvARB, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib1dvARB, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttrib1dvARB, Effect::ATTRIB, |rec| {
         rec.u32(index);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const f64, 1) };
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -7369,11 +7369,11 @@ export! { 266, glVertexAttrib1dvARB, first_glVertexAttrib1dvARB, hook_glVertexAt
     }
 } }
 export! { 267, glVertexAttrib1dvNV, first_glVertexAttrib1dvNV, hook_glVertexAttrib1dvNV, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib1dvNV, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttrib1dvNV, Effect::ATTRIB, |rec| {
         rec.u32(index);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const f64, 1) };
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -7381,10 +7381,10 @@ export! { 267, glVertexAttrib1dvNV, first_glVertexAttrib1dvNV, hook_glVertexAttr
     }
 } }
 export! { 268, glVertexAttrib1f, first_glVertexAttrib1f, hook_glVertexAttrib1f, (index: u32, x: f32) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib1f, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttrib1f, Effect::ATTRIB, |rec| {
         rec.u32(index);
         rec.f32(x);
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -7392,10 +7392,10 @@ export! { 268, glVertexAttrib1f, first_glVertexAttrib1f, hook_glVertexAttrib1f, 
     }
 } }
 export! { 269, glVertexAttrib1fARB, first_glVertexAttrib1fARB, hook_glVertexAttrib1fARB, (index: u32, x: f32) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib1fARB, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttrib1fARB, Effect::ATTRIB, |rec| {
         rec.u32(index);
         rec.f32(x);
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -7403,10 +7403,10 @@ export! { 269, glVertexAttrib1fARB, first_glVertexAttrib1fARB, hook_glVertexAttr
     }
 } }
 export! { 270, glVertexAttrib1fNV, first_glVertexAttrib1fNV, hook_glVertexAttrib1fNV, (index: u32, x: f32) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib1fNV, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttrib1fNV, Effect::ATTRIB, |rec| {
         rec.u32(index);
         rec.f32(x);
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -7414,11 +7414,11 @@ export! { 270, glVertexAttrib1fNV, first_glVertexAttrib1fNV, hook_glVertexAttrib
     }
 } }
 export! { 271, glVertexAttrib1fv, first_glVertexAttrib1fv, hook_glVertexAttrib1fv, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib1fv, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttrib1fv, Effect::ATTRIB, |rec| {
         rec.u32(index);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const f32, 1) };
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -7426,11 +7426,11 @@ export! { 271, glVertexAttrib1fv, first_glVertexAttrib1fv, hook_glVertexAttrib1f
     }
 } }
 export! { 272, glVertexAttrib1fvARB, first_glVertexAttrib1fvARB, hook_glVertexAttrib1fvARB, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib1fvARB, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttrib1fvARB, Effect::ATTRIB, |rec| {
         rec.u32(index);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const f32, 1) };
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -7438,11 +7438,11 @@ export! { 272, glVertexAttrib1fvARB, first_glVertexAttrib1fvARB, hook_glVertexAt
     }
 } }
 export! { 273, glVertexAttrib1fvNV, first_glVertexAttrib1fvNV, hook_glVertexAttrib1fvNV, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib1fvNV, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttrib1fvNV, Effect::ATTRIB, |rec| {
         rec.u32(index);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const f32, 1) };
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -7450,10 +7450,10 @@ export! { 273, glVertexAttrib1fvNV, first_glVertexAttrib1fvNV, hook_glVertexAttr
     }
 } }
 export! { 274, glVertexAttrib1s, first_glVertexAttrib1s, hook_glVertexAttrib1s, (index: u32, x: i16) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib1s, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttrib1s, Effect::ATTRIB, |rec| {
         rec.u32(index);
         rec.i16(x);
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -7461,10 +7461,10 @@ export! { 274, glVertexAttrib1s, first_glVertexAttrib1s, hook_glVertexAttrib1s, 
     }
 } }
 export! { 275, glVertexAttrib1sARB, first_glVertexAttrib1sARB, hook_glVertexAttrib1sARB, (index: u32, x: i16) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib1sARB, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttrib1sARB, Effect::ATTRIB, |rec| {
         rec.u32(index);
         rec.i16(x);
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -7472,10 +7472,10 @@ export! { 275, glVertexAttrib1sARB, first_glVertexAttrib1sARB, hook_glVertexAttr
     }
 } }
 export! { 276, glVertexAttrib1sNV, first_glVertexAttrib1sNV, hook_glVertexAttrib1sNV, (index: u32, x: i16) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib1sNV, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttrib1sNV, Effect::ATTRIB, |rec| {
         rec.u32(index);
         rec.i16(x);
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -7483,11 +7483,11 @@ export! { 276, glVertexAttrib1sNV, first_glVertexAttrib1sNV, hook_glVertexAttrib
     }
 } }
 export! { 277, glVertexAttrib1sv, first_glVertexAttrib1sv, hook_glVertexAttrib1sv, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib1sv, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttrib1sv, Effect::ATTRIB, |rec| {
         rec.u32(index);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const i16, 1) };
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -7495,11 +7495,11 @@ export! { 277, glVertexAttrib1sv, first_glVertexAttrib1sv, hook_glVertexAttrib1s
     }
 } }
 export! { 278, glVertexAttrib1svARB, first_glVertexAttrib1svARB, hook_glVertexAttrib1svARB, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib1svARB, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttrib1svARB, Effect::ATTRIB, |rec| {
         rec.u32(index);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const i16, 1) };
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -7507,11 +7507,11 @@ export! { 278, glVertexAttrib1svARB, first_glVertexAttrib1svARB, hook_glVertexAt
     }
 } }
 export! { 279, glVertexAttrib1svNV, first_glVertexAttrib1svNV, hook_glVertexAttrib1svNV, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib1svNV, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttrib1svNV, Effect::ATTRIB, |rec| {
         rec.u32(index);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const i16, 1) };
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -7519,11 +7519,11 @@ export! { 279, glVertexAttrib1svNV, first_glVertexAttrib1svNV, hook_glVertexAttr
     }
 } }
 export! { 280, glVertexAttrib2d, first_glVertexAttrib2d, hook_glVertexAttrib2d, (index: u32, x: f64, y: f64) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib2d, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttrib2d, Effect::ATTRIB, |rec| {
         rec.u32(index);
         rec.f64(x);
         rec.f64(y);
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -7531,11 +7531,11 @@ export! { 280, glVertexAttrib2d, first_glVertexAttrib2d, hook_glVertexAttrib2d, 
     }
 } }
 export! { 281, glVertexAttrib2dARB, first_glVertexAttrib2dARB, hook_glVertexAttrib2dARB, (index: u32, x: f64, y: f64) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib2dARB, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttrib2dARB, Effect::ATTRIB, |rec| {
         rec.u32(index);
         rec.f64(x);
         rec.f64(y);
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -7543,11 +7543,11 @@ export! { 281, glVertexAttrib2dARB, first_glVertexAttrib2dARB, hook_glVertexAttr
     }
 } }
 export! { 282, glVertexAttrib2dNV, first_glVertexAttrib2dNV, hook_glVertexAttrib2dNV, (index: u32, x: f64, y: f64) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib2dNV, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttrib2dNV, Effect::ATTRIB, |rec| {
         rec.u32(index);
         rec.f64(x);
         rec.f64(y);
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -7555,11 +7555,11 @@ export! { 282, glVertexAttrib2dNV, first_glVertexAttrib2dNV, hook_glVertexAttrib
     }
 } }
 export! { 283, glVertexAttrib2dv, first_glVertexAttrib2dv, hook_glVertexAttrib2dv, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib2dv, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttrib2dv, Effect::ATTRIB, |rec| {
         rec.u32(index);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const f64, 2) };
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -7567,11 +7567,11 @@ export! { 283, glVertexAttrib2dv, first_glVertexAttrib2dv, hook_glVertexAttrib2d
     }
 } }
 export! { 284, glVertexAttrib2dvARB, first_glVertexAttrib2dvARB, hook_glVertexAttrib2dvARB, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib2dvARB, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttrib2dvARB, Effect::ATTRIB, |rec| {
         rec.u32(index);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const f64, 2) };
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -7579,11 +7579,11 @@ export! { 284, glVertexAttrib2dvARB, first_glVertexAttrib2dvARB, hook_glVertexAt
     }
 } }
 export! { 285, glVertexAttrib2dvNV, first_glVertexAttrib2dvNV, hook_glVertexAttrib2dvNV, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib2dvNV, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttrib2dvNV, Effect::ATTRIB, |rec| {
         rec.u32(index);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const f64, 2) };
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -7591,11 +7591,11 @@ export! { 285, glVertexAttrib2dvNV, first_glVertexAttrib2dvNV, hook_glVertexAttr
     }
 } }
 export! { 286, glVertexAttrib2f, first_glVertexAttrib2f, hook_glVertexAttrib2f, (index: u32, x: f32, y: f32) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib2f, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttrib2f, Effect::ATTRIB, |rec| {
         rec.u32(index);
         rec.f32(x);
         rec.f32(y);
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -7603,11 +7603,11 @@ export! { 286, glVertexAttrib2f, first_glVertexAttrib2f, hook_glVertexAttrib2f, 
     }
 } }
 export! { 287, glVertexAttrib2fARB, first_glVertexAttrib2fARB, hook_glVertexAttrib2fARB, (index: u32, x: f32, y: f32) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib2fARB, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttrib2fARB, Effect::ATTRIB, |rec| {
         rec.u32(index);
         rec.f32(x);
         rec.f32(y);
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -7615,11 +7615,11 @@ export! { 287, glVertexAttrib2fARB, first_glVertexAttrib2fARB, hook_glVertexAttr
     }
 } }
 export! { 288, glVertexAttrib2fNV, first_glVertexAttrib2fNV, hook_glVertexAttrib2fNV, (index: u32, x: f32, y: f32) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib2fNV, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttrib2fNV, Effect::ATTRIB, |rec| {
         rec.u32(index);
         rec.f32(x);
         rec.f32(y);
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -7627,11 +7627,11 @@ export! { 288, glVertexAttrib2fNV, first_glVertexAttrib2fNV, hook_glVertexAttrib
     }
 } }
 export! { 289, glVertexAttrib2fv, first_glVertexAttrib2fv, hook_glVertexAttrib2fv, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib2fv, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttrib2fv, Effect::ATTRIB, |rec| {
         rec.u32(index);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const f32, 2) };
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -7639,11 +7639,11 @@ export! { 289, glVertexAttrib2fv, first_glVertexAttrib2fv, hook_glVertexAttrib2f
     }
 } }
 export! { 290, glVertexAttrib2fvARB, first_glVertexAttrib2fvARB, hook_glVertexAttrib2fvARB, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib2fvARB, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttrib2fvARB, Effect::ATTRIB, |rec| {
         rec.u32(index);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const f32, 2) };
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -7651,11 +7651,11 @@ export! { 290, glVertexAttrib2fvARB, first_glVertexAttrib2fvARB, hook_glVertexAt
     }
 } }
 export! { 291, glVertexAttrib2fvNV, first_glVertexAttrib2fvNV, hook_glVertexAttrib2fvNV, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib2fvNV, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttrib2fvNV, Effect::ATTRIB, |rec| {
         rec.u32(index);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const f32, 2) };
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -7663,11 +7663,11 @@ export! { 291, glVertexAttrib2fvNV, first_glVertexAttrib2fvNV, hook_glVertexAttr
     }
 } }
 export! { 292, glVertexAttrib2s, first_glVertexAttrib2s, hook_glVertexAttrib2s, (index: u32, x: i16, y: i16) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib2s, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttrib2s, Effect::ATTRIB, |rec| {
         rec.u32(index);
         rec.i16(x);
         rec.i16(y);
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -7675,11 +7675,11 @@ export! { 292, glVertexAttrib2s, first_glVertexAttrib2s, hook_glVertexAttrib2s, 
     }
 } }
 export! { 293, glVertexAttrib2sARB, first_glVertexAttrib2sARB, hook_glVertexAttrib2sARB, (index: u32, x: i16, y: i16) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib2sARB, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttrib2sARB, Effect::ATTRIB, |rec| {
         rec.u32(index);
         rec.i16(x);
         rec.i16(y);
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -7687,11 +7687,11 @@ export! { 293, glVertexAttrib2sARB, first_glVertexAttrib2sARB, hook_glVertexAttr
     }
 } }
 export! { 294, glVertexAttrib2sNV, first_glVertexAttrib2sNV, hook_glVertexAttrib2sNV, (index: u32, x: i16, y: i16) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib2sNV, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttrib2sNV, Effect::ATTRIB, |rec| {
         rec.u32(index);
         rec.i16(x);
         rec.i16(y);
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -7699,11 +7699,11 @@ export! { 294, glVertexAttrib2sNV, first_glVertexAttrib2sNV, hook_glVertexAttrib
     }
 } }
 export! { 295, glVertexAttrib2sv, first_glVertexAttrib2sv, hook_glVertexAttrib2sv, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib2sv, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttrib2sv, Effect::ATTRIB, |rec| {
         rec.u32(index);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const i16, 2) };
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -7711,11 +7711,11 @@ export! { 295, glVertexAttrib2sv, first_glVertexAttrib2sv, hook_glVertexAttrib2s
     }
 } }
 export! { 296, glVertexAttrib2svARB, first_glVertexAttrib2svARB, hook_glVertexAttrib2svARB, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib2svARB, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttrib2svARB, Effect::ATTRIB, |rec| {
         rec.u32(index);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const i16, 2) };
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -7723,11 +7723,11 @@ export! { 296, glVertexAttrib2svARB, first_glVertexAttrib2svARB, hook_glVertexAt
     }
 } }
 export! { 297, glVertexAttrib2svNV, first_glVertexAttrib2svNV, hook_glVertexAttrib2svNV, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib2svNV, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttrib2svNV, Effect::ATTRIB, |rec| {
         rec.u32(index);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const i16, 2) };
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -7735,12 +7735,12 @@ export! { 297, glVertexAttrib2svNV, first_glVertexAttrib2svNV, hook_glVertexAttr
     }
 } }
 export! { 298, glVertexAttrib3d, first_glVertexAttrib3d, hook_glVertexAttrib3d, (index: u32, x: f64, y: f64, z: f64) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib3d, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttrib3d, Effect::ATTRIB, |rec| {
         rec.u32(index);
         rec.f64(x);
         rec.f64(y);
         rec.f64(z);
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -7748,12 +7748,12 @@ export! { 298, glVertexAttrib3d, first_glVertexAttrib3d, hook_glVertexAttrib3d, 
     }
 } }
 export! { 299, glVertexAttrib3dARB, first_glVertexAttrib3dARB, hook_glVertexAttrib3dARB, (index: u32, x: f64, y: f64, z: f64) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib3dARB, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttrib3dARB, Effect::ATTRIB, |rec| {
         rec.u32(index);
         rec.f64(x);
         rec.f64(y);
         rec.f64(z);
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -7761,12 +7761,12 @@ export! { 299, glVertexAttrib3dARB, first_glVertexAttrib3dARB, hook_glVertexAttr
     }
 } }
 export! { 300, glVertexAttrib3dNV, first_glVertexAttrib3dNV, hook_glVertexAttrib3dNV, (index: u32, x: f64, y: f64, z: f64) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib3dNV, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttrib3dNV, Effect::ATTRIB, |rec| {
         rec.u32(index);
         rec.f64(x);
         rec.f64(y);
         rec.f64(z);
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -7774,11 +7774,11 @@ export! { 300, glVertexAttrib3dNV, first_glVertexAttrib3dNV, hook_glVertexAttrib
     }
 } }
 export! { 301, glVertexAttrib3dv, first_glVertexAttrib3dv, hook_glVertexAttrib3dv, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib3dv, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttrib3dv, Effect::ATTRIB, |rec| {
         rec.u32(index);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const f64, 3) };
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -7786,11 +7786,11 @@ export! { 301, glVertexAttrib3dv, first_glVertexAttrib3dv, hook_glVertexAttrib3d
     }
 } }
 export! { 302, glVertexAttrib3dvARB, first_glVertexAttrib3dvARB, hook_glVertexAttrib3dvARB, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib3dvARB, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttrib3dvARB, Effect::ATTRIB, |rec| {
         rec.u32(index);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const f64, 3) };
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -7798,11 +7798,11 @@ export! { 302, glVertexAttrib3dvARB, first_glVertexAttrib3dvARB, hook_glVertexAt
     }
 } }
 export! { 303, glVertexAttrib3dvNV, first_glVertexAttrib3dvNV, hook_glVertexAttrib3dvNV, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib3dvNV, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttrib3dvNV, Effect::ATTRIB, |rec| {
         rec.u32(index);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const f64, 3) };
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -7810,12 +7810,12 @@ export! { 303, glVertexAttrib3dvNV, first_glVertexAttrib3dvNV, hook_glVertexAttr
     }
 } }
 export! { 304, glVertexAttrib3f, first_glVertexAttrib3f, hook_glVertexAttrib3f, (index: u32, x: f32, y: f32, z: f32) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib3f, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttrib3f, Effect::ATTRIB, |rec| {
         rec.u32(index);
         rec.f32(x);
         rec.f32(y);
         rec.f32(z);
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -7823,12 +7823,12 @@ export! { 304, glVertexAttrib3f, first_glVertexAttrib3f, hook_glVertexAttrib3f, 
     }
 } }
 export! { 305, glVertexAttrib3fARB, first_glVertexAttrib3fARB, hook_glVertexAttrib3fARB, (index: u32, x: f32, y: f32, z: f32) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib3fARB, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttrib3fARB, Effect::ATTRIB, |rec| {
         rec.u32(index);
         rec.f32(x);
         rec.f32(y);
         rec.f32(z);
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -7836,12 +7836,12 @@ export! { 305, glVertexAttrib3fARB, first_glVertexAttrib3fARB, hook_glVertexAttr
     }
 } }
 export! { 306, glVertexAttrib3fNV, first_glVertexAttrib3fNV, hook_glVertexAttrib3fNV, (index: u32, x: f32, y: f32, z: f32) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib3fNV, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttrib3fNV, Effect::ATTRIB, |rec| {
         rec.u32(index);
         rec.f32(x);
         rec.f32(y);
         rec.f32(z);
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -7849,11 +7849,11 @@ export! { 306, glVertexAttrib3fNV, first_glVertexAttrib3fNV, hook_glVertexAttrib
     }
 } }
 export! { 307, glVertexAttrib3fv, first_glVertexAttrib3fv, hook_glVertexAttrib3fv, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib3fv, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttrib3fv, Effect::ATTRIB, |rec| {
         rec.u32(index);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const f32, 3) };
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -7861,11 +7861,11 @@ export! { 307, glVertexAttrib3fv, first_glVertexAttrib3fv, hook_glVertexAttrib3f
     }
 } }
 export! { 308, glVertexAttrib3fvARB, first_glVertexAttrib3fvARB, hook_glVertexAttrib3fvARB, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib3fvARB, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttrib3fvARB, Effect::ATTRIB, |rec| {
         rec.u32(index);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const f32, 3) };
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -7873,11 +7873,11 @@ export! { 308, glVertexAttrib3fvARB, first_glVertexAttrib3fvARB, hook_glVertexAt
     }
 } }
 export! { 309, glVertexAttrib3fvNV, first_glVertexAttrib3fvNV, hook_glVertexAttrib3fvNV, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib3fvNV, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttrib3fvNV, Effect::ATTRIB, |rec| {
         rec.u32(index);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const f32, 3) };
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -7885,12 +7885,12 @@ export! { 309, glVertexAttrib3fvNV, first_glVertexAttrib3fvNV, hook_glVertexAttr
     }
 } }
 export! { 310, glVertexAttrib3s, first_glVertexAttrib3s, hook_glVertexAttrib3s, (index: u32, x: i16, y: i16, z: i16) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib3s, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttrib3s, Effect::ATTRIB, |rec| {
         rec.u32(index);
         rec.i16(x);
         rec.i16(y);
         rec.i16(z);
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -7898,12 +7898,12 @@ export! { 310, glVertexAttrib3s, first_glVertexAttrib3s, hook_glVertexAttrib3s, 
     }
 } }
 export! { 311, glVertexAttrib3sARB, first_glVertexAttrib3sARB, hook_glVertexAttrib3sARB, (index: u32, x: i16, y: i16, z: i16) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib3sARB, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttrib3sARB, Effect::ATTRIB, |rec| {
         rec.u32(index);
         rec.i16(x);
         rec.i16(y);
         rec.i16(z);
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -7911,12 +7911,12 @@ export! { 311, glVertexAttrib3sARB, first_glVertexAttrib3sARB, hook_glVertexAttr
     }
 } }
 export! { 312, glVertexAttrib3sNV, first_glVertexAttrib3sNV, hook_glVertexAttrib3sNV, (index: u32, x: i16, y: i16, z: i16) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib3sNV, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttrib3sNV, Effect::ATTRIB, |rec| {
         rec.u32(index);
         rec.i16(x);
         rec.i16(y);
         rec.i16(z);
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -7924,11 +7924,11 @@ export! { 312, glVertexAttrib3sNV, first_glVertexAttrib3sNV, hook_glVertexAttrib
     }
 } }
 export! { 313, glVertexAttrib3sv, first_glVertexAttrib3sv, hook_glVertexAttrib3sv, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib3sv, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttrib3sv, Effect::ATTRIB, |rec| {
         rec.u32(index);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const i16, 3) };
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -7936,11 +7936,11 @@ export! { 313, glVertexAttrib3sv, first_glVertexAttrib3sv, hook_glVertexAttrib3s
     }
 } }
 export! { 314, glVertexAttrib3svARB, first_glVertexAttrib3svARB, hook_glVertexAttrib3svARB, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib3svARB, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttrib3svARB, Effect::ATTRIB, |rec| {
         rec.u32(index);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const i16, 3) };
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -7948,11 +7948,11 @@ export! { 314, glVertexAttrib3svARB, first_glVertexAttrib3svARB, hook_glVertexAt
     }
 } }
 export! { 315, glVertexAttrib3svNV, first_glVertexAttrib3svNV, hook_glVertexAttrib3svNV, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib3svNV, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttrib3svNV, Effect::ATTRIB, |rec| {
         rec.u32(index);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const i16, 3) };
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -7960,13 +7960,13 @@ export! { 315, glVertexAttrib3svNV, first_glVertexAttrib3svNV, hook_glVertexAttr
     }
 } }
 export! { 316, glVertexAttrib4d, first_glVertexAttrib4d, hook_glVertexAttrib4d, (index: u32, x: f64, y: f64, z: f64, w: f64) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib4d, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttrib4d, Effect::ATTRIB, |rec| {
         rec.u32(index);
         rec.f64(x);
         rec.f64(y);
         rec.f64(z);
         rec.f64(w);
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -7974,13 +7974,13 @@ export! { 316, glVertexAttrib4d, first_glVertexAttrib4d, hook_glVertexAttrib4d, 
     }
 } }
 export! { 317, glVertexAttrib4dARB, first_glVertexAttrib4dARB, hook_glVertexAttrib4dARB, (index: u32, x: f64, y: f64, z: f64, w: f64) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib4dARB, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttrib4dARB, Effect::ATTRIB, |rec| {
         rec.u32(index);
         rec.f64(x);
         rec.f64(y);
         rec.f64(z);
         rec.f64(w);
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -7988,13 +7988,13 @@ export! { 317, glVertexAttrib4dARB, first_glVertexAttrib4dARB, hook_glVertexAttr
     }
 } }
 export! { 318, glVertexAttrib4dNV, first_glVertexAttrib4dNV, hook_glVertexAttrib4dNV, (index: u32, x: f64, y: f64, z: f64, w: f64) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib4dNV, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttrib4dNV, Effect::ATTRIB, |rec| {
         rec.u32(index);
         rec.f64(x);
         rec.f64(y);
         rec.f64(z);
         rec.f64(w);
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -8002,11 +8002,11 @@ export! { 318, glVertexAttrib4dNV, first_glVertexAttrib4dNV, hook_glVertexAttrib
     }
 } }
 export! { 319, glVertexAttrib4dv, first_glVertexAttrib4dv, hook_glVertexAttrib4dv, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib4dv, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttrib4dv, Effect::ATTRIB, |rec| {
         rec.u32(index);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const f64, 4) };
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -8014,11 +8014,11 @@ export! { 319, glVertexAttrib4dv, first_glVertexAttrib4dv, hook_glVertexAttrib4d
     }
 } }
 export! { 320, glVertexAttrib4dvARB, first_glVertexAttrib4dvARB, hook_glVertexAttrib4dvARB, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib4dvARB, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttrib4dvARB, Effect::ATTRIB, |rec| {
         rec.u32(index);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const f64, 4) };
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -8026,11 +8026,11 @@ export! { 320, glVertexAttrib4dvARB, first_glVertexAttrib4dvARB, hook_glVertexAt
     }
 } }
 export! { 321, glVertexAttrib4dvNV, first_glVertexAttrib4dvNV, hook_glVertexAttrib4dvNV, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib4dvNV, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttrib4dvNV, Effect::ATTRIB, |rec| {
         rec.u32(index);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const f64, 4) };
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -8038,13 +8038,13 @@ export! { 321, glVertexAttrib4dvNV, first_glVertexAttrib4dvNV, hook_glVertexAttr
     }
 } }
 export! { 322, glVertexAttrib4f, first_glVertexAttrib4f, hook_glVertexAttrib4f, (index: u32, x: f32, y: f32, z: f32, w: f32) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib4f, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttrib4f, Effect::ATTRIB, |rec| {
         rec.u32(index);
         rec.f32(x);
         rec.f32(y);
         rec.f32(z);
         rec.f32(w);
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -8052,13 +8052,13 @@ export! { 322, glVertexAttrib4f, first_glVertexAttrib4f, hook_glVertexAttrib4f, 
     }
 } }
 export! { 323, glVertexAttrib4fARB, first_glVertexAttrib4fARB, hook_glVertexAttrib4fARB, (index: u32, x: f32, y: f32, z: f32, w: f32) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib4fARB, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttrib4fARB, Effect::ATTRIB, |rec| {
         rec.u32(index);
         rec.f32(x);
         rec.f32(y);
         rec.f32(z);
         rec.f32(w);
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -8066,13 +8066,13 @@ export! { 323, glVertexAttrib4fARB, first_glVertexAttrib4fARB, hook_glVertexAttr
     }
 } }
 export! { 324, glVertexAttrib4fNV, first_glVertexAttrib4fNV, hook_glVertexAttrib4fNV, (index: u32, x: f32, y: f32, z: f32, w: f32) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib4fNV, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttrib4fNV, Effect::ATTRIB, |rec| {
         rec.u32(index);
         rec.f32(x);
         rec.f32(y);
         rec.f32(z);
         rec.f32(w);
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -8080,11 +8080,11 @@ export! { 324, glVertexAttrib4fNV, first_glVertexAttrib4fNV, hook_glVertexAttrib
     }
 } }
 export! { 325, glVertexAttrib4fv, first_glVertexAttrib4fv, hook_glVertexAttrib4fv, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib4fv, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttrib4fv, Effect::ATTRIB, |rec| {
         rec.u32(index);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const f32, 4) };
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -8092,11 +8092,11 @@ export! { 325, glVertexAttrib4fv, first_glVertexAttrib4fv, hook_glVertexAttrib4f
     }
 } }
 export! { 326, glVertexAttrib4fvARB, first_glVertexAttrib4fvARB, hook_glVertexAttrib4fvARB, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib4fvARB, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttrib4fvARB, Effect::ATTRIB, |rec| {
         rec.u32(index);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const f32, 4) };
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -8104,11 +8104,11 @@ export! { 326, glVertexAttrib4fvARB, first_glVertexAttrib4fvARB, hook_glVertexAt
     }
 } }
 export! { 327, glVertexAttrib4fvNV, first_glVertexAttrib4fvNV, hook_glVertexAttrib4fvNV, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib4fvNV, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttrib4fvNV, Effect::ATTRIB, |rec| {
         rec.u32(index);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const f32, 4) };
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -8116,13 +8116,13 @@ export! { 327, glVertexAttrib4fvNV, first_glVertexAttrib4fvNV, hook_glVertexAttr
     }
 } }
 export! { 328, glVertexAttrib4s, first_glVertexAttrib4s, hook_glVertexAttrib4s, (index: u32, x: i16, y: i16, z: i16, w: i16) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib4s, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttrib4s, Effect::ATTRIB, |rec| {
         rec.u32(index);
         rec.i16(x);
         rec.i16(y);
         rec.i16(z);
         rec.i16(w);
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -8130,13 +8130,13 @@ export! { 328, glVertexAttrib4s, first_glVertexAttrib4s, hook_glVertexAttrib4s, 
     }
 } }
 export! { 329, glVertexAttrib4sARB, first_glVertexAttrib4sARB, hook_glVertexAttrib4sARB, (index: u32, x: i16, y: i16, z: i16, w: i16) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib4sARB, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttrib4sARB, Effect::ATTRIB, |rec| {
         rec.u32(index);
         rec.i16(x);
         rec.i16(y);
         rec.i16(z);
         rec.i16(w);
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -8144,13 +8144,13 @@ export! { 329, glVertexAttrib4sARB, first_glVertexAttrib4sARB, hook_glVertexAttr
     }
 } }
 export! { 330, glVertexAttrib4sNV, first_glVertexAttrib4sNV, hook_glVertexAttrib4sNV, (index: u32, x: i16, y: i16, z: i16, w: i16) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib4sNV, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttrib4sNV, Effect::ATTRIB, |rec| {
         rec.u32(index);
         rec.i16(x);
         rec.i16(y);
         rec.i16(z);
         rec.i16(w);
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -8158,11 +8158,11 @@ export! { 330, glVertexAttrib4sNV, first_glVertexAttrib4sNV, hook_glVertexAttrib
     }
 } }
 export! { 331, glVertexAttrib4sv, first_glVertexAttrib4sv, hook_glVertexAttrib4sv, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib4sv, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttrib4sv, Effect::ATTRIB, |rec| {
         rec.u32(index);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const i16, 4) };
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -8170,11 +8170,11 @@ export! { 331, glVertexAttrib4sv, first_glVertexAttrib4sv, hook_glVertexAttrib4s
     }
 } }
 export! { 332, glVertexAttrib4svARB, first_glVertexAttrib4svARB, hook_glVertexAttrib4svARB, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib4svARB, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttrib4svARB, Effect::ATTRIB, |rec| {
         rec.u32(index);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const i16, 4) };
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -8182,11 +8182,11 @@ export! { 332, glVertexAttrib4svARB, first_glVertexAttrib4svARB, hook_glVertexAt
     }
 } }
 export! { 333, glVertexAttrib4svNV, first_glVertexAttrib4svNV, hook_glVertexAttrib4svNV, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib4svNV, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttrib4svNV, Effect::ATTRIB, |rec| {
         rec.u32(index);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const i16, 4) };
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -8194,11 +8194,11 @@ export! { 333, glVertexAttrib4svNV, first_glVertexAttrib4svNV, hook_glVertexAttr
     }
 } }
 export! { 334, glVertexAttrib4Nbv, first_glVertexAttrib4Nbv, hook_glVertexAttrib4Nbv, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib4Nbv, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttrib4Nbv, Effect::ATTRIB, |rec| {
         rec.u32(index);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const i8, 4) };
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -8206,11 +8206,11 @@ export! { 334, glVertexAttrib4Nbv, first_glVertexAttrib4Nbv, hook_glVertexAttrib
     }
 } }
 export! { 335, glVertexAttrib4NbvARB, first_glVertexAttrib4NbvARB, hook_glVertexAttrib4NbvARB, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib4NbvARB, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttrib4NbvARB, Effect::ATTRIB, |rec| {
         rec.u32(index);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const i8, 4) };
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -8218,11 +8218,11 @@ export! { 335, glVertexAttrib4NbvARB, first_glVertexAttrib4NbvARB, hook_glVertex
     }
 } }
 export! { 336, glVertexAttrib4Niv, first_glVertexAttrib4Niv, hook_glVertexAttrib4Niv, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib4Niv, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttrib4Niv, Effect::ATTRIB, |rec| {
         rec.u32(index);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const i32, 4) };
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -8230,11 +8230,11 @@ export! { 336, glVertexAttrib4Niv, first_glVertexAttrib4Niv, hook_glVertexAttrib
     }
 } }
 export! { 337, glVertexAttrib4NivARB, first_glVertexAttrib4NivARB, hook_glVertexAttrib4NivARB, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib4NivARB, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttrib4NivARB, Effect::ATTRIB, |rec| {
         rec.u32(index);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const i32, 4) };
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -8242,11 +8242,11 @@ export! { 337, glVertexAttrib4NivARB, first_glVertexAttrib4NivARB, hook_glVertex
     }
 } }
 export! { 338, glVertexAttrib4Nsv, first_glVertexAttrib4Nsv, hook_glVertexAttrib4Nsv, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib4Nsv, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttrib4Nsv, Effect::ATTRIB, |rec| {
         rec.u32(index);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const i16, 4) };
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -8254,11 +8254,11 @@ export! { 338, glVertexAttrib4Nsv, first_glVertexAttrib4Nsv, hook_glVertexAttrib
     }
 } }
 export! { 339, glVertexAttrib4NsvARB, first_glVertexAttrib4NsvARB, hook_glVertexAttrib4NsvARB, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib4NsvARB, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttrib4NsvARB, Effect::ATTRIB, |rec| {
         rec.u32(index);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const i16, 4) };
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -8266,11 +8266,11 @@ export! { 339, glVertexAttrib4NsvARB, first_glVertexAttrib4NsvARB, hook_glVertex
     }
 } }
 export! { 340, glVertexAttrib4Nubv, first_glVertexAttrib4Nubv, hook_glVertexAttrib4Nubv, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib4Nubv, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttrib4Nubv, Effect::ATTRIB, |rec| {
         rec.u32(index);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const u8, 4) };
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -8278,11 +8278,11 @@ export! { 340, glVertexAttrib4Nubv, first_glVertexAttrib4Nubv, hook_glVertexAttr
     }
 } }
 export! { 341, glVertexAttrib4NubvARB, first_glVertexAttrib4NubvARB, hook_glVertexAttrib4NubvARB, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib4NubvARB, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttrib4NubvARB, Effect::ATTRIB, |rec| {
         rec.u32(index);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const u8, 4) };
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -8290,11 +8290,11 @@ export! { 341, glVertexAttrib4NubvARB, first_glVertexAttrib4NubvARB, hook_glVert
     }
 } }
 export! { 342, glVertexAttrib4ubvNV, first_glVertexAttrib4ubvNV, hook_glVertexAttrib4ubvNV, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib4ubvNV, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttrib4ubvNV, Effect::ATTRIB, |rec| {
         rec.u32(index);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const u8, 4) };
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -8302,11 +8302,11 @@ export! { 342, glVertexAttrib4ubvNV, first_glVertexAttrib4ubvNV, hook_glVertexAt
     }
 } }
 export! { 343, glVertexAttrib4Nuiv, first_glVertexAttrib4Nuiv, hook_glVertexAttrib4Nuiv, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib4Nuiv, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttrib4Nuiv, Effect::ATTRIB, |rec| {
         rec.u32(index);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const u32, 4) };
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -8314,11 +8314,11 @@ export! { 343, glVertexAttrib4Nuiv, first_glVertexAttrib4Nuiv, hook_glVertexAttr
     }
 } }
 export! { 344, glVertexAttrib4NuivARB, first_glVertexAttrib4NuivARB, hook_glVertexAttrib4NuivARB, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib4NuivARB, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttrib4NuivARB, Effect::ATTRIB, |rec| {
         rec.u32(index);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const u32, 4) };
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -8326,11 +8326,11 @@ export! { 344, glVertexAttrib4NuivARB, first_glVertexAttrib4NuivARB, hook_glVert
     }
 } }
 export! { 345, glVertexAttrib4Nusv, first_glVertexAttrib4Nusv, hook_glVertexAttrib4Nusv, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib4Nusv, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttrib4Nusv, Effect::ATTRIB, |rec| {
         rec.u32(index);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const u16, 4) };
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -8338,11 +8338,11 @@ export! { 345, glVertexAttrib4Nusv, first_glVertexAttrib4Nusv, hook_glVertexAttr
     }
 } }
 export! { 346, glVertexAttrib4NusvARB, first_glVertexAttrib4NusvARB, hook_glVertexAttrib4NusvARB, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib4NusvARB, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttrib4NusvARB, Effect::ATTRIB, |rec| {
         rec.u32(index);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const u16, 4) };
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -8350,11 +8350,11 @@ export! { 346, glVertexAttrib4NusvARB, first_glVertexAttrib4NusvARB, hook_glVert
     }
 } }
 export! { 347, glVertexAttrib4bv, first_glVertexAttrib4bv, hook_glVertexAttrib4bv, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib4bv, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttrib4bv, Effect::ATTRIB, |rec| {
         rec.u32(index);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const i8, 4) };
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -8362,11 +8362,11 @@ export! { 347, glVertexAttrib4bv, first_glVertexAttrib4bv, hook_glVertexAttrib4b
     }
 } }
 export! { 348, glVertexAttrib4bvARB, first_glVertexAttrib4bvARB, hook_glVertexAttrib4bvARB, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib4bvARB, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttrib4bvARB, Effect::ATTRIB, |rec| {
         rec.u32(index);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const i8, 4) };
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -8374,11 +8374,11 @@ export! { 348, glVertexAttrib4bvARB, first_glVertexAttrib4bvARB, hook_glVertexAt
     }
 } }
 export! { 349, glVertexAttrib4iv, first_glVertexAttrib4iv, hook_glVertexAttrib4iv, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib4iv, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttrib4iv, Effect::ATTRIB, |rec| {
         rec.u32(index);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const i32, 4) };
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -8386,11 +8386,11 @@ export! { 349, glVertexAttrib4iv, first_glVertexAttrib4iv, hook_glVertexAttrib4i
     }
 } }
 export! { 350, glVertexAttrib4ivARB, first_glVertexAttrib4ivARB, hook_glVertexAttrib4ivARB, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib4ivARB, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttrib4ivARB, Effect::ATTRIB, |rec| {
         rec.u32(index);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const i32, 4) };
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -8398,11 +8398,11 @@ export! { 350, glVertexAttrib4ivARB, first_glVertexAttrib4ivARB, hook_glVertexAt
     }
 } }
 export! { 351, glVertexAttrib4ubv, first_glVertexAttrib4ubv, hook_glVertexAttrib4ubv, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib4ubv, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttrib4ubv, Effect::ATTRIB, |rec| {
         rec.u32(index);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const u8, 4) };
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -8410,11 +8410,11 @@ export! { 351, glVertexAttrib4ubv, first_glVertexAttrib4ubv, hook_glVertexAttrib
     }
 } }
 export! { 352, glVertexAttrib4ubvARB, first_glVertexAttrib4ubvARB, hook_glVertexAttrib4ubvARB, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib4ubvARB, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttrib4ubvARB, Effect::ATTRIB, |rec| {
         rec.u32(index);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const u8, 4) };
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -8422,11 +8422,11 @@ export! { 352, glVertexAttrib4ubvARB, first_glVertexAttrib4ubvARB, hook_glVertex
     }
 } }
 export! { 353, glVertexAttrib4uiv, first_glVertexAttrib4uiv, hook_glVertexAttrib4uiv, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib4uiv, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttrib4uiv, Effect::ATTRIB, |rec| {
         rec.u32(index);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const u32, 4) };
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -8434,11 +8434,11 @@ export! { 353, glVertexAttrib4uiv, first_glVertexAttrib4uiv, hook_glVertexAttrib
     }
 } }
 export! { 354, glVertexAttrib4uivARB, first_glVertexAttrib4uivARB, hook_glVertexAttrib4uivARB, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib4uivARB, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttrib4uivARB, Effect::ATTRIB, |rec| {
         rec.u32(index);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const u32, 4) };
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -8446,11 +8446,11 @@ export! { 354, glVertexAttrib4uivARB, first_glVertexAttrib4uivARB, hook_glVertex
     }
 } }
 export! { 355, glVertexAttrib4usv, first_glVertexAttrib4usv, hook_glVertexAttrib4usv, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib4usv, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttrib4usv, Effect::ATTRIB, |rec| {
         rec.u32(index);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const u16, 4) };
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -8458,11 +8458,11 @@ export! { 355, glVertexAttrib4usv, first_glVertexAttrib4usv, hook_glVertexAttrib
     }
 } }
 export! { 356, glVertexAttrib4usvARB, first_glVertexAttrib4usvARB, hook_glVertexAttrib4usvARB, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib4usvARB, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttrib4usvARB, Effect::ATTRIB, |rec| {
         rec.u32(index);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const u16, 4) };
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -8470,13 +8470,13 @@ export! { 356, glVertexAttrib4usvARB, first_glVertexAttrib4usvARB, hook_glVertex
     }
 } }
 export! { 357, glVertexAttrib4Nub, first_glVertexAttrib4Nub, hook_glVertexAttrib4Nub, (index: u32, x: u8, y: u8, z: u8, w: u8) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib4Nub, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttrib4Nub, Effect::ATTRIB, |rec| {
         rec.u32(index);
         rec.u8(x);
         rec.u8(y);
         rec.u8(z);
         rec.u8(w);
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -8484,13 +8484,13 @@ export! { 357, glVertexAttrib4Nub, first_glVertexAttrib4Nub, hook_glVertexAttrib
     }
 } }
 export! { 358, glVertexAttrib4NubARB, first_glVertexAttrib4NubARB, hook_glVertexAttrib4NubARB, (index: u32, x: u8, y: u8, z: u8, w: u8) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib4NubARB, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttrib4NubARB, Effect::ATTRIB, |rec| {
         rec.u32(index);
         rec.u8(x);
         rec.u8(y);
         rec.u8(z);
         rec.u8(w);
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -8498,13 +8498,13 @@ export! { 358, glVertexAttrib4NubARB, first_glVertexAttrib4NubARB, hook_glVertex
     }
 } }
 export! { 359, glVertexAttrib4ubNV, first_glVertexAttrib4ubNV, hook_glVertexAttrib4ubNV, (index: u32, x: u8, y: u8, z: u8, w: u8) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttrib4ubNV, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttrib4ubNV, Effect::ATTRIB, |rec| {
         rec.u32(index);
         rec.u8(x);
         rec.u8(y);
         rec.u8(z);
         rec.u8(w);
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -8512,10 +8512,10 @@ export! { 359, glVertexAttrib4ubNV, first_glVertexAttrib4ubNV, hook_glVertexAttr
     }
 } }
 export! { 360, glVertexAttribI1i, first_glVertexAttribI1i, hook_glVertexAttribI1i, (index: u32, x: i32) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribI1i, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttribI1i, Effect::ATTRIB, |rec| {
         rec.u32(index);
         rec.i32(x);
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -8523,10 +8523,10 @@ export! { 360, glVertexAttribI1i, first_glVertexAttribI1i, hook_glVertexAttribI1
     }
 } }
 export! { 361, glVertexAttribI1iEXT, first_glVertexAttribI1iEXT, hook_glVertexAttribI1iEXT, (index: u32, x: i32) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribI1iEXT, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttribI1iEXT, Effect::ATTRIB, |rec| {
         rec.u32(index);
         rec.i32(x);
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -8534,11 +8534,11 @@ export! { 361, glVertexAttribI1iEXT, first_glVertexAttribI1iEXT, hook_glVertexAt
     }
 } }
 export! { 362, glVertexAttribI1iv, first_glVertexAttribI1iv, hook_glVertexAttribI1iv, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribI1iv, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttribI1iv, Effect::ATTRIB, |rec| {
         rec.u32(index);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const i32, 1) };
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -8546,11 +8546,11 @@ export! { 362, glVertexAttribI1iv, first_glVertexAttribI1iv, hook_glVertexAttrib
     }
 } }
 export! { 363, glVertexAttribI1ivEXT, first_glVertexAttribI1ivEXT, hook_glVertexAttribI1ivEXT, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribI1ivEXT, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttribI1ivEXT, Effect::ATTRIB, |rec| {
         rec.u32(index);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const i32, 1) };
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -8558,10 +8558,10 @@ export! { 363, glVertexAttribI1ivEXT, first_glVertexAttribI1ivEXT, hook_glVertex
     }
 } }
 export! { 364, glVertexAttribI1ui, first_glVertexAttribI1ui, hook_glVertexAttribI1ui, (index: u32, x: u32) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribI1ui, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttribI1ui, Effect::ATTRIB, |rec| {
         rec.u32(index);
         rec.u32(x);
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -8569,10 +8569,10 @@ export! { 364, glVertexAttribI1ui, first_glVertexAttribI1ui, hook_glVertexAttrib
     }
 } }
 export! { 365, glVertexAttribI1uiEXT, first_glVertexAttribI1uiEXT, hook_glVertexAttribI1uiEXT, (index: u32, x: u32) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribI1uiEXT, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttribI1uiEXT, Effect::ATTRIB, |rec| {
         rec.u32(index);
         rec.u32(x);
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -8580,11 +8580,11 @@ export! { 365, glVertexAttribI1uiEXT, first_glVertexAttribI1uiEXT, hook_glVertex
     }
 } }
 export! { 366, glVertexAttribI1uiv, first_glVertexAttribI1uiv, hook_glVertexAttribI1uiv, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribI1uiv, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttribI1uiv, Effect::ATTRIB, |rec| {
         rec.u32(index);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const u32, 1) };
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -8592,11 +8592,11 @@ export! { 366, glVertexAttribI1uiv, first_glVertexAttribI1uiv, hook_glVertexAttr
     }
 } }
 export! { 367, glVertexAttribI1uivEXT, first_glVertexAttribI1uivEXT, hook_glVertexAttribI1uivEXT, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribI1uivEXT, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttribI1uivEXT, Effect::ATTRIB, |rec| {
         rec.u32(index);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const u32, 1) };
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -8604,11 +8604,11 @@ export! { 367, glVertexAttribI1uivEXT, first_glVertexAttribI1uivEXT, hook_glVert
     }
 } }
 export! { 368, glVertexAttribI2i, first_glVertexAttribI2i, hook_glVertexAttribI2i, (index: u32, x: i32, y: i32) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribI2i, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttribI2i, Effect::ATTRIB, |rec| {
         rec.u32(index);
         rec.i32(x);
         rec.i32(y);
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -8616,11 +8616,11 @@ export! { 368, glVertexAttribI2i, first_glVertexAttribI2i, hook_glVertexAttribI2
     }
 } }
 export! { 369, glVertexAttribI2iEXT, first_glVertexAttribI2iEXT, hook_glVertexAttribI2iEXT, (index: u32, x: i32, y: i32) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribI2iEXT, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttribI2iEXT, Effect::ATTRIB, |rec| {
         rec.u32(index);
         rec.i32(x);
         rec.i32(y);
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -8628,11 +8628,11 @@ export! { 369, glVertexAttribI2iEXT, first_glVertexAttribI2iEXT, hook_glVertexAt
     }
 } }
 export! { 370, glVertexAttribI2iv, first_glVertexAttribI2iv, hook_glVertexAttribI2iv, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribI2iv, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttribI2iv, Effect::ATTRIB, |rec| {
         rec.u32(index);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const i32, 2) };
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -8640,11 +8640,11 @@ export! { 370, glVertexAttribI2iv, first_glVertexAttribI2iv, hook_glVertexAttrib
     }
 } }
 export! { 371, glVertexAttribI2ivEXT, first_glVertexAttribI2ivEXT, hook_glVertexAttribI2ivEXT, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribI2ivEXT, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttribI2ivEXT, Effect::ATTRIB, |rec| {
         rec.u32(index);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const i32, 2) };
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -8652,11 +8652,11 @@ export! { 371, glVertexAttribI2ivEXT, first_glVertexAttribI2ivEXT, hook_glVertex
     }
 } }
 export! { 372, glVertexAttribI2ui, first_glVertexAttribI2ui, hook_glVertexAttribI2ui, (index: u32, x: u32, y: u32) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribI2ui, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttribI2ui, Effect::ATTRIB, |rec| {
         rec.u32(index);
         rec.u32(x);
         rec.u32(y);
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -8664,11 +8664,11 @@ export! { 372, glVertexAttribI2ui, first_glVertexAttribI2ui, hook_glVertexAttrib
     }
 } }
 export! { 373, glVertexAttribI2uiEXT, first_glVertexAttribI2uiEXT, hook_glVertexAttribI2uiEXT, (index: u32, x: u32, y: u32) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribI2uiEXT, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttribI2uiEXT, Effect::ATTRIB, |rec| {
         rec.u32(index);
         rec.u32(x);
         rec.u32(y);
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -8676,11 +8676,11 @@ export! { 373, glVertexAttribI2uiEXT, first_glVertexAttribI2uiEXT, hook_glVertex
     }
 } }
 export! { 374, glVertexAttribI2uiv, first_glVertexAttribI2uiv, hook_glVertexAttribI2uiv, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribI2uiv, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttribI2uiv, Effect::ATTRIB, |rec| {
         rec.u32(index);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const u32, 2) };
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -8688,11 +8688,11 @@ export! { 374, glVertexAttribI2uiv, first_glVertexAttribI2uiv, hook_glVertexAttr
     }
 } }
 export! { 375, glVertexAttribI2uivEXT, first_glVertexAttribI2uivEXT, hook_glVertexAttribI2uivEXT, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribI2uivEXT, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttribI2uivEXT, Effect::ATTRIB, |rec| {
         rec.u32(index);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const u32, 2) };
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -8700,12 +8700,12 @@ export! { 375, glVertexAttribI2uivEXT, first_glVertexAttribI2uivEXT, hook_glVert
     }
 } }
 export! { 376, glVertexAttribI3i, first_glVertexAttribI3i, hook_glVertexAttribI3i, (index: u32, x: i32, y: i32, z: i32) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribI3i, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttribI3i, Effect::ATTRIB, |rec| {
         rec.u32(index);
         rec.i32(x);
         rec.i32(y);
         rec.i32(z);
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -8713,12 +8713,12 @@ export! { 376, glVertexAttribI3i, first_glVertexAttribI3i, hook_glVertexAttribI3
     }
 } }
 export! { 377, glVertexAttribI3iEXT, first_glVertexAttribI3iEXT, hook_glVertexAttribI3iEXT, (index: u32, x: i32, y: i32, z: i32) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribI3iEXT, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttribI3iEXT, Effect::ATTRIB, |rec| {
         rec.u32(index);
         rec.i32(x);
         rec.i32(y);
         rec.i32(z);
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -8726,11 +8726,11 @@ export! { 377, glVertexAttribI3iEXT, first_glVertexAttribI3iEXT, hook_glVertexAt
     }
 } }
 export! { 378, glVertexAttribI3iv, first_glVertexAttribI3iv, hook_glVertexAttribI3iv, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribI3iv, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttribI3iv, Effect::ATTRIB, |rec| {
         rec.u32(index);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const i32, 3) };
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -8738,11 +8738,11 @@ export! { 378, glVertexAttribI3iv, first_glVertexAttribI3iv, hook_glVertexAttrib
     }
 } }
 export! { 379, glVertexAttribI3ivEXT, first_glVertexAttribI3ivEXT, hook_glVertexAttribI3ivEXT, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribI3ivEXT, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttribI3ivEXT, Effect::ATTRIB, |rec| {
         rec.u32(index);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const i32, 3) };
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -8750,12 +8750,12 @@ export! { 379, glVertexAttribI3ivEXT, first_glVertexAttribI3ivEXT, hook_glVertex
     }
 } }
 export! { 380, glVertexAttribI3ui, first_glVertexAttribI3ui, hook_glVertexAttribI3ui, (index: u32, x: u32, y: u32, z: u32) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribI3ui, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttribI3ui, Effect::ATTRIB, |rec| {
         rec.u32(index);
         rec.u32(x);
         rec.u32(y);
         rec.u32(z);
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -8763,12 +8763,12 @@ export! { 380, glVertexAttribI3ui, first_glVertexAttribI3ui, hook_glVertexAttrib
     }
 } }
 export! { 381, glVertexAttribI3uiEXT, first_glVertexAttribI3uiEXT, hook_glVertexAttribI3uiEXT, (index: u32, x: u32, y: u32, z: u32) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribI3uiEXT, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttribI3uiEXT, Effect::ATTRIB, |rec| {
         rec.u32(index);
         rec.u32(x);
         rec.u32(y);
         rec.u32(z);
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -8776,11 +8776,11 @@ export! { 381, glVertexAttribI3uiEXT, first_glVertexAttribI3uiEXT, hook_glVertex
     }
 } }
 export! { 382, glVertexAttribI3uiv, first_glVertexAttribI3uiv, hook_glVertexAttribI3uiv, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribI3uiv, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttribI3uiv, Effect::ATTRIB, |rec| {
         rec.u32(index);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const u32, 3) };
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -8788,11 +8788,11 @@ export! { 382, glVertexAttribI3uiv, first_glVertexAttribI3uiv, hook_glVertexAttr
     }
 } }
 export! { 383, glVertexAttribI3uivEXT, first_glVertexAttribI3uivEXT, hook_glVertexAttribI3uivEXT, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribI3uivEXT, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttribI3uivEXT, Effect::ATTRIB, |rec| {
         rec.u32(index);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const u32, 3) };
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -8800,13 +8800,13 @@ export! { 383, glVertexAttribI3uivEXT, first_glVertexAttribI3uivEXT, hook_glVert
     }
 } }
 export! { 384, glVertexAttribI4i, first_glVertexAttribI4i, hook_glVertexAttribI4i, (index: u32, x: i32, y: i32, z: i32, w: i32) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribI4i, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttribI4i, Effect::ATTRIB, |rec| {
         rec.u32(index);
         rec.i32(x);
         rec.i32(y);
         rec.i32(z);
         rec.i32(w);
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -8814,13 +8814,13 @@ export! { 384, glVertexAttribI4i, first_glVertexAttribI4i, hook_glVertexAttribI4
     }
 } }
 export! { 385, glVertexAttribI4iEXT, first_glVertexAttribI4iEXT, hook_glVertexAttribI4iEXT, (index: u32, x: i32, y: i32, z: i32, w: i32) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribI4iEXT, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttribI4iEXT, Effect::ATTRIB, |rec| {
         rec.u32(index);
         rec.i32(x);
         rec.i32(y);
         rec.i32(z);
         rec.i32(w);
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -8828,11 +8828,11 @@ export! { 385, glVertexAttribI4iEXT, first_glVertexAttribI4iEXT, hook_glVertexAt
     }
 } }
 export! { 386, glVertexAttribI4iv, first_glVertexAttribI4iv, hook_glVertexAttribI4iv, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribI4iv, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttribI4iv, Effect::ATTRIB, |rec| {
         rec.u32(index);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const i32, 4) };
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -8840,11 +8840,11 @@ export! { 386, glVertexAttribI4iv, first_glVertexAttribI4iv, hook_glVertexAttrib
     }
 } }
 export! { 387, glVertexAttribI4ivEXT, first_glVertexAttribI4ivEXT, hook_glVertexAttribI4ivEXT, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribI4ivEXT, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttribI4ivEXT, Effect::ATTRIB, |rec| {
         rec.u32(index);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const i32, 4) };
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -8852,13 +8852,13 @@ export! { 387, glVertexAttribI4ivEXT, first_glVertexAttribI4ivEXT, hook_glVertex
     }
 } }
 export! { 388, glVertexAttribI4ui, first_glVertexAttribI4ui, hook_glVertexAttribI4ui, (index: u32, x: u32, y: u32, z: u32, w: u32) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribI4ui, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttribI4ui, Effect::ATTRIB, |rec| {
         rec.u32(index);
         rec.u32(x);
         rec.u32(y);
         rec.u32(z);
         rec.u32(w);
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -8866,13 +8866,13 @@ export! { 388, glVertexAttribI4ui, first_glVertexAttribI4ui, hook_glVertexAttrib
     }
 } }
 export! { 389, glVertexAttribI4uiEXT, first_glVertexAttribI4uiEXT, hook_glVertexAttribI4uiEXT, (index: u32, x: u32, y: u32, z: u32, w: u32) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribI4uiEXT, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttribI4uiEXT, Effect::ATTRIB, |rec| {
         rec.u32(index);
         rec.u32(x);
         rec.u32(y);
         rec.u32(z);
         rec.u32(w);
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -8880,11 +8880,11 @@ export! { 389, glVertexAttribI4uiEXT, first_glVertexAttribI4uiEXT, hook_glVertex
     }
 } }
 export! { 390, glVertexAttribI4uiv, first_glVertexAttribI4uiv, hook_glVertexAttribI4uiv, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribI4uiv, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttribI4uiv, Effect::ATTRIB, |rec| {
         rec.u32(index);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const u32, 4) };
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -8892,11 +8892,11 @@ export! { 390, glVertexAttribI4uiv, first_glVertexAttribI4uiv, hook_glVertexAttr
     }
 } }
 export! { 391, glVertexAttribI4uivEXT, first_glVertexAttribI4uivEXT, hook_glVertexAttribI4uivEXT, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribI4uivEXT, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttribI4uivEXT, Effect::ATTRIB, |rec| {
         rec.u32(index);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const u32, 4) };
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -8904,11 +8904,11 @@ export! { 391, glVertexAttribI4uivEXT, first_glVertexAttribI4uivEXT, hook_glVert
     }
 } }
 export! { 392, glVertexAttribI4bv, first_glVertexAttribI4bv, hook_glVertexAttribI4bv, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribI4bv, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttribI4bv, Effect::ATTRIB, |rec| {
         rec.u32(index);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const i8, 4) };
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -8916,11 +8916,11 @@ export! { 392, glVertexAttribI4bv, first_glVertexAttribI4bv, hook_glVertexAttrib
     }
 } }
 export! { 393, glVertexAttribI4bvEXT, first_glVertexAttribI4bvEXT, hook_glVertexAttribI4bvEXT, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribI4bvEXT, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttribI4bvEXT, Effect::ATTRIB, |rec| {
         rec.u32(index);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const i8, 4) };
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -8928,11 +8928,11 @@ export! { 393, glVertexAttribI4bvEXT, first_glVertexAttribI4bvEXT, hook_glVertex
     }
 } }
 export! { 394, glVertexAttribI4sv, first_glVertexAttribI4sv, hook_glVertexAttribI4sv, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribI4sv, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttribI4sv, Effect::ATTRIB, |rec| {
         rec.u32(index);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const i16, 4) };
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -8940,11 +8940,11 @@ export! { 394, glVertexAttribI4sv, first_glVertexAttribI4sv, hook_glVertexAttrib
     }
 } }
 export! { 395, glVertexAttribI4svEXT, first_glVertexAttribI4svEXT, hook_glVertexAttribI4svEXT, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribI4svEXT, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttribI4svEXT, Effect::ATTRIB, |rec| {
         rec.u32(index);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const i16, 4) };
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -8952,11 +8952,11 @@ export! { 395, glVertexAttribI4svEXT, first_glVertexAttribI4svEXT, hook_glVertex
     }
 } }
 export! { 396, glVertexAttribI4ubv, first_glVertexAttribI4ubv, hook_glVertexAttribI4ubv, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribI4ubv, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttribI4ubv, Effect::ATTRIB, |rec| {
         rec.u32(index);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const u8, 4) };
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -8964,11 +8964,11 @@ export! { 396, glVertexAttribI4ubv, first_glVertexAttribI4ubv, hook_glVertexAttr
     }
 } }
 export! { 397, glVertexAttribI4ubvEXT, first_glVertexAttribI4ubvEXT, hook_glVertexAttribI4ubvEXT, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribI4ubvEXT, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttribI4ubvEXT, Effect::ATTRIB, |rec| {
         rec.u32(index);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const u8, 4) };
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -8976,11 +8976,11 @@ export! { 397, glVertexAttribI4ubvEXT, first_glVertexAttribI4ubvEXT, hook_glVert
     }
 } }
 export! { 398, glVertexAttribI4usv, first_glVertexAttribI4usv, hook_glVertexAttribI4usv, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribI4usv, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttribI4usv, Effect::ATTRIB, |rec| {
         rec.u32(index);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const u16, 4) };
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -8988,11 +8988,11 @@ export! { 398, glVertexAttribI4usv, first_glVertexAttribI4usv, hook_glVertexAttr
     }
 } }
 export! { 399, glVertexAttribI4usvEXT, first_glVertexAttribI4usvEXT, hook_glVertexAttribI4usvEXT, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribI4usvEXT, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttribI4usvEXT, Effect::ATTRIB, |rec| {
         rec.u32(index);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const u16, 4) };
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -9000,10 +9000,10 @@ export! { 399, glVertexAttribI4usvEXT, first_glVertexAttribI4usvEXT, hook_glVert
     }
 } }
 export! { 400, glVertexAttribL1d, first_glVertexAttribL1d, hook_glVertexAttribL1d, (index: u32, x: f64) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribL1d, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttribL1d, Effect::ATTRIB, |rec| {
         rec.u32(index);
         rec.f64(x);
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -9011,10 +9011,10 @@ export! { 400, glVertexAttribL1d, first_glVertexAttribL1d, hook_glVertexAttribL1
     }
 } }
 export! { 401, glVertexAttribL1dEXT, first_glVertexAttribL1dEXT, hook_glVertexAttribL1dEXT, (index: u32, x: f64) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribL1dEXT, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttribL1dEXT, Effect::ATTRIB, |rec| {
         rec.u32(index);
         rec.f64(x);
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -9022,11 +9022,11 @@ export! { 401, glVertexAttribL1dEXT, first_glVertexAttribL1dEXT, hook_glVertexAt
     }
 } }
 export! { 402, glVertexAttribL1dv, first_glVertexAttribL1dv, hook_glVertexAttribL1dv, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribL1dv, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttribL1dv, Effect::ATTRIB, |rec| {
         rec.u32(index);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const f64, 1) };
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -9034,11 +9034,11 @@ export! { 402, glVertexAttribL1dv, first_glVertexAttribL1dv, hook_glVertexAttrib
     }
 } }
 export! { 403, glVertexAttribL1dvEXT, first_glVertexAttribL1dvEXT, hook_glVertexAttribL1dvEXT, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribL1dvEXT, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttribL1dvEXT, Effect::ATTRIB, |rec| {
         rec.u32(index);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const f64, 1) };
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -9046,11 +9046,11 @@ export! { 403, glVertexAttribL1dvEXT, first_glVertexAttribL1dvEXT, hook_glVertex
     }
 } }
 export! { 404, glVertexAttribL2d, first_glVertexAttribL2d, hook_glVertexAttribL2d, (index: u32, x: f64, y: f64) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribL2d, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttribL2d, Effect::ATTRIB, |rec| {
         rec.u32(index);
         rec.f64(x);
         rec.f64(y);
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -9058,11 +9058,11 @@ export! { 404, glVertexAttribL2d, first_glVertexAttribL2d, hook_glVertexAttribL2
     }
 } }
 export! { 405, glVertexAttribL2dEXT, first_glVertexAttribL2dEXT, hook_glVertexAttribL2dEXT, (index: u32, x: f64, y: f64) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribL2dEXT, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttribL2dEXT, Effect::ATTRIB, |rec| {
         rec.u32(index);
         rec.f64(x);
         rec.f64(y);
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -9070,11 +9070,11 @@ export! { 405, glVertexAttribL2dEXT, first_glVertexAttribL2dEXT, hook_glVertexAt
     }
 } }
 export! { 406, glVertexAttribL2dv, first_glVertexAttribL2dv, hook_glVertexAttribL2dv, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribL2dv, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttribL2dv, Effect::ATTRIB, |rec| {
         rec.u32(index);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const f64, 2) };
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -9082,11 +9082,11 @@ export! { 406, glVertexAttribL2dv, first_glVertexAttribL2dv, hook_glVertexAttrib
     }
 } }
 export! { 407, glVertexAttribL2dvEXT, first_glVertexAttribL2dvEXT, hook_glVertexAttribL2dvEXT, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribL2dvEXT, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttribL2dvEXT, Effect::ATTRIB, |rec| {
         rec.u32(index);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const f64, 2) };
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -9094,12 +9094,12 @@ export! { 407, glVertexAttribL2dvEXT, first_glVertexAttribL2dvEXT, hook_glVertex
     }
 } }
 export! { 408, glVertexAttribL3d, first_glVertexAttribL3d, hook_glVertexAttribL3d, (index: u32, x: f64, y: f64, z: f64) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribL3d, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttribL3d, Effect::ATTRIB, |rec| {
         rec.u32(index);
         rec.f64(x);
         rec.f64(y);
         rec.f64(z);
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -9107,12 +9107,12 @@ export! { 408, glVertexAttribL3d, first_glVertexAttribL3d, hook_glVertexAttribL3
     }
 } }
 export! { 409, glVertexAttribL3dEXT, first_glVertexAttribL3dEXT, hook_glVertexAttribL3dEXT, (index: u32, x: f64, y: f64, z: f64) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribL3dEXT, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttribL3dEXT, Effect::ATTRIB, |rec| {
         rec.u32(index);
         rec.f64(x);
         rec.f64(y);
         rec.f64(z);
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -9120,11 +9120,11 @@ export! { 409, glVertexAttribL3dEXT, first_glVertexAttribL3dEXT, hook_glVertexAt
     }
 } }
 export! { 410, glVertexAttribL3dv, first_glVertexAttribL3dv, hook_glVertexAttribL3dv, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribL3dv, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttribL3dv, Effect::ATTRIB, |rec| {
         rec.u32(index);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const f64, 3) };
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -9132,11 +9132,11 @@ export! { 410, glVertexAttribL3dv, first_glVertexAttribL3dv, hook_glVertexAttrib
     }
 } }
 export! { 411, glVertexAttribL3dvEXT, first_glVertexAttribL3dvEXT, hook_glVertexAttribL3dvEXT, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribL3dvEXT, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttribL3dvEXT, Effect::ATTRIB, |rec| {
         rec.u32(index);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const f64, 3) };
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -9144,13 +9144,13 @@ export! { 411, glVertexAttribL3dvEXT, first_glVertexAttribL3dvEXT, hook_glVertex
     }
 } }
 export! { 412, glVertexAttribL4d, first_glVertexAttribL4d, hook_glVertexAttribL4d, (index: u32, x: f64, y: f64, z: f64, w: f64) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribL4d, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttribL4d, Effect::ATTRIB, |rec| {
         rec.u32(index);
         rec.f64(x);
         rec.f64(y);
         rec.f64(z);
         rec.f64(w);
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -9158,13 +9158,13 @@ export! { 412, glVertexAttribL4d, first_glVertexAttribL4d, hook_glVertexAttribL4
     }
 } }
 export! { 413, glVertexAttribL4dEXT, first_glVertexAttribL4dEXT, hook_glVertexAttribL4dEXT, (index: u32, x: f64, y: f64, z: f64, w: f64) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribL4dEXT, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttribL4dEXT, Effect::ATTRIB, |rec| {
         rec.u32(index);
         rec.f64(x);
         rec.f64(y);
         rec.f64(z);
         rec.f64(w);
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -9172,11 +9172,11 @@ export! { 413, glVertexAttribL4dEXT, first_glVertexAttribL4dEXT, hook_glVertexAt
     }
 } }
 export! { 414, glVertexAttribL4dv, first_glVertexAttribL4dv, hook_glVertexAttribL4dv, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribL4dv, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttribL4dv, Effect::ATTRIB, |rec| {
         rec.u32(index);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const f64, 4) };
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -9184,11 +9184,11 @@ export! { 414, glVertexAttribL4dv, first_glVertexAttribL4dv, hook_glVertexAttrib
     }
 } }
 export! { 415, glVertexAttribL4dvEXT, first_glVertexAttribL4dvEXT, hook_glVertexAttribL4dvEXT, (index: u32, v: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribL4dvEXT, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttribL4dvEXT, Effect::ATTRIB, |rec| {
         rec.u32(index);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(v as *const f64, 4) };
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -9196,11 +9196,11 @@ export! { 415, glVertexAttribL4dvEXT, first_glVertexAttribL4dvEXT, hook_glVertex
     }
 } }
 export! { 416, glMultiTexCoordP1ui, first_glMultiTexCoordP1ui, hook_glMultiTexCoordP1ui, (texture: u32, type_: u32, coords: u32) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoordP1ui, Effect::MULTITEX) {
+    if !imm::record(slot::glMultiTexCoordP1ui, Effect::MULTITEX, |rec| {
         rec.u32(texture);
         rec.u32(type_);
         rec.u32(coords);
-    } else {
+    }) {
         imm::direct(Effect::MULTITEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -9208,12 +9208,12 @@ export! { 416, glMultiTexCoordP1ui, first_glMultiTexCoordP1ui, hook_glMultiTexCo
     }
 } }
 export! { 417, glMultiTexCoordP1uiv, first_glMultiTexCoordP1uiv, hook_glMultiTexCoordP1uiv, (texture: u32, type_: u32, coords: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoordP1uiv, Effect::MULTITEX) {
+    if !imm::record(slot::glMultiTexCoordP1uiv, Effect::MULTITEX, |rec| {
         rec.u32(texture);
         rec.u32(type_);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(coords as *const u32, 1) };
-    } else {
+    }) {
         imm::direct(Effect::MULTITEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -9221,11 +9221,11 @@ export! { 417, glMultiTexCoordP1uiv, first_glMultiTexCoordP1uiv, hook_glMultiTex
     }
 } }
 export! { 418, glMultiTexCoordP2ui, first_glMultiTexCoordP2ui, hook_glMultiTexCoordP2ui, (texture: u32, type_: u32, coords: u32) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoordP2ui, Effect::MULTITEX) {
+    if !imm::record(slot::glMultiTexCoordP2ui, Effect::MULTITEX, |rec| {
         rec.u32(texture);
         rec.u32(type_);
         rec.u32(coords);
-    } else {
+    }) {
         imm::direct(Effect::MULTITEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -9233,12 +9233,12 @@ export! { 418, glMultiTexCoordP2ui, first_glMultiTexCoordP2ui, hook_glMultiTexCo
     }
 } }
 export! { 419, glMultiTexCoordP2uiv, first_glMultiTexCoordP2uiv, hook_glMultiTexCoordP2uiv, (texture: u32, type_: u32, coords: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoordP2uiv, Effect::MULTITEX) {
+    if !imm::record(slot::glMultiTexCoordP2uiv, Effect::MULTITEX, |rec| {
         rec.u32(texture);
         rec.u32(type_);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(coords as *const u32, 1) };
-    } else {
+    }) {
         imm::direct(Effect::MULTITEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -9246,11 +9246,11 @@ export! { 419, glMultiTexCoordP2uiv, first_glMultiTexCoordP2uiv, hook_glMultiTex
     }
 } }
 export! { 420, glMultiTexCoordP3ui, first_glMultiTexCoordP3ui, hook_glMultiTexCoordP3ui, (texture: u32, type_: u32, coords: u32) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoordP3ui, Effect::MULTITEX) {
+    if !imm::record(slot::glMultiTexCoordP3ui, Effect::MULTITEX, |rec| {
         rec.u32(texture);
         rec.u32(type_);
         rec.u32(coords);
-    } else {
+    }) {
         imm::direct(Effect::MULTITEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -9258,12 +9258,12 @@ export! { 420, glMultiTexCoordP3ui, first_glMultiTexCoordP3ui, hook_glMultiTexCo
     }
 } }
 export! { 421, glMultiTexCoordP3uiv, first_glMultiTexCoordP3uiv, hook_glMultiTexCoordP3uiv, (texture: u32, type_: u32, coords: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoordP3uiv, Effect::MULTITEX) {
+    if !imm::record(slot::glMultiTexCoordP3uiv, Effect::MULTITEX, |rec| {
         rec.u32(texture);
         rec.u32(type_);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(coords as *const u32, 1) };
-    } else {
+    }) {
         imm::direct(Effect::MULTITEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -9271,11 +9271,11 @@ export! { 421, glMultiTexCoordP3uiv, first_glMultiTexCoordP3uiv, hook_glMultiTex
     }
 } }
 export! { 422, glMultiTexCoordP4ui, first_glMultiTexCoordP4ui, hook_glMultiTexCoordP4ui, (texture: u32, type_: u32, coords: u32) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoordP4ui, Effect::MULTITEX) {
+    if !imm::record(slot::glMultiTexCoordP4ui, Effect::MULTITEX, |rec| {
         rec.u32(texture);
         rec.u32(type_);
         rec.u32(coords);
-    } else {
+    }) {
         imm::direct(Effect::MULTITEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -9283,12 +9283,12 @@ export! { 422, glMultiTexCoordP4ui, first_glMultiTexCoordP4ui, hook_glMultiTexCo
     }
 } }
 export! { 423, glMultiTexCoordP4uiv, first_glMultiTexCoordP4uiv, hook_glMultiTexCoordP4uiv, (texture: u32, type_: u32, coords: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glMultiTexCoordP4uiv, Effect::MULTITEX) {
+    if !imm::record(slot::glMultiTexCoordP4uiv, Effect::MULTITEX, |rec| {
         rec.u32(texture);
         rec.u32(type_);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(coords as *const u32, 1) };
-    } else {
+    }) {
         imm::direct(Effect::MULTITEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -9296,10 +9296,10 @@ export! { 423, glMultiTexCoordP4uiv, first_glMultiTexCoordP4uiv, hook_glMultiTex
     }
 } }
 export! { 424, glTexCoordP1ui, first_glTexCoordP1ui, hook_glTexCoordP1ui, (type_: u32, coords: u32) -> (), {
-    if let Some(rec) = imm::recording(slot::glTexCoordP1ui, Effect::TEXCOORD) {
+    if !imm::record(slot::glTexCoordP1ui, Effect::TEXCOORD, |rec| {
         rec.u32(type_);
         rec.u32(coords);
-    } else {
+    }) {
         imm::direct(Effect::TEXCOORD);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -9307,11 +9307,11 @@ export! { 424, glTexCoordP1ui, first_glTexCoordP1ui, hook_glTexCoordP1ui, (type_
     }
 } }
 export! { 425, glTexCoordP1uiv, first_glTexCoordP1uiv, hook_glTexCoordP1uiv, (type_: u32, coords: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glTexCoordP1uiv, Effect::TEXCOORD) {
+    if !imm::record(slot::glTexCoordP1uiv, Effect::TEXCOORD, |rec| {
         rec.u32(type_);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(coords as *const u32, 1) };
-    } else {
+    }) {
         imm::direct(Effect::TEXCOORD);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -9319,10 +9319,10 @@ export! { 425, glTexCoordP1uiv, first_glTexCoordP1uiv, hook_glTexCoordP1uiv, (ty
     }
 } }
 export! { 426, glTexCoordP2ui, first_glTexCoordP2ui, hook_glTexCoordP2ui, (type_: u32, coords: u32) -> (), {
-    if let Some(rec) = imm::recording(slot::glTexCoordP2ui, Effect::TEXCOORD) {
+    if !imm::record(slot::glTexCoordP2ui, Effect::TEXCOORD, |rec| {
         rec.u32(type_);
         rec.u32(coords);
-    } else {
+    }) {
         imm::direct(Effect::TEXCOORD);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -9330,11 +9330,11 @@ export! { 426, glTexCoordP2ui, first_glTexCoordP2ui, hook_glTexCoordP2ui, (type_
     }
 } }
 export! { 427, glTexCoordP2uiv, first_glTexCoordP2uiv, hook_glTexCoordP2uiv, (type_: u32, coords: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glTexCoordP2uiv, Effect::TEXCOORD) {
+    if !imm::record(slot::glTexCoordP2uiv, Effect::TEXCOORD, |rec| {
         rec.u32(type_);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(coords as *const u32, 1) };
-    } else {
+    }) {
         imm::direct(Effect::TEXCOORD);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -9342,10 +9342,10 @@ export! { 427, glTexCoordP2uiv, first_glTexCoordP2uiv, hook_glTexCoordP2uiv, (ty
     }
 } }
 export! { 428, glTexCoordP3ui, first_glTexCoordP3ui, hook_glTexCoordP3ui, (type_: u32, coords: u32) -> (), {
-    if let Some(rec) = imm::recording(slot::glTexCoordP3ui, Effect::TEXCOORD) {
+    if !imm::record(slot::glTexCoordP3ui, Effect::TEXCOORD, |rec| {
         rec.u32(type_);
         rec.u32(coords);
-    } else {
+    }) {
         imm::direct(Effect::TEXCOORD);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -9353,11 +9353,11 @@ export! { 428, glTexCoordP3ui, first_glTexCoordP3ui, hook_glTexCoordP3ui, (type_
     }
 } }
 export! { 429, glTexCoordP3uiv, first_glTexCoordP3uiv, hook_glTexCoordP3uiv, (type_: u32, coords: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glTexCoordP3uiv, Effect::TEXCOORD) {
+    if !imm::record(slot::glTexCoordP3uiv, Effect::TEXCOORD, |rec| {
         rec.u32(type_);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(coords as *const u32, 1) };
-    } else {
+    }) {
         imm::direct(Effect::TEXCOORD);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -9365,10 +9365,10 @@ export! { 429, glTexCoordP3uiv, first_glTexCoordP3uiv, hook_glTexCoordP3uiv, (ty
     }
 } }
 export! { 430, glTexCoordP4ui, first_glTexCoordP4ui, hook_glTexCoordP4ui, (type_: u32, coords: u32) -> (), {
-    if let Some(rec) = imm::recording(slot::glTexCoordP4ui, Effect::TEXCOORD) {
+    if !imm::record(slot::glTexCoordP4ui, Effect::TEXCOORD, |rec| {
         rec.u32(type_);
         rec.u32(coords);
-    } else {
+    }) {
         imm::direct(Effect::TEXCOORD);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -9376,11 +9376,11 @@ export! { 430, glTexCoordP4ui, first_glTexCoordP4ui, hook_glTexCoordP4ui, (type_
     }
 } }
 export! { 431, glTexCoordP4uiv, first_glTexCoordP4uiv, hook_glTexCoordP4uiv, (type_: u32, coords: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glTexCoordP4uiv, Effect::TEXCOORD) {
+    if !imm::record(slot::glTexCoordP4uiv, Effect::TEXCOORD, |rec| {
         rec.u32(type_);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(coords as *const u32, 1) };
-    } else {
+    }) {
         imm::direct(Effect::TEXCOORD);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -9388,10 +9388,10 @@ export! { 431, glTexCoordP4uiv, first_glTexCoordP4uiv, hook_glTexCoordP4uiv, (ty
     }
 } }
 export! { 432, glVertexP2ui, first_glVertexP2ui, hook_glVertexP2ui, (type_: u32, value: u32) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexP2ui, Effect::VERTEX) {
+    if !imm::record(slot::glVertexP2ui, Effect::VERTEX, |rec| {
         rec.u32(type_);
         rec.u32(value);
-    } else {
+    }) {
         imm::direct(Effect::VERTEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -9399,11 +9399,11 @@ export! { 432, glVertexP2ui, first_glVertexP2ui, hook_glVertexP2ui, (type_: u32,
     }
 } }
 export! { 433, glVertexP2uiv, first_glVertexP2uiv, hook_glVertexP2uiv, (type_: u32, value: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexP2uiv, Effect::VERTEX) {
+    if !imm::record(slot::glVertexP2uiv, Effect::VERTEX, |rec| {
         rec.u32(type_);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(value as *const u32, 1) };
-    } else {
+    }) {
         imm::direct(Effect::VERTEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -9411,10 +9411,10 @@ export! { 433, glVertexP2uiv, first_glVertexP2uiv, hook_glVertexP2uiv, (type_: u
     }
 } }
 export! { 434, glVertexP3ui, first_glVertexP3ui, hook_glVertexP3ui, (type_: u32, value: u32) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexP3ui, Effect::VERTEX) {
+    if !imm::record(slot::glVertexP3ui, Effect::VERTEX, |rec| {
         rec.u32(type_);
         rec.u32(value);
-    } else {
+    }) {
         imm::direct(Effect::VERTEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -9422,11 +9422,11 @@ export! { 434, glVertexP3ui, first_glVertexP3ui, hook_glVertexP3ui, (type_: u32,
     }
 } }
 export! { 435, glVertexP3uiv, first_glVertexP3uiv, hook_glVertexP3uiv, (type_: u32, value: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexP3uiv, Effect::VERTEX) {
+    if !imm::record(slot::glVertexP3uiv, Effect::VERTEX, |rec| {
         rec.u32(type_);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(value as *const u32, 1) };
-    } else {
+    }) {
         imm::direct(Effect::VERTEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -9434,10 +9434,10 @@ export! { 435, glVertexP3uiv, first_glVertexP3uiv, hook_glVertexP3uiv, (type_: u
     }
 } }
 export! { 436, glVertexP4ui, first_glVertexP4ui, hook_glVertexP4ui, (type_: u32, value: u32) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexP4ui, Effect::VERTEX) {
+    if !imm::record(slot::glVertexP4ui, Effect::VERTEX, |rec| {
         rec.u32(type_);
         rec.u32(value);
-    } else {
+    }) {
         imm::direct(Effect::VERTEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -9445,11 +9445,11 @@ export! { 436, glVertexP4ui, first_glVertexP4ui, hook_glVertexP4ui, (type_: u32,
     }
 } }
 export! { 437, glVertexP4uiv, first_glVertexP4uiv, hook_glVertexP4uiv, (type_: u32, value: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexP4uiv, Effect::VERTEX) {
+    if !imm::record(slot::glVertexP4uiv, Effect::VERTEX, |rec| {
         rec.u32(type_);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(value as *const u32, 1) };
-    } else {
+    }) {
         imm::direct(Effect::VERTEX);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -9457,10 +9457,10 @@ export! { 437, glVertexP4uiv, first_glVertexP4uiv, hook_glVertexP4uiv, (type_: u
     }
 } }
 export! { 438, glNormalP3ui, first_glNormalP3ui, hook_glNormalP3ui, (type_: u32, coords: u32) -> (), {
-    if let Some(rec) = imm::recording(slot::glNormalP3ui, Effect::NORMAL) {
+    if !imm::record(slot::glNormalP3ui, Effect::NORMAL, |rec| {
         rec.u32(type_);
         rec.u32(coords);
-    } else {
+    }) {
         imm::direct(Effect::NORMAL);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -9468,11 +9468,11 @@ export! { 438, glNormalP3ui, first_glNormalP3ui, hook_glNormalP3ui, (type_: u32,
     }
 } }
 export! { 439, glNormalP3uiv, first_glNormalP3uiv, hook_glNormalP3uiv, (type_: u32, coords: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glNormalP3uiv, Effect::NORMAL) {
+    if !imm::record(slot::glNormalP3uiv, Effect::NORMAL, |rec| {
         rec.u32(type_);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(coords as *const u32, 1) };
-    } else {
+    }) {
         imm::direct(Effect::NORMAL);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -9480,10 +9480,10 @@ export! { 439, glNormalP3uiv, first_glNormalP3uiv, hook_glNormalP3uiv, (type_: u
     }
 } }
 export! { 440, glColorP3ui, first_glColorP3ui, hook_glColorP3ui, (type_: u32, color: u32) -> (), {
-    if let Some(rec) = imm::recording(slot::glColorP3ui, Effect::COLOR) {
+    if !imm::record(slot::glColorP3ui, Effect::COLOR, |rec| {
         rec.u32(type_);
         rec.u32(color);
-    } else {
+    }) {
         imm::direct(Effect::COLOR);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -9491,11 +9491,11 @@ export! { 440, glColorP3ui, first_glColorP3ui, hook_glColorP3ui, (type_: u32, co
     }
 } }
 export! { 441, glColorP3uiv, first_glColorP3uiv, hook_glColorP3uiv, (type_: u32, color: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glColorP3uiv, Effect::COLOR) {
+    if !imm::record(slot::glColorP3uiv, Effect::COLOR, |rec| {
         rec.u32(type_);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(color as *const u32, 1) };
-    } else {
+    }) {
         imm::direct(Effect::COLOR);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -9503,10 +9503,10 @@ export! { 441, glColorP3uiv, first_glColorP3uiv, hook_glColorP3uiv, (type_: u32,
     }
 } }
 export! { 442, glColorP4ui, first_glColorP4ui, hook_glColorP4ui, (type_: u32, color: u32) -> (), {
-    if let Some(rec) = imm::recording(slot::glColorP4ui, Effect::COLOR) {
+    if !imm::record(slot::glColorP4ui, Effect::COLOR, |rec| {
         rec.u32(type_);
         rec.u32(color);
-    } else {
+    }) {
         imm::direct(Effect::COLOR);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -9514,11 +9514,11 @@ export! { 442, glColorP4ui, first_glColorP4ui, hook_glColorP4ui, (type_: u32, co
     }
 } }
 export! { 443, glColorP4uiv, first_glColorP4uiv, hook_glColorP4uiv, (type_: u32, color: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glColorP4uiv, Effect::COLOR) {
+    if !imm::record(slot::glColorP4uiv, Effect::COLOR, |rec| {
         rec.u32(type_);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(color as *const u32, 1) };
-    } else {
+    }) {
         imm::direct(Effect::COLOR);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -9526,10 +9526,10 @@ export! { 443, glColorP4uiv, first_glColorP4uiv, hook_glColorP4uiv, (type_: u32,
     }
 } }
 export! { 444, glSecondaryColorP3ui, first_glSecondaryColorP3ui, hook_glSecondaryColorP3ui, (type_: u32, color: u32) -> (), {
-    if let Some(rec) = imm::recording(slot::glSecondaryColorP3ui, Effect::SECONDARY) {
+    if !imm::record(slot::glSecondaryColorP3ui, Effect::SECONDARY, |rec| {
         rec.u32(type_);
         rec.u32(color);
-    } else {
+    }) {
         imm::direct(Effect::SECONDARY);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -9537,11 +9537,11 @@ export! { 444, glSecondaryColorP3ui, first_glSecondaryColorP3ui, hook_glSecondar
     }
 } }
 export! { 445, glSecondaryColorP3uiv, first_glSecondaryColorP3uiv, hook_glSecondaryColorP3uiv, (type_: u32, color: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glSecondaryColorP3uiv, Effect::SECONDARY) {
+    if !imm::record(slot::glSecondaryColorP3uiv, Effect::SECONDARY, |rec| {
         rec.u32(type_);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(color as *const u32, 1) };
-    } else {
+    }) {
         imm::direct(Effect::SECONDARY);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -9549,12 +9549,12 @@ export! { 445, glSecondaryColorP3uiv, first_glSecondaryColorP3uiv, hook_glSecond
     }
 } }
 export! { 446, glVertexAttribP1ui, first_glVertexAttribP1ui, hook_glVertexAttribP1ui, (index: u32, type_: u32, normalized: u8, value: u32) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribP1ui, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttribP1ui, Effect::ATTRIB, |rec| {
         rec.u32(index);
         rec.u32(type_);
         rec.u8(normalized);
         rec.u32(value);
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -9562,13 +9562,13 @@ export! { 446, glVertexAttribP1ui, first_glVertexAttribP1ui, hook_glVertexAttrib
     }
 } }
 export! { 447, glVertexAttribP1uiv, first_glVertexAttribP1uiv, hook_glVertexAttribP1uiv, (index: u32, type_: u32, normalized: u8, value: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribP1uiv, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttribP1uiv, Effect::ATTRIB, |rec| {
         rec.u32(index);
         rec.u32(type_);
         rec.u8(normalized);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(value as *const u32, 1) };
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -9576,12 +9576,12 @@ export! { 447, glVertexAttribP1uiv, first_glVertexAttribP1uiv, hook_glVertexAttr
     }
 } }
 export! { 448, glVertexAttribP2ui, first_glVertexAttribP2ui, hook_glVertexAttribP2ui, (index: u32, type_: u32, normalized: u8, value: u32) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribP2ui, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttribP2ui, Effect::ATTRIB, |rec| {
         rec.u32(index);
         rec.u32(type_);
         rec.u8(normalized);
         rec.u32(value);
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -9589,13 +9589,13 @@ export! { 448, glVertexAttribP2ui, first_glVertexAttribP2ui, hook_glVertexAttrib
     }
 } }
 export! { 449, glVertexAttribP2uiv, first_glVertexAttribP2uiv, hook_glVertexAttribP2uiv, (index: u32, type_: u32, normalized: u8, value: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribP2uiv, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttribP2uiv, Effect::ATTRIB, |rec| {
         rec.u32(index);
         rec.u32(type_);
         rec.u8(normalized);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(value as *const u32, 1) };
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -9603,12 +9603,12 @@ export! { 449, glVertexAttribP2uiv, first_glVertexAttribP2uiv, hook_glVertexAttr
     }
 } }
 export! { 450, glVertexAttribP3ui, first_glVertexAttribP3ui, hook_glVertexAttribP3ui, (index: u32, type_: u32, normalized: u8, value: u32) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribP3ui, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttribP3ui, Effect::ATTRIB, |rec| {
         rec.u32(index);
         rec.u32(type_);
         rec.u8(normalized);
         rec.u32(value);
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -9616,13 +9616,13 @@ export! { 450, glVertexAttribP3ui, first_glVertexAttribP3ui, hook_glVertexAttrib
     }
 } }
 export! { 451, glVertexAttribP3uiv, first_glVertexAttribP3uiv, hook_glVertexAttribP3uiv, (index: u32, type_: u32, normalized: u8, value: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribP3uiv, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttribP3uiv, Effect::ATTRIB, |rec| {
         rec.u32(index);
         rec.u32(type_);
         rec.u8(normalized);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(value as *const u32, 1) };
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -9630,12 +9630,12 @@ export! { 451, glVertexAttribP3uiv, first_glVertexAttribP3uiv, hook_glVertexAttr
     }
 } }
 export! { 452, glVertexAttribP4ui, first_glVertexAttribP4ui, hook_glVertexAttribP4ui, (index: u32, type_: u32, normalized: u8, value: u32) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribP4ui, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttribP4ui, Effect::ATTRIB, |rec| {
         rec.u32(index);
         rec.u32(type_);
         rec.u8(normalized);
         rec.u32(value);
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.
@@ -9643,13 +9643,13 @@ export! { 452, glVertexAttribP4ui, first_glVertexAttribP4ui, hook_glVertexAttrib
     }
 } }
 export! { 453, glVertexAttribP4uiv, first_glVertexAttribP4uiv, hook_glVertexAttribP4uiv, (index: u32, type_: u32, normalized: u8, value: Ptr) -> (), {
-    if let Some(rec) = imm::recording(slot::glVertexAttribP4uiv, Effect::ATTRIB) {
+    if !imm::record(slot::glVertexAttribP4uiv, Effect::ATTRIB, |rec| {
         rec.u32(index);
         rec.u32(type_);
         rec.u8(normalized);
         // SAFETY: the program's array, of as many elements as the command reads.
         unsafe { rec.slice(value as *const u32, 1) };
-    } else {
+    }) {
         imm::direct(Effect::ATTRIB);
         let gl = hooks::real();
         // SAFETY: the program's own call.

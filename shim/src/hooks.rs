@@ -242,14 +242,10 @@ pub(crate) mod imm {
     use manyview_core::gl::Recording;
     use manyview_core::state::{Command, Effect, Touch};
 
-    /// Where to write a call, while calls are recorded.
+    /// Writes a call to the recording by `write`, while calls are recorded; answers whether they are.
     #[inline]
-    pub(crate) fn recording(slot: usize, effect: Effect) -> Option<&'static mut Recording> {
-        if !context::recording() {
-            return None;
-        }
-        // SAFETY: the layer of this thread's context outlives the hook that writes to it, and the reference does not outlive the hook.
-        context::peek_inside(|l| unsafe { &mut *core::ptr::from_mut(l.record(slot, effect)) })
+    pub(crate) fn record(slot: usize, effect: Effect, write: impl FnOnce(&mut Recording)) -> bool {
+        context::recording() && context::peek_inside(|l| write(l.record(slot, effect))).is_some()
     }
 
     /// A call that is not recorded is about to be made: compiled into a display list, or outside glBegin and glEnd.

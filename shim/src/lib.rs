@@ -7,6 +7,7 @@ mod context;
 mod control;
 mod deep;
 mod dl;
+mod drawable;
 #[rustfmt::skip]
 #[allow(non_snake_case, unreachable_pub, unused_unsafe, clippy::missing_safety_doc, clippy::too_many_arguments, clippy::not_unsafe_ptr_arg_deref, reason = "generated; the names and signatures are the API's own, the contract of each is the API's")]
 mod entry;
@@ -15,6 +16,7 @@ mod hooks;
 mod keys;
 mod live;
 mod provider;
+mod registry;
 mod shares;
 mod socket;
 mod special;

@@ -34,7 +34,11 @@ pub(crate) fn config() -> Option<&'static Config> {
                 return None;
             }
             match Config::from_env(|name| std::env::var(name).ok()) {
-                Ok(config) => Some(config),
+                Ok(config) => {
+                    let told = config.renamings.iter();
+                    told.for_each(|renaming| say(&renaming.to_string()));
+                    Some(config)
+                }
                 Err(e) => {
                     say(&format!("{e}; the program runs without the layer"));
                     None

@@ -373,7 +373,7 @@ impl Batch<'_> {
 
 /// Whether primitives of a mode come out of the target as they should.
 fn allow_target(key: &FixedKey, mode: u32, geometry: bool) -> Result<(), Reason> {
-    // Disabled clip distances other vertices of the draw are clipped than the program's own, and so the cut is another.
+    // Without clip distances other vertices of the draw are clipped than the program's own, and so the cut is another.
     if key.target.discards() && mode == c::QUADS && !key.flat {
         return Err(Reason::Kind(
             "smooth quads under `--clip discard`, which the driver cuts along either diagonal,",

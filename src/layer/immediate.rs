@@ -3,6 +3,7 @@
 use super::Layer;
 use super::draw::{Decided, Draw, Execution, Request, Send};
 use super::lists::touch_current_values;
+use super::tracked::Primitive;
 use crate::atlas::{Tiles, ViewSet};
 use crate::config::Optimisation;
 use crate::draw::{Drawing, ReplayHazard};
@@ -20,25 +21,25 @@ const MANY: usize = 1000;
 const SEVERAL: usize = 4;
 
 impl Layer {
-    /// Before a glBegin that goes to the driver: answers whether the calls up to glEnd are to be recorded; if not, they go there too.
-    pub fn begin(&mut self, gl: &Gl, mode: u32) -> bool {
+    /// Before a glBegin: answers where the calls up to glEnd go.
+    pub fn begin(&mut self, gl: &Gl, mode: u32) -> Primitive {
         // In a list it is compiled.
         if self.compiles() {
             self.compile(gl, Command::Begin(mode), Touch::NONE);
-            return false;
+            return Primitive::None;
         }
         // A mode that does not exist begins nothing.
         if mode > c::PATCHES {
-            return false;
+            return Primitive::None;
         }
         self.state.refresh(gl);
         if !self.state.makes_pictures() || mode > c::POLYGON {
             self.queries.drawn();
             self.state.begin = Begin::Direct;
-            return false;
+        } else {
+            self.start_recording(mode);
         }
-        self.start_recording(mode);
-        true
+        self.primitive()
     }
 
     pub(super) fn start_recording(&mut self, mode: u32) {

@@ -36,6 +36,7 @@ mod synthesis;
 mod targets;
 #[cfg(test)]
 mod tests;
+mod tracked;
 mod variants;
 
 pub use control::Pictured;
@@ -43,6 +44,7 @@ pub use draw::Primitives;
 pub use frames::Frames;
 pub use lists::is_scaled;
 pub use queries::Answer;
+pub use tracked::Primitive;
 
 use crate::atlas::{Atlas, AtlasError, Grid, Names, Tiles};
 use crate::config::{AtlasLayout, Config, Optimisation, Strategy, profile};
@@ -108,7 +110,7 @@ impl Group {
 pub struct Layer {
     session: Session,
     /// What the program believes.
-    pub state: State,
+    state: State,
     targets: Targets,
     variants: Variants,
     synthesis: synthesis::Synthesis,

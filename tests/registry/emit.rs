@@ -241,19 +241,19 @@ pub fn entry(commands: &[Command]) -> String {
             "imm" => {
                 let writes = record(c);
                 // The driver refuses a wrong one at once, as it does between the program's own glBegin and glEnd.
-                let right = if name.starts_with("glMaterial") {
-                    "imm::is_material(face, pname)\n        && "
+                let (not, end) = if name.starts_with("glMaterial") {
+                    ("!(imm::is_material(face, pname)\n        && ", ")")
                 } else {
-                    ""
+                    ("!", "")
                 };
                 writeln!(
                     o,
-                    "    if {right}let Some(rec) = imm::recording(slot::{name}, Effect::{}) {{",
+                    "    if {not}imm::record(slot::{name}, Effect::{}, |rec| {{",
                     effect(name)
                 )
                 .unwrap();
                 o.push_str(&writes);
-                writeln!(o, "    }} else {{\n        imm::direct(Effect::{});\n        let gl = hooks::real();\n        // SAFETY: the program's own call.\n        {call};", effect(name)).unwrap();
+                writeln!(o, "    }}){end} {{\n        imm::direct(Effect::{});\n        let gl = hooks::real();\n        // SAFETY: the program's own call.\n        {call};", effect(name)).unwrap();
                 o.push_str("    }\n");
             }
             "touch" => {

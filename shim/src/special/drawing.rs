@@ -1,33 +1,30 @@
 //! Immediate mode, arrays, pixels, display lists.
 
 use crate::context::{Inside, enter, inside, peek, peek_inside, real, recording, set_inside};
-use crate::hooks::{ask, compile};
+use crate::hooks::{ask, compile, imm};
 use core::slice::from_raw_parts;
 use manyview_core::gl::Indices;
 use manyview_core::gl::consts::LIST_BASE;
 use manyview_core::gl::{Ptr, slot};
-use manyview_core::layer::Primitives;
+use manyview_core::layer::{Primitive, Primitives};
 use manyview_core::plan::Kind;
-use manyview_core::state::{Begin, Command, Effect, Run, Touch};
+use manyview_core::state::{Command, Effect, Run, Touch};
 
 pub(crate) unsafe fn glBegin(mode: u32) {
-    let mut own = mode;
-    match enter(|gl, l| (l.begin(gl, mode), l.state.begin)) {
-        Some((true, _)) => {
+    let begun = enter(|gl, l| l.begin(gl, mode));
+    let own = match begun.unwrap_or(Primitive::None) {
+        Primitive::None => mode,
+        Primitive::Recorded { empty } => {
             set_inside(Inside::Recorded);
-            own = other_mode(mode);
+            empty
         }
-        Some((false, Begin::Direct)) => set_inside(Inside::Direct),
-        _ => {}
-    }
+        Primitive::Direct => {
+            set_inside(Inside::Direct);
+            mode
+        }
+    };
     // SAFETY: the program's own call. Where calls are recorded, the driver has an empty primitive: it answers for what is wrong here.
     unsafe { real().glBegin(own) };
-}
-
-/// The mode of the driver's empty primitive while calls are recorded: not the program's, because Mesa 22.3 loses a fan after an
-/// empty fan.
-fn other_mode(mode: u32) -> u32 {
-    u32::from(mode == 0) // GL_LINES for GL_POINTS, else GL_POINTS
 }
 
 pub(crate) unsafe fn glEnd() {
@@ -42,14 +39,14 @@ pub(crate) unsafe fn glEnd() {
 
 /// After lists that may have begun or ended a primitive: the driver and the hooks stand where the program does.
 fn after_lists() {
-    match peek(|l| l.state.begin) {
-        Some(Begin::Recorded(mode)) => {
+    match peek(|l| l.primitive()).unwrap_or(Primitive::None) {
+        Primitive::Recorded { empty } => {
             set_inside(Inside::Recorded);
             // SAFETY: a primitive mode; it stays empty.
-            unsafe { real().glBegin(other_mode(mode)) };
+            unsafe { real().glBegin(empty) };
         }
-        Some(Begin::Direct) => set_inside(Inside::Direct),
-        _ => {}
+        Primitive::Direct => set_inside(Inside::Direct),
+        Primitive::None => {}
     }
 }
 
@@ -221,24 +218,23 @@ pub(crate) unsafe fn glCallList(list: u32) {
 
 /// Asks the driver something while calls are recorded: its own primitive is empty, so it can end and begin again.
 fn outside<R>(ask: impl FnOnce() -> R) -> R {
-    let mode = peek_inside(|l| l.state.begin);
+    let primitive = peek_inside(|l| l.primitive());
     // SAFETY: the driver is between glBegin and glEnd.
     unsafe { real().glEnd() };
     set_inside(Inside::Outside);
     let r = ask();
     set_inside(Inside::Recorded);
-    if let Some(Begin::Recorded(mode)) = mode {
+    if let Some(Primitive::Recorded { empty }) = primitive {
         // SAFETY: a primitive mode; it stays empty.
-        unsafe { real().glBegin(other_mode(mode)) };
+        unsafe { real().glBegin(empty) };
     }
     r
 }
 
 /// A list was called between glBegin and glEnd, and the calls go to the driver.
 fn direct_list(list: u32) {
-    if peek_inside(|l| l.closes(list)) == Some(true) {
+    if peek_inside(|l| l.closed_in_driver(list)) == Some(true) {
         set_inside(Inside::Outside);
-        peek(|l| l.state.begin = Begin::Outside);
     }
 }
 
@@ -250,9 +246,7 @@ fn record_list(list: u32) {
         enter(|gl, l| l.close_by_list(gl, list));
         return after_lists();
     }
-    if let Some(r) = crate::hooks::imm::recording(slot::glCallList, Effect::UNKNOWN) {
-        r.u32(list);
-    }
+    imm::record(slot::glCallList, Effect::UNKNOWN, |rec| rec.u32(list));
 }
 
 /// Names of lists as glCallLists reads them, without the list base.

@@ -10,14 +10,9 @@ pub(crate) unsafe fn glMatrixMode(mode: u32) {
     let compiled = compile(Command::MatrixMode(mode), Touch::MODE);
     // SAFETY: the program's own call.
     unsafe { real().glMatrixMode(mode) };
-    peek(|l| {
-        // GL_MODELVIEW, GL_PROJECTION, GL_TEXTURE are the ones that the driver surely takes.
-        if (0x1700..=0x1702).contains(&mode) && !compiled {
-            l.state.matrix_mode = mode;
-        } else if !compiled {
-            l.touch(Touch::MODE | Touch::DSA_MATRIX);
-        }
-    });
+    if !compiled {
+        peek(|l| l.matrix_mode(mode));
+    }
 }
 
 /// Last viewport size seen, so that the window's size is asked for only when the program may have noticed a change.
@@ -99,24 +94,20 @@ pub(crate) unsafe fn glRenderMode(mode: u32) -> i32 {
     ask();
     // SAFETY: the program's own call.
     let hits = unsafe { real().glRenderMode(mode) };
-    peek(|l| {
-        if (0x1C00..=0x1C02).contains(&mode) {
-            l.state.render_mode = mode;
-        }
-    });
+    peek(|l| l.render_mode(mode));
     hits
 }
 
 pub(crate) unsafe fn glBeginTransformFeedback(mode: u32) {
     // SAFETY: the program's own call.
     unsafe { real().glBeginTransformFeedback(mode) };
-    peek(|l| l.state.transform_feedback = true);
+    peek(|l| l.transform_feedback(true));
 }
 
 pub(crate) unsafe fn glEndTransformFeedback() {
     // SAFETY: the program's own call.
     unsafe { real().glEndTransformFeedback() };
-    peek(|l| l.state.transform_feedback = false);
+    peek(|l| l.transform_feedback(false));
 }
 
 /// What is special about framebuffer 0 in an answer of glGet.
@@ -176,7 +167,7 @@ pub(crate) unsafe fn glGetInteger64v(pname: u32, data: Ptr) {
 
 pub(crate) unsafe fn glGetError() -> u32 {
     ask();
-    if let Some(Some(e)) = peek(|l| l.state.errors.pop_front()) {
+    if let Some(Some(e)) = peek(|l| l.take_error()) {
         // As long as it had been in the driver's queue, the driver would have recorded no other.
         // SAFETY: no arguments.
         unsafe { real().glGetError() };

@@ -1,9 +1,8 @@
 //! GLX, EGL and OSMesa: contexts, swaps, addresses.
 
-use crate::context::{
-    Drawable, destroyed, finish_memory_frame, frame, guarded, is_current, made_current,
-};
+use crate::context::{destroyed, finish_memory_frame, frame, guarded, is_current, made_current};
 use crate::dl::proc_address;
+use crate::drawable::Drawable;
 use crate::provider::Provider;
 use crate::shares::created;
 use crate::windows;

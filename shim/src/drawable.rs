@@ -1,0 +1,78 @@
+//! What a context draws to: its size, its window, and where that lies.
+
+use crate::geometry::{self, Seen};
+use crate::provider::Provider;
+use crate::windows;
+use core::ffi::c_ulong;
+use manyview_core::gl::Ptr;
+use manyview_core::layer::OnScreen;
+
+/// What a context draws to.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Drawable {
+    /// Display and GLX drawable.
+    Glx(Ptr, c_ulong),
+    /// Display and surface.
+    Egl(Ptr, Ptr),
+    /// The program's memory: width and height.
+    Memory(u32, u32),
+}
+
+/// The name of the X display, and the window behind a drawable.
+pub(crate) fn window(drawable: Drawable) -> Option<(String, u32)> {
+    match drawable {
+        Drawable::Glx(display, drawable) => {
+            // SAFETY: the program has just shown a frame with this display on this thread.
+            let name = unsafe { geometry::display_name(display) }?;
+            let window = windows::behind(display, drawable);
+            Some((name, u32::try_from(window).ok()?))
+        }
+        _ => None,
+    }
+}
+
+/// Width and height in pixels.
+pub(crate) fn size(drawable: Drawable) -> Option<(u32, u32)> {
+    match drawable {
+        // SAFETY: the program has just made this drawable current on this thread.
+        Drawable::Glx(display, drawable) => unsafe { geometry::glx_size(display, drawable) },
+        Drawable::Egl(display, surface) => {
+            let ask = |name: i32| {
+                let mut v = 0i32;
+                // SAFETY: the program's display and surface; one integer.
+                let ok = unsafe {
+                    Provider::Gl
+                        .real()
+                        .eglQuerySurface(display, surface, name, (&raw mut v).cast())
+                };
+                (ok != 0 && v > 0).then_some(v as u32)
+            };
+            const EGL_WIDTH: i32 = 0x3057;
+            const EGL_HEIGHT: i32 = 0x3056;
+            Some((ask(EGL_WIDTH)?, ask(EGL_HEIGHT)?))
+        }
+        Drawable::Memory(w, h) => Some((w, h)),
+    }
+}
+
+/// Where a window lies on its screen; `size` is that of its picture.
+pub(crate) fn place(
+    drawable: Drawable,
+    size: (u32, u32),
+    seen: &mut Option<Seen>,
+) -> Option<OnScreen> {
+    // SAFETY: the program shows this drawable on this thread.
+    let (connection, window) = unsafe {
+        match drawable {
+            Drawable::Glx(display, drawable) => {
+                let window = windows::behind(display, drawable);
+                (geometry::connection(display)?, window as u32)
+            }
+            Drawable::Egl(display, surface) => windows::behind_surface(display, surface)?,
+            // Memory lies nowhere.
+            Drawable::Memory(..) => return None,
+        }
+    };
+    // SAFETY: the window's own connection, which the program has open as long as it shows something in it.
+    unsafe { geometry::place(connection, window, size, seen) }
+}

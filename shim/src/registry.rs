@@ -1,0 +1,165 @@
+//! Every context of the program that has been current, and which thread has it.
+
+use crate::context::Context;
+use crate::provider::Provider;
+use core::ffi::c_int;
+use manyview_core::gl::Ptr;
+use std::sync::{Condvar, Mutex, PoisonError};
+use std::time::{Duration, Instant};
+
+/// How long a thread waits for another one that has left a context in the driver, and not yet here.
+const HANDOVER: Duration = Duration::from_secs(1);
+
+/// A context of the program: handles are those of one provider.
+pub(crate) type Key = (Provider, Ptr);
+
+struct Entry {
+    key: Key,
+    context: *mut Context,
+    /// The thread that has it current.
+    thread: Option<c_int>,
+    /// The program has destroyed it; the thread that has it current frees the record.
+    destroyed: bool,
+}
+
+struct Registry(Vec<Entry>);
+
+// SAFETY: handles are only compared. A context is dereferenced by the one thread that its entry names, and freed by whoever takes its
+// entry out of the list, once no thread has it; both happen under the mutex.
+unsafe impl Send for Registry {}
+
+static CONTEXTS: Mutex<Registry> = Mutex::new(Registry(Vec::new()));
+static RELEASED: Condvar = Condvar::new();
+
+/// The record of a context that the driver has made current on this thread; `make` makes that of a new one. It is this thread's until
+/// [`release`]. None where another thread still has it: the driver lets only one have it, so that one is about to release it, unless it
+/// goes past our hooks.
+pub(crate) fn take(key: Key, make: impl FnOnce() -> Context) -> Option<*mut Context> {
+    // SAFETY: no arguments.
+    let this = unsafe { libc::gettid() };
+    let until = Instant::now() + HANDOVER;
+    let mut registry = CONTEXTS.lock().unwrap_or_else(PoisonError::into_inner);
+    loop {
+        let known = registry.0.iter_mut().find(|e| e.key == key && !e.destroyed);
+        let Some(entry) = known else { break };
+        if entry
+            .thread
+            .is_none_or(|thread| thread == this || is_gone(thread))
+        {
+            entry.thread = Some(this);
+            return Some(entry.context);
+        }
+        if Instant::now() >= until {
+            return None;
+        }
+        let waited = RELEASED.wait_timeout(registry, HANDOVER / 20);
+        registry = waited.unwrap_or_else(PoisonError::into_inner).0;
+    }
+    let context = Box::into_raw(Box::new(make()));
+    registry.0.push(Entry {
+        key,
+        context,
+        thread: Some(this),
+        destroyed: false,
+    });
+    Some(context)
+}
+
+/// Whether a thread has ended. One that ends with a context current never says that it leaves it.
+fn is_gone(thread: c_int) -> bool {
+    // SAFETY: signal 0 only asks whether the thread is there.
+    let found = unsafe { libc::syscall(libc::SYS_tgkill, libc::getpid(), thread, 0) };
+    found != 0 && std::io::Error::last_os_error().raw_os_error() == Some(libc::ESRCH)
+}
+
+/// This thread no longer has a context. The record comes back, for good, where the program has destroyed the context meanwhile.
+///
+/// # Safety
+/// From [`take`] on this thread, which has no reference to it any more.
+pub(crate) unsafe fn release(context: *mut Context) -> Option<Box<Context>> {
+    let mut registry = CONTEXTS.lock().unwrap_or_else(PoisonError::into_inner);
+    let at = registry.0.iter().position(|e| e.context == context)?;
+    let entry = registry.0.get_mut(at)?;
+    entry.thread = None;
+    let gone = entry.destroyed;
+    if gone {
+        registry.0.swap_remove(at);
+    }
+    drop(registry);
+    RELEASED.notify_all();
+    // SAFETY: made by `take`; out of the list, and on no thread (contract).
+    gone.then(|| unsafe { Box::from_raw(context) })
+}
+
+/// The program destroys a context: its record, if no thread has it, and whether this was the last one.
+pub(crate) fn destroy(key: Key) -> (Option<Box<Context>>, bool) {
+    let mut registry = CONTEXTS.lock().unwrap_or_else(PoisonError::into_inner);
+    let found = registry.0.iter().position(|e| e.key == key && !e.destroyed);
+    let mut unused = None;
+    if let Some(entry) = found.and_then(|at| registry.0.get_mut(at)) {
+        entry.destroyed = true;
+        unused = entry.thread.is_none().then_some(entry.context);
+    }
+    if unused.is_some() {
+        registry.0.retain(|e| Some(e.context) != unused);
+    }
+    let last = registry.0.iter().all(|e| e.destroyed);
+    drop(registry);
+    // SAFETY: made by `take`; out of the list, and no thread has it.
+    (unused.map(|c| unsafe { Box::from_raw(c) }), last)
+}
+
+/// Whether the program has destroyed a context that a thread still has.
+pub(crate) fn is_destroyed(context: *const Context) -> bool {
+    let registry = CONTEXTS.lock().unwrap_or_else(PoisonError::into_inner);
+    let mut all = registry.0.iter();
+    all.any(|e| core::ptr::eq(e.context, context) && e.destroyed)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn key(handle: usize) -> Key {
+        (Provider::Gl, core::ptr::without_provenance_mut(handle))
+    }
+
+    fn made(key: Key) -> Context {
+        Context::new(key, crate::drawable::Drawable::Memory(1, 1))
+    }
+
+    fn taken(key: Key) -> Option<usize> {
+        take(key, || made(key)).map(|context| context.addr())
+    }
+
+    #[test]
+    fn a_context_goes_from_thread_to_thread() {
+        let key = key(0x10);
+        let first = take(key, || made(key)).expect("a new one");
+        // SAFETY: of this thread.
+        assert!(unsafe { release(first) }.is_none());
+        let handle = key.1.addr();
+        let other = std::thread::spawn(move || taken(self::key(handle)));
+        assert_eq!(other.join().expect("no panic"), Some(first.addr()));
+        // The thread ended with the context current.
+        assert_eq!(taken(key), Some(first.addr()));
+        // SAFETY: of this thread.
+        assert!(unsafe { release(first) }.is_none());
+        assert!(destroy(key).0.is_some());
+    }
+
+    #[test]
+    fn what_another_thread_has_is_not_taken() {
+        let key = key(0x20);
+        let first = take(key, || made(key)).expect("a new one");
+        let handle = key.1.addr();
+        let other = std::thread::spawn(move || taken(self::key(handle)));
+        assert_eq!(other.join().expect("no panic"), None);
+        assert!(destroy(key).0.is_none(), "this thread has it");
+        assert!(is_destroyed(first));
+        let new = taken(key).expect("another context of the same handle");
+        assert_ne!(new, first.addr());
+        // SAFETY: of this thread.
+        assert!(unsafe { release(first) }.is_some());
+    }
+}

@@ -1,0 +1,78 @@
+//! State that hooks tell of call by call, because the program sets it often and the driver would have to be asked for it.
+
+use super::Layer;
+use crate::gl::consts as c;
+use crate::state::{Begin, Touch};
+
+/// Where the driver has to stand so that it answers the program as the program expects.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Primitive {
+    /// Outside glBegin and glEnd.
+    None,
+    /// The calls are recorded. The driver is in an empty primitive of this mode, which refuses what has no place there: never that of
+    /// the program's, because Mesa 22.3 loses a fan after an empty fan.
+    Recorded {
+        /// The mode of the empty primitive.
+        empty: u32,
+    },
+    /// The calls go to the driver, which is in the program's primitive.
+    Direct,
+}
+
+impl Layer {
+    /// Where the program stands between glBegin and glEnd.
+    pub fn primitive(&self) -> Primitive {
+        match self.state.begin {
+            Begin::Outside => Primitive::None,
+            Begin::Recorded(mode) => Primitive::Recorded {
+                empty: if mode == c::POINTS {
+                    c::LINES
+                } else {
+                    c::POINTS
+                },
+            },
+            Begin::Direct => Primitive::Direct,
+        }
+    }
+
+    /// A list that was called between glBegin and glEnd, whose calls go to the driver, has ended the primitive if it [`Layer::closes`] it.
+    pub fn closed_in_driver(&mut self, list: u32) -> bool {
+        let closes = self.closes(list);
+        if closes {
+            self.state.begin = Begin::Outside;
+        }
+        closes
+    }
+
+    /// After glMatrixMode that was not compiled. Modes of which the driver may refuse one are asked for when they count.
+    pub fn matrix_mode(&mut self, mode: u32) {
+        match mode {
+            c::MODELVIEW | c::PROJECTION | c::TEXTURE => self.state.matrix_mode = mode,
+            _ => {
+                self.touch(Touch::MODE | Touch::DSA_MATRIX);
+            }
+        }
+    }
+
+    /// After glRenderMode; the driver refuses what is no mode.
+    pub fn render_mode(&mut self, mode: u32) {
+        if [c::RENDER, c::FEEDBACK, c::SELECT].contains(&mode) {
+            self.state.render_mode = mode;
+        }
+    }
+
+    /// After glBeginTransformFeedback and glEndTransformFeedback.
+    pub fn transform_feedback(&mut self, active: bool) {
+        self.state.transform_feedback = active;
+    }
+
+    /// An error of the program's that the layer has taken out of the driver's queue, the oldest first.
+    pub fn take_error(&mut self) -> Option<u32> {
+        self.state.errors.pop_front()
+    }
+
+    /// Whether the window's new size may be taken over now: not inside a primitive or a display list of the program's.
+    pub fn can_resize(&self) -> bool {
+        self.state.begin == Begin::Outside && self.state.list.is_none()
+    }
+}
