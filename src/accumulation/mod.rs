@@ -311,8 +311,7 @@ impl Accumulation {
         gl.active_texture(c::TEXTURE0 + 1);
         gl.bind_texture(c::TEXTURE_2D_ARRAY, from);
         program.bind(gl, words);
-        gl.bind_vertex_array(self.vertex_array);
-        gl.draw_arrays(c::TRIANGLES, 0, 3);
+        gl.draw_triangle(self.vertex_array);
         // The texture may be deleted while our framebuffer is not bound.
         attach(0, 0);
     }

@@ -1,8 +1,8 @@
 //! The layer's own calls into the driver: thin, without pointers for the caller.
 
+use super::consts as c;
 use super::held::Held;
 use super::immediate::{Ends, Recording};
-use super::indices::Indices;
 use super::real::{Ptr, Real};
 use core::ffi::CStr;
 
@@ -14,6 +14,13 @@ pub struct Gl {
     _not_send: core::marker::PhantomData<*const ()>,
 }
 
+/// What glGet answers by a list whose length the driver chooses.
+const LISTS: [u32; 3] = [
+    c::COMPRESSED_TEXTURE_FORMATS,
+    c::SHADER_BINARY_FORMATS,
+    c::PROGRAM_BINARY_FORMATS,
+];
+
 macro_rules! plain {
     ($($name:ident = $gl:ident($($a:ident: $t:ty),*) $(-> $r:ty)?;)*) => {
         /// Commands without pointers.
@@ -23,7 +30,7 @@ macro_rules! plain {
                 #[inline]
                 pub fn $name(&self, $($a: $t),*) $(-> $r)? {
                     // SAFETY: a context of this provider is current (contract of `Gl::new`).
-                    // SAFETY: the command takes no pointers; wrong values raise a GL error.
+                    // SAFETY: the command takes no pointers and reads none that were given before; wrong values raise a GL error.
                     unsafe { self.real.$gl($($a),*) }
                 }
             )*
@@ -100,9 +107,7 @@ plain! {
     provoking_vertex = glProvokingVertex(convention: u32);
     patch_parameteri = glPatchParameteri(name: u32, value: i32);
     polygon_mode = glPolygonMode(face: u32, mode: u32);
-    draw_arrays = glDrawArrays(mode: u32, first: i32, count: i32);
     window_pos_2i = glWindowPos2i(x: i32, y: i32);
-    draw_arrays_instanced = glDrawArraysInstanced(mode: u32, first: i32, count: i32, instances: i32);
 }
 
 macro_rules! generate {
@@ -159,11 +164,15 @@ impl Gl {
         unsafe { self.real.glIsEnabled(cap) != 0 }
     }
 
-    /// glGetIntegerv; the largest answer that the layer asks for has 16 elements.
+    /// glGetIntegerv of up to 16 values; zeros for what is a list as long as the driver likes.
     pub fn get_integers<const K: usize>(&self, name: u32) -> [i32; K] {
         let mut v = [0i32; 16];
         const { assert!(K <= 16) };
-        // SAFETY: room for 16 elements, more than any name asked for here returns.
+        if LISTS.contains(&name) {
+            return [0; K];
+        }
+        // SAFETY: room for 16 elements, the size of a matrix; no name has more but those that have just been left out (OpenGL 4.6, tables
+        // 23.2 to 23.81).
         unsafe { self.real.glGetIntegerv(name, v.as_mut_ptr().cast()) };
         let mut out = [0; K];
         out.copy_from_slice(&v[..K]);
@@ -179,7 +188,10 @@ impl Gl {
     pub fn get_floats<const K: usize>(&self, name: u32) -> [f32; K] {
         let mut v = [0f32; 16];
         const { assert!(K <= 16) };
-        // SAFETY: room for 16 elements, the size of a matrix.
+        if LISTS.contains(&name) {
+            return [0.0; K];
+        }
+        // SAFETY: as in `get_integers`.
         unsafe { self.real.glGetFloatv(name, v.as_mut_ptr().cast()) };
         let mut out = [0.0; K];
         out.copy_from_slice(&v[..K]);
@@ -541,28 +553,6 @@ impl Gl {
             0 => self.end(),
             list => self.call_list(list),
         }
-    }
-
-    /// glDrawElementsInstanced with the program's own index pointer.
-    pub fn draw_elements_instanced(
-        &self,
-        mode: u32,
-        count: i32,
-        kind: u32,
-        indices: Indices,
-        instances: i32,
-    ) {
-        // SAFETY: the program passed this pointer for this count and type to its own draw (contract of `Indices::new`).
-        unsafe {
-            self.real
-                .glDrawElementsInstanced(mode, count, kind, indices.0, instances)
-        }
-    }
-
-    /// glDrawElements with the program's own index pointer.
-    pub fn draw_elements(&self, mode: u32, count: i32, kind: u32, indices: Indices) {
-        // SAFETY: as above.
-        unsafe { self.real.glDrawElements(mode, count, kind, indices.0) }
     }
 }
 

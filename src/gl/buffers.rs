@@ -3,7 +3,6 @@
 use super::Gl;
 use super::consts as c;
 use super::held::Held;
-use super::indices::Indices;
 use super::real::Ptr;
 
 /// A sync object of the share group in which it was made: passed when all calls before it are done.
@@ -46,55 +45,6 @@ impl Gl {
         }
         Held::Buffer.count(1);
         names[names.len() - 1]
-    }
-
-    /// glDrawElements with indices of ours, which lie in no buffer.
-    pub fn draw_listed(&self, mode: u32, list: &[u32]) {
-        let bound = self.get_integer(c::ELEMENT_ARRAY_BUFFER_BINDING) as u32;
-        self.bind_buffer(c::ELEMENT_ARRAY_BUFFER, 0);
-        // SAFETY: no element buffer is bound, so this is an address.
-        // SAFETY: the driver has read as many indices as there are when it returns.
-        unsafe {
-            self.real.glDrawElements(
-                mode,
-                list.len() as i32,
-                c::UNSIGNED_INT,
-                list.as_ptr() as Ptr,
-            )
-        };
-        self.bind_buffer(c::ELEMENT_ARRAY_BUFFER, bound);
-    }
-
-    /// Whether the indices of the program's draw lie in its own memory.
-    pub fn has_own_indices(&self, indices: Indices) -> bool {
-        !indices.0.is_null() && self.get_integer(c::ELEMENT_ARRAY_BUFFER_BINDING) == 0
-    }
-
-    /// The indices, where they do: what is in a buffer has to be waited for.
-    pub fn own_indices(
-        &self,
-        count: u32,
-        kind: u32,
-        indices: Indices,
-    ) -> Option<impl Iterator<Item = u32>> {
-        let known = [c::UNSIGNED_BYTE, c::UNSIGNED_SHORT, c::UNSIGNED_INT].contains(&kind);
-        if !known || !self.has_own_indices(indices) {
-            return None;
-        }
-        let at = move |i: u32| {
-            let i = i as usize;
-            // SAFETY: no element buffer is bound, so this is an address.
-            // SAFETY: the program passed it for this count and type to its own draw (contract of `Indices::new`).
-            // SAFETY: it may lie anywhere; it is read without regard to that.
-            unsafe {
-                match kind {
-                    c::UNSIGNED_BYTE => u32::from(indices.0.cast::<u8>().add(i).read_unaligned()),
-                    c::UNSIGNED_SHORT => u32::from(indices.0.cast::<u16>().add(i).read_unaligned()),
-                    _ => indices.0.cast::<u32>().add(i).read_unaligned(),
-                }
-            }
-        };
-        Some((0..count).map(at))
     }
 
     /// glBufferData without contents, for pixels to be read into.

@@ -1,11 +1,11 @@
 //! The layer's calls that read and draw pixels.
 
 use super::consts as c;
-use super::{Gl, Ptr};
+use super::{Gl, PixelStore, Ptr};
 
 impl Gl {
-    /// glReadPixels of RGB bytes, rows bottom up; pack state must be the default with alignment 1.
-    pub fn read_rgb(&self, x: i32, y: i32, w: u32, h: u32) -> Vec<u8> {
+    /// glReadPixels of RGB bytes, rows bottom up.
+    pub fn read_rgb(&self, _: &PixelStore, x: i32, y: i32, w: u32, h: u32) -> Vec<u8> {
         // OpenGL ES reads four or none.
         let (format, size) = if self.is_es() {
             (c::RGBA, 4)
@@ -15,7 +15,7 @@ impl Gl {
         let mut out = vec![0u8; w as usize * h as usize * size];
         let kind = c::UNSIGNED_BYTE;
         let p = out.as_mut_ptr().cast();
-        // SAFETY: w·h texels of so many bytes; alignment 1, no pack buffer (contract above).
+        // SAFETY: w·h texels of so many bytes; without gaps, in no buffer (`PixelStore`).
         unsafe {
             self.real
                 .glReadPixels(x, y, w as i32, h as i32, format, kind, p)
@@ -27,8 +27,8 @@ impl Gl {
         out
     }
 
-    /// glReadPixels of the red channel of floats, rows bottom up; pack state as for [`Gl::read_rgb`].
-    pub fn read_red(&self, x: i32, y: i32, w: u32, h: u32) -> Vec<f32> {
+    /// glReadPixels of the red channel of floats, rows bottom up.
+    pub fn read_red(&self, _: &PixelStore, x: i32, y: i32, w: u32, h: u32) -> Vec<f32> {
         // OpenGL ES reads four or none.
         let (format, size) = if self.is_es() {
             (c::RGBA, 4)
@@ -37,7 +37,7 @@ impl Gl {
         };
         let mut out = vec![0f32; w as usize * h as usize * size];
         let p = out.as_mut_ptr().cast();
-        // SAFETY: w·h texels of so many floats; alignment 1, no pack buffer (contract above).
+        // SAFETY: w·h texels of so many floats; without gaps, in no buffer (`PixelStore`).
         unsafe {
             self.real
                 .glReadPixels(x, y, w as i32, h as i32, format, c::FLOAT, p)
@@ -50,24 +50,24 @@ impl Gl {
         !self.is_es() || self.has_extension("GL_NV_read_depth")
     }
 
-    /// glReadPixels of depth as 16 bits, rows bottom up, 0 where [`Gl::reads_depths`] says no; pack state as for [`Gl::read_rgb`].
-    pub fn read_depth16(&self, x: i32, y: i32, w: u32, h: u32) -> Vec<u16> {
+    /// glReadPixels of depth as 16 bits, rows bottom up, 0 where [`Gl::reads_depths`] says no.
+    pub fn read_depth16(&self, _: &PixelStore, x: i32, y: i32, w: u32, h: u32) -> Vec<u16> {
         let mut out = vec![0u16; w as usize * h as usize];
-        // SAFETY: w·h texels of 2 bytes.
+        // SAFETY: w·h texels of 2 bytes, without gaps, in no buffer (`PixelStore`).
         unsafe { self.read_depths(x, y, [w, h], c::UNSIGNED_SHORT, out.as_mut_ptr().cast()) };
         out
     }
 
-    /// glReadPixels of depth, 0 to `u32::MAX`, rows bottom up, 0 where [`Gl::reads_depths`] says no; no pack buffer may be bound.
-    pub fn read_depth32(&self, x: i32, y: i32, w: u32, h: u32) -> Vec<u32> {
+    /// glReadPixels of depth, 0 to `u32::MAX`, rows bottom up, 0 where [`Gl::reads_depths`] says no.
+    pub fn read_depth32(&self, _: &PixelStore, x: i32, y: i32, w: u32, h: u32) -> Vec<u32> {
         let mut out = vec![0u32; w as usize * h as usize];
-        // SAFETY: w·h texels of 4 bytes.
+        // SAFETY: w·h texels of 4 bytes, without gaps, in no buffer (`PixelStore`).
         unsafe { self.read_depths(x, y, [w, h], c::UNSIGNED_INT, out.as_mut_ptr().cast()) };
         out
     }
 
     /// # Safety
-    /// `out` has room for the texels of this kind; no pack buffer is bound, and the alignment is no more than theirs.
+    /// `out` has room for the texels of this kind, which lie as a [`PixelStore`] has them.
     unsafe fn read_depths(&self, x: i32, y: i32, size: [u32; 2], kind: u32, out: Ptr) {
         let [w, h] = size.map(|side| side as i32);
         if self.reads_depths() {
@@ -77,12 +77,12 @@ impl Gl {
         }
     }
 
-    /// glDrawPixels of RGB bytes, rows bottom up; unpack state must be the default with alignment 1.
-    pub fn draw_pixels_rgb(&self, w: i32, h: i32, data: &[u8]) {
+    /// glDrawPixels of RGB bytes, rows bottom up.
+    pub fn draw_pixels_rgb(&self, _: &PixelStore, w: i32, h: i32, data: &[u8]) {
         if data.len() < w as usize * h as usize * 3 {
             return;
         }
-        // SAFETY: w·h·3 bytes (checked).
+        // SAFETY: w·h·3 bytes (checked), without gaps, in no buffer (`PixelStore`).
         unsafe {
             self.real
                 .glDrawPixels(w, h, c::RGB, c::UNSIGNED_BYTE, data.as_ptr() as Ptr)

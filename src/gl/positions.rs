@@ -1,13 +1,30 @@
 //! Where the vertices of a draw stand, by which it is known again.
 
+use super::indices::{Indices, Vertices};
 use super::{Gl, consts as c};
 use core::hash::Hasher;
 use rustc_hash::FxHasher;
 
 impl Gl {
-    /// A sum of the positions of some vertices, in the program's own memory; `first` and the number of those that follow each other, or all of a list. None where
-    /// the draw that the program is about to make does not read them there. Only during that draw, with fixed function.
-    pub fn positions_sum(&self, vertices: impl Iterator<Item = u32>) -> Option<u64> {
+    /// A sum of the positions of the vertices of the program's draw; none where that does not read them in the program's own memory by
+    /// fixed function.
+    pub fn positions_sum(&self, vertices: Vertices) -> Option<u64> {
+        let first = u32::try_from(vertices.first).ok()?;
+        let count = u32::try_from(vertices.count).ok()?;
+        // SAFETY: the program draws them (contract of `Vertices::new`).
+        unsafe { self.sum_of(first..first.checked_add(count)?) }
+    }
+
+    /// As [`Gl::positions_sum`], of a draw by indices; none where those are in a buffer.
+    pub fn positions_sum_of_elements(&self, indices: Indices) -> Option<u64> {
+        let vertices = self.own_indices(indices)?;
+        // SAFETY: the program draws them (contract of `Indices::new`).
+        unsafe { self.sum_of(vertices) }
+    }
+
+    /// # Safety
+    /// The program is about to draw these vertices.
+    unsafe fn sum_of(&self, vertices: impl Iterator<Item = u32>) -> Option<u64> {
         let ours = self.is_enabled(c::VERTEX_ARRAY)
             && self.get_integer(c::VERTEX_ARRAY_BUFFER_BINDING) == 0
             && !self.reads_attribute_0();
@@ -33,7 +50,7 @@ impl Gl {
         for vertex in vertices {
             sum.write_u32(vertex);
             // SAFETY: fixed function reads as many bytes of each of its vertices there: the array is enabled, in no buffer, and
-            // no attribute of shaders takes its place.
+            // no attribute of shaders takes its place. The program draws this vertex (contract).
             let place = unsafe {
                 let at = pointer.cast::<u8>().add(step * vertex as usize);
                 core::slice::from_raw_parts(at, bytes)

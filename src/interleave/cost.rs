@@ -111,8 +111,7 @@ pub fn measure(gl: &Gl, glsl: u32, limits: Limits, case: &Case) -> Result<Cost, 
         gl.active_texture(c::TEXTURE0 + VIEWS_UNIT);
         gl.bind_texture(c::TEXTURE_2D, source.texture);
         copy.bind(gl, &[]);
-        gl.bind_vertex_array(vertex_array);
-        gl.draw_arrays(c::TRIANGLES, 0, 3);
+        gl.draw_triangle(vertex_array);
         Ok(())
     };
     plain()?;

@@ -209,7 +209,7 @@ impl Interleaver {
     pub fn draw(
         &mut self,
         gl: &Gl,
-        _: &Neutral,
+        neutral: &Neutral,
         config: &Config,
         source: &Source,
         tile: &mut dyn FnMut(u32) -> RgbImage,
@@ -231,7 +231,11 @@ impl Interleaver {
         let pass = self.pass(gl, of, &form, source, size);
         let Some((_, program)) = self.programs.iter().find(|(known, _)| *known == pass) else {
             let depth = source.depth.map(|(_, depth)| depth);
-            return self.draw_by_cpu(gl, config, tile, depth, &form, placement);
+            let tiles: Vec<RgbImage> = (0..config.views).map(tile).collect();
+            if let Some(picture) = self.picture_by_cpu(tiles, depth, &form, placement)? {
+                draw_picture(gl, neutral, picture);
+            }
+            return Ok(());
         };
         gl.viewport(0, 0, size[0] as i32, size[1] as i32);
         if let Some((texture, _)) = source.depth {
@@ -282,12 +286,11 @@ impl Interleaver {
                 .map_or(Disparities::default(), |(_, disparities)| disparities),
         };
         program.bind(gl, &uniforms.words());
-        gl.bind_vertex_array(self.vertex_array);
         // A view is decoded to linear light when it is fetched; written to an sRGB window it is encoded again.
         if source.srgb {
             gl.enable_srgb(true);
         }
-        gl.draw_arrays(c::TRIANGLES, 0, 3);
+        gl.draw_triangle(self.vertex_array);
         if source.srgb {
             gl.enable_srgb(false);
         }
@@ -380,40 +383,42 @@ impl Interleaver {
         self.uploaded
     }
 
-    fn draw_by_cpu(
+    /// The output, drawn without shaders. None where the views are not there yet, or the form has no mask.
+    fn picture_by_cpu(
         &self,
-        gl: &Gl,
-        config: &Config,
-        tile: &mut dyn FnMut(u32) -> RgbImage,
+        tiles: Vec<RgbImage>,
         depth: Option<&Depth>,
         form: &Form,
         placement: &Placement,
-    ) -> Result<(), String> {
-        let tiles: Vec<RgbImage> = (0..config.views).map(tile).collect();
+    ) -> Result<Option<RgbImage>, String> {
         let size = (placement.width, placement.height);
         let picture = match (form, &self.mask) {
             (Form::Layout(layout), _) => reference::arrange(&tiles, *layout, size),
             (Form::Anaglyph(anaglyph), _) => reference::anaglyph(&tiles, *anaglyph, size),
             (Form::Rgbd, _) => match (depth, tiles.get((tiles.len().max(1) - 1) / 2)) {
                 (Some(depth), Some(own)) => rgbd(own, depth, size),
-                _ => return Ok(()),
+                _ => return Ok(None),
             },
             (Form::Panel(_, filter), Some((_, mask))) => reference::filtered(&tiles, mask, *filter),
             (Form::Interlaced(_), Some((_, mask))) => {
                 reference::interleave(&reference::eyes(tiles), mask)
             }
-            (Form::Panel(..) | Form::Interlaced(_), None) => return Ok(()),
+            (Form::Panel(..) | Form::Interlaced(_), None) => return Ok(None),
         };
-        let mut picture = picture.map_err(|e| e.to_string())?;
-        image::imageops::flip_vertical_in_place(&mut picture);
-        gl.push_attrib(c::ALL_ATTRIB_BITS);
-        gl.disable(c::TEXTURE_2D);
-        gl.disable(c::FOG);
-        gl.window_pos_2i(0, 0);
-        gl.draw_pixels_rgb(size.0 as i32, size.1 as i32, picture.as_raw());
-        gl.pop_attrib();
-        Ok(())
+        picture.map(Some).map_err(|e| e.to_string())
     }
+}
+
+/// Draws a picture into the window by the fixed pipeline.
+fn draw_picture(gl: &Gl, neutral: &Neutral, mut picture: RgbImage) {
+    image::imageops::flip_vertical_in_place(&mut picture);
+    let [width, height] = [picture.width(), picture.height()].map(|n| n as i32);
+    gl.push_attrib(c::ALL_ATTRIB_BITS);
+    gl.disable(c::TEXTURE_2D);
+    gl.disable(c::FOG);
+    gl.window_pos_2i(0, 0);
+    gl.draw_pixels_rgb(neutral.pixels(), width, height, picture.as_raw());
+    gl.pop_attrib();
 }
 
 #[cfg(test)]

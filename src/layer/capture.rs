@@ -7,29 +7,31 @@ use crate::display::QuiltName;
 use crate::gl::{Gl, consts as c};
 use crate::interleave::{Form, Layout, Source, reference, rgbd};
 use crate::present::capture;
+use crate::state::Neutral;
 use std::path::{Path, PathBuf};
 
 impl Layer {
     /// Writes the frame where the user has asked for it before, or asks for it now.
-    pub(super) fn capture(&mut self, gl: &Gl, source: &Source) {
+    pub(super) fn capture(&mut self, gl: &Gl, neutral: &Neutral, source: &Source) {
         let frame = self.diagnostics.report.frames() + 1;
         if let Some(wanted) = &self.session.config.capture
             && (wanted.first..=wanted.last).contains(&frame)
         {
             self.diagnostics.report.write(self.session.config, frame);
-            if let Err(e) = self.write(gl, source, wanted, frame) {
+            if let Err(e) = self.write(gl, neutral, source, wanted, frame) {
                 self.diagnostics
                     .report
                     .note(format!("capture of frame {frame}: {e}"));
             }
         }
-        self.take_picture(gl, source, frame);
+        self.take_picture(gl, neutral, source, frame);
     }
 
     /// Writes what is wanted of the frame and answers the file's name. Changes the framebuffers that are bound.
     pub(super) fn write(
         &mut self,
         gl: &Gl,
+        neutral: &Neutral,
         source: &Source,
         wanted: &Capture,
         frame: u64,
@@ -52,26 +54,28 @@ impl Layer {
         let row = Layout::SideBySide { half: false };
         let written = match wanted.what {
             CaptureWhat::Output if self.output() == Output::Quad => {
-                self.arranged(gl, &[0, last], row, &path)
+                self.arranged(gl, neutral, &[0, last], row, &path)
             }
             CaptureWhat::Output => match form {
-                Form::Layout(layout) => self.arranged(gl, &all, layout, &path),
+                Form::Layout(layout) => self.arranged(gl, neutral, &all, layout, &path),
                 Form::Rgbd => {
-                    let own = tile(gl, &self.targets.atlas, source.tiles.own());
+                    let own = tile(gl, neutral, &self.targets.atlas, source.tiles.own());
                     let size = row.native_size(2, own.dimensions());
-                    rgbd(&own, &self.own_depth(gl), size)
+                    rgbd(&own, &self.own_depth(gl, neutral), size)
                         .map_err(|e| e.to_string())
                         .and_then(|i| capture::write(&i, &path))
                 }
                 _ => {
                     gl.bind_framebuffer(c::READ_FRAMEBUFFER, 0);
-                    capture::write(&capture::read_rgb(gl, 0, 0, width, height), &path)
+                    capture::write(&capture::read_rgb(gl, neutral, 0, 0, width, height), &path)
                 }
             },
-            CaptureWhat::Atlas => self.arranged(gl, &all, row, &path),
-            CaptureWhat::View(v) => capture::write(&tile(gl, &self.targets.atlas, v), &path),
+            CaptureWhat::Atlas => self.arranged(gl, neutral, &all, row, &path),
+            CaptureWhat::View(v) => {
+                capture::write(&tile(gl, neutral, &self.targets.atlas, v), &path)
+            }
             CaptureWhat::Reference => self
-                .reference_image(gl)
+                .reference_image(gl, neutral)
                 .and_then(|i| capture::write(&i, &path)),
             CaptureWhat::Samples => capture::write_bytes(&self.samples(), &path),
             CaptureWhat::Depth => {
@@ -80,7 +84,10 @@ impl Layer {
                 let t = &source.tiles;
                 let (from, x) = self.targets.atlas.readable(t.own());
                 gl.bind_framebuffer(c::READ_FRAMEBUFFER, from);
-                capture::write(&capture::read_depth(gl, x, 0, t.width, t.height), &path)
+                capture::write(
+                    &capture::read_depth(gl, neutral, x, 0, t.width, t.height),
+                    &path,
+                )
             }
         };
         gl.bind_framebuffer(c::FRAMEBUFFER, 0);
@@ -88,11 +95,18 @@ impl Layer {
     }
 
     /// Layouts are written at the full size of their tiles, whatever the window's size.
-    fn arranged(&self, gl: &Gl, views: &[u32], layout: Layout, path: &Path) -> Result<(), String> {
+    fn arranged(
+        &self,
+        gl: &Gl,
+        neutral: &Neutral,
+        views: &[u32],
+        layout: Layout,
+        path: &Path,
+    ) -> Result<(), String> {
         let atlas = &self.targets.atlas;
         let tile_size = (atlas.tiles.width, atlas.tiles.height);
         let size = layout.native_size(views.len() as u32, tile_size);
-        let views: Vec<_> = views.iter().map(|&v| tile(gl, atlas, v)).collect();
+        let views: Vec<_> = views.iter().map(|&v| tile(gl, neutral, atlas, v)).collect();
         reference::arrange(&views, layout, size)
             .map_err(|e| e.to_string())
             .and_then(|i| capture::write(&i, path))

@@ -6,6 +6,7 @@ use crate::control::{Answer, ControlError, LAYER, Order, VIEWS, keys::Key};
 use crate::display::LensPart;
 use crate::gl::Gl;
 use crate::interleave::Source;
+use crate::state::Neutral;
 use serde_json::{Map, Value};
 use std::path::PathBuf;
 
@@ -195,7 +196,7 @@ impl Layer {
     }
 
     /// Writes the picture that was asked for, if one was.
-    pub(super) fn take_picture(&mut self, gl: &Gl, source: &Source, frame: u64) {
+    pub(super) fn take_picture(&mut self, gl: &Gl, neutral: &Neutral, source: &Source, frame: u64) {
         if let Picture::Wanted(wanted) = &self.diagnostics.picture {
             let wanted = Capture {
                 first: frame,
@@ -205,7 +206,7 @@ impl Layer {
             if self.lacks(wanted.what) {
                 return; // it is asked for again with the next frame
             }
-            let written = self.write(gl, source, &wanted, frame);
+            let written = self.write(gl, neutral, source, &wanted, frame);
             self.diagnostics.picture = Picture::Done(match written {
                 Ok(path) => Ok(Answer::Captured { path, frame }),
                 Err(reason) => Err(ControlError::Picture(reason)),

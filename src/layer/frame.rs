@@ -87,7 +87,7 @@ impl Layer {
             self.targets.atlas.resolve(gl, &views, c::COLOR_BUFFER_BIT);
         }
         let output = self.output();
-        let depth = (output == Output::Rgbd).then(|| self.own_depth(gl));
+        let depth = (output == Output::Rgbd).then(|| self.own_depth(gl, neutral));
         gl.bind_framebuffer(c::FRAMEBUFFER, 0);
         if image == FRONT {
             gl.draw_buffer(c::FRONT);
@@ -95,9 +95,9 @@ impl Layer {
         }
         let exact = self.exact_picture(gl, image, neutral);
         self.draw_picture(gl, image, depth.as_ref(), neutral);
-        self.judge_proof(gl, exact);
+        self.judge_proof(gl, neutral, exact);
         let source = self.source(image, depth.as_ref());
-        self.capture(gl, &source);
+        self.capture(gl, neutral, &source);
         self.track_depths(gl);
     }
 
@@ -144,7 +144,7 @@ impl Layer {
                 neutral,
                 self.session.config,
                 &source,
-                &mut |view| tile(gl, &self.targets.atlas, view),
+                &mut |view| tile(gl, neutral, &self.targets.atlas, view),
                 output,
                 &panel,
             ) {
@@ -157,7 +157,7 @@ impl Layer {
     }
 
     /// The depth of the program's own view. Changes the framebuffers that are bound.
-    pub(super) fn own_depth(&self, gl: &Gl) -> Depth {
+    pub(super) fn own_depth(&self, gl: &Gl, neutral: &Neutral) -> Depth {
         let tiles = &self.targets.atlas.tiles;
         let (width, height) = (tiles.width, tiles.height);
         let reversed = self.known.frame.nearer_is_larger.unwrap_or(false);
@@ -170,7 +170,7 @@ impl Layer {
             );
             let (from, x) = self.targets.atlas.readable(tiles.own());
             gl.bind_framebuffer(c::READ_FRAMEBUFFER, from);
-            let read = gl.read_depth32(x, 0, width, height);
+            let read = gl.read_depth32(neutral.pixels(), x, 0, width, height);
             values.extend(read.rchunks_exact(width as usize).flatten());
         }
         Depth::new((width, height), values, reversed)
@@ -191,12 +191,12 @@ impl Layer {
 
     /// The program's own view as it is now, row 0 on top; nothing of the program's state has changed.
     pub(super) fn own_view(&mut self, gl: &Gl) -> RgbImage {
-        self.in_neutral(gl, |layer, _| {
+        self.in_neutral(gl, |layer, neutral| {
             layer.reading(gl, BACK, |layer| {
                 let atlas = &layer.targets.atlas;
                 let own = atlas.tiles.own_alone();
                 atlas.resolve(gl, &own, c::COLOR_BUFFER_BIT);
-                tile(gl, atlas, atlas.tiles.own())
+                tile(gl, neutral, atlas, atlas.tiles.own())
             })
         })
     }
@@ -253,8 +253,8 @@ impl Layer {
 }
 
 /// One view's picture, row 0 on top. Changes the read framebuffer.
-pub(super) fn tile(gl: &Gl, atlas: &crate::atlas::Atlas, view: u32) -> RgbImage {
+pub(super) fn tile(gl: &Gl, neutral: &Neutral, atlas: &crate::atlas::Atlas, view: u32) -> RgbImage {
     let (from, x) = atlas.readable(view);
     gl.bind_framebuffer(c::READ_FRAMEBUFFER, from);
-    capture::read_rgb(gl, x, 0, atlas.tiles.width, atlas.tiles.height)
+    capture::read_rgb(gl, neutral, x, 0, atlas.tiles.width, atlas.tiles.height)
 }

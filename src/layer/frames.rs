@@ -55,11 +55,11 @@ impl Frames {
         }
         let written = match wanted.what {
             CaptureWhat::Depth => capture::write(
-                &capture::read_depth(gl, 0, 0, self.width, self.height),
+                &capture::read_depth(gl, &neutral, 0, 0, self.width, self.height),
                 &wanted.path_for(frame),
             ),
             _ => capture::write(
-                &capture::read_rgb(gl, 0, 0, self.width, self.height),
+                &capture::read_rgb(gl, &neutral, 0, 0, self.width, self.height),
                 &wanted.path_for(frame),
             ),
         };

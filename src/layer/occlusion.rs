@@ -178,7 +178,7 @@ impl Layer {
     }
 
     /// The reference image, row 0 on top. Changes the read framebuffer.
-    pub(super) fn reference_image(&self, gl: &Gl) -> Result<RgbImage, String> {
+    pub(super) fn reference_image(&self, gl: &Gl, neutral: &Neutral) -> Result<RgbImage, String> {
         let framebuffer = self.targets.atlas.reference_framebuffer();
         let framebuffer = framebuffer.filter(|_| self.synthesis.reference.on).ok_or(
             "there is no reference image in this frame: `--strategy occlusion` draws one from the second frame of a scene on",
@@ -188,7 +188,7 @@ impl Layer {
             self.targets.atlas.tiles.width,
             self.targets.atlas.tiles.height,
         ];
-        Ok(read_rgb(gl, 0, 0, width, height))
+        Ok(read_rgb(gl, neutral, 0, 0, width, height))
     }
 
     /// After the own view has been measured: its map, for the next frame. State as for the passes.

@@ -275,17 +275,17 @@ impl Layer {
         gl.bind_framebuffer(c::FRAMEBUFFER, 0);
         self.draw_picture(gl, image, None, neutral);
         self.change_places();
-        Some(self.window_picture(gl))
+        Some(self.window_picture(gl, neutral))
     }
 
-    fn window_picture(&self, gl: &Gl) -> RgbImage {
+    fn window_picture(&self, gl: &Gl, neutral: &Neutral) -> RgbImage {
         let (width, height) = self.size();
         gl.bind_framebuffer(c::READ_FRAMEBUFFER, 0);
-        capture::read_rgb(gl, 0, 0, width, height)
+        capture::read_rgb(gl, neutral, 0, 0, width, height)
     }
 
     /// After the picture: compares, or takes the time. `exact` is that of the other atlas, where the two can be compared.
-    pub(super) fn judge_proof(&mut self, gl: &Gl, exact: Option<RgbImage>) {
+    pub(super) fn judge_proof(&mut self, gl: &Gl, neutral: &Neutral, exact: Option<RgbImage>) {
         let now = self.diagnostics.proving.now;
         if let (Now::Timed { by_replay }, Some(since)) =
             (now, self.diagnostics.proving.since.take())
@@ -304,7 +304,7 @@ impl Layer {
                 self.diagnostics.proving.search = None;
                 self.tell(|proof| proof.skipped(why));
             } else {
-                self.compare(gl, exact);
+                self.compare(gl, neutral, exact);
             }
         }
     }
@@ -317,9 +317,9 @@ impl Layer {
         self.diagnostics.report.write(self.session.config, frame);
     }
 
-    fn compare(&mut self, gl: &Gl, exact: Option<RgbImage>) {
+    fn compare(&mut self, gl: &Gl, neutral: &Neutral, exact: Option<RgbImage>) {
         let frame = self.diagnostics.report.frames() + 1;
-        let shown = exact.as_ref().map(|_| self.window_picture(gl));
+        let shown = exact.as_ref().map(|_| self.window_picture(gl, neutral));
         let panel: Vec<_> = exact
             .zip(shown)
             .and_then(|(exact, shown)| Difference::new(&exact, &shown))
@@ -337,7 +337,7 @@ impl Layer {
             .map_or(0.0, Proof::psnr);
         let mut worst_pair = None;
         for view in 0..self.session.config.views {
-            let pair = self.pair(gl, view);
+            let pair = self.pair(gl, neutral, view);
             let Some(difference) = Difference::new(&pair[0], &pair[1]) else {
                 return;
             };
@@ -403,16 +403,16 @@ impl Layer {
 
     /// A view by replay, and as it is shown, stretched to the window where it has fewer pixels. State is as [`Neutral`] leaves
     /// it; changes the framebuffers that are bound.
-    fn pair(&mut self, gl: &Gl, view: u32) -> [RgbImage; 2] {
+    fn pair(&mut self, gl: &Gl, neutral: &Neutral, view: u32) -> [RgbImage; 2] {
         let exact = self.diagnostics.proving.atlas.as_ref();
-        let exact = exact.map_or_else(RgbImage::default, |atlas| tile(gl, atlas, view));
+        let exact = exact.map_or_else(RgbImage::default, |atlas| tile(gl, neutral, atlas, view));
         if self.targets.atlas.tiles.grid.is_full() {
-            return [exact, tile(gl, &self.targets.atlas, view)];
+            return [exact, tile(gl, neutral, &self.targets.atlas, view)];
         }
         self.make_singles(gl, false);
         self.targets.atlas.take_single(gl, view, BACK);
         let (width, height) = self.size();
-        [exact, capture::read_rgb(gl, 0, 0, width, height)]
+        [exact, capture::read_rgb(gl, neutral, 0, 0, width, height)]
     }
 
     /// Before a draw: what has the one before it changed?
@@ -428,10 +428,10 @@ impl Layer {
         }
         if search.pending {
             let view = search.view;
-            let pair = self.in_neutral(gl, |layer, _| {
+            let pair = self.in_neutral(gl, |layer, neutral| {
                 layer.reading(gl, BACK, |layer| {
                     layer.resolve_both(gl);
-                    layer.pair(gl, view)
+                    layer.pair(gl, neutral, view)
                 })
             });
             search.attribute(&pair);

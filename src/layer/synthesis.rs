@@ -179,7 +179,7 @@ impl Layer {
     fn make_of(&mut self, gl: &Gl, scene: &Scene, mapping: &DisparityMapping, neutral: &Neutral) {
         let disparities = self.disparities(scene, mapping);
         self.resolve_sources(gl);
-        self.take_samples(gl, scene, mapping);
+        self.take_samples(gl, neutral, scene, mapping);
         let (sources, own) = (self.synthesis.sources, self.targets.atlas.tiles.own());
         match sources {
             Some(sources) => self.targets.atlas.copy_to_pyramid(gl, sources.iter()),

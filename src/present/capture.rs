@@ -2,13 +2,18 @@
 
 use crate::config::Capture;
 use crate::gl::Gl;
+use crate::state::Neutral;
 use image::{ImageBuffer, Luma, RgbImage};
 use std::path::Path;
 
-/// The rectangle of the bound read framebuffer; the pixel-store state must be as [`crate::state::Neutral`] has it.
-pub fn read_rgb(gl: &Gl, x: i32, y: i32, width: u32, height: u32) -> RgbImage {
-    let mut image =
-        RgbImage::from_raw(width, height, gl.read_rgb(x, y, width, height)).unwrap_or_default();
+/// The rectangle of the bound read framebuffer.
+pub fn read_rgb(gl: &Gl, neutral: &Neutral, x: i32, y: i32, width: u32, height: u32) -> RgbImage {
+    let mut image = RgbImage::from_raw(
+        width,
+        height,
+        gl.read_rgb(neutral.pixels(), x, y, width, height),
+    )
+    .unwrap_or_default();
     image::imageops::flip_vertical_in_place(&mut image);
     image
 }
@@ -16,13 +21,18 @@ pub fn read_rgb(gl: &Gl, x: i32, y: i32, width: u32, height: u32) -> RgbImage {
 /// Depth of the bound read framebuffer, 0 (near) to 65535.
 pub fn read_depth(
     gl: &Gl,
+    neutral: &Neutral,
     x: i32,
     y: i32,
     width: u32,
     height: u32,
 ) -> ImageBuffer<Luma<u16>, Vec<u16>> {
-    let mut image = ImageBuffer::from_raw(width, height, gl.read_depth16(x, y, width, height))
-        .unwrap_or_default();
+    let mut image = ImageBuffer::from_raw(
+        width,
+        height,
+        gl.read_depth16(neutral.pixels(), x, y, width, height),
+    )
+    .unwrap_or_default();
     image::imageops::flip_vertical_in_place(&mut image);
     image
 }

@@ -2,7 +2,7 @@
 //!
 //! A pass of the layer's asks for a [`Neutral`], so that none can be made in the state of the program.
 
-use crate::gl::{Gl, consts as c};
+use crate::gl::{Gl, PixelStore, consts as c};
 
 /// Capabilities that would spoil a copy of colours; off while we draw.
 const CAPABILITIES: &[(u32, Needs)] = &[
@@ -24,26 +24,8 @@ const CAPABILITIES: &[(u32, Needs)] = &[
     (c::FRAMEBUFFER_SRGB, Needs::Srgb),
 ];
 
-/// Values of glPixelStore that a read or an upload of ours depends on, with what we set.
-const PIXELS: &[(u32, i32, Needs)] = &[
-    (c::PACK_ALIGNMENT, 1, Needs::Any),
-    (c::PACK_ROW_LENGTH, 0, PIXELS_OF_ES),
-    (c::PACK_SKIP_ROWS, 0, PIXELS_OF_ES),
-    (c::PACK_SKIP_PIXELS, 0, PIXELS_OF_ES),
-    (c::PACK_SWAP_BYTES, 0, Needs::Desktop),
-    (c::UNPACK_ALIGNMENT, 1, Needs::Any),
-    (c::UNPACK_ROW_LENGTH, 0, PIXELS_OF_ES),
-    (c::UNPACK_SKIP_ROWS, 0, PIXELS_OF_ES),
-    (c::UNPACK_SKIP_PIXELS, 0, PIXELS_OF_ES),
-    (c::UNPACK_SWAP_BYTES, 0, Needs::Desktop),
-    (c::UNPACK_IMAGE_HEIGHT, 0, PIXELS_OF_ES),
-    (c::UNPACK_SKIP_IMAGES, 0, PIXELS_OF_ES),
-];
-
 /// And nothing of the kind in OpenGL ES.
 const DESKTOP_3_2: Needs = Needs::Version((3, 2), (u32::MAX, 0));
-
-const PIXELS_OF_ES: Needs = Needs::Version((1, 0), (3, 0));
 
 /// Texture units that passes sample from.
 const UNITS: u32 = 9;
@@ -69,7 +51,7 @@ pub struct Neutral {
     colours: Colours,
     viewport: [i32; 4],
     polygon_mode: [u32; 2],
-    pixels: Pixels,
+    pixels: PixelStore,
     /// Where the context has vertex arrays and array textures.
     objects: Option<Objects>,
 }
@@ -109,7 +91,7 @@ impl Neutral {
         };
         let enabled = disable_all(gl, &context);
         let colours = Colours::enter(gl, &context);
-        let pixels = Pixels::enter(gl, &context);
+        let pixels = PixelStore::enter(gl, context.version, context.es);
         // A core context answers one mode, a compatibility context one per face, and OpenGL ES has none.
         let [front, back] = match context.es {
             true => [c::FILL; 2],
@@ -130,6 +112,11 @@ impl Neutral {
             pixels,
             objects,
         }
+    }
+
+    /// How pixels lie in memory, for commands that read and write them.
+    pub fn pixels(&self) -> &PixelStore {
+        &self.pixels
     }
 
     /// Puts everything back. Framebuffer bindings are the caller's.
@@ -213,55 +200,6 @@ impl Colours {
         match self.indexed {
             true => gl.color_maski(0, r, g, b, a),
             false => gl.color_mask(r, g, b, a),
-        }
-    }
-}
-
-/// Pixel store, and the buffers that pixels are read to and written from.
-#[derive(Debug)]
-struct Pixels {
-    store: Vec<(u32, i32)>,
-    pack: u32,
-    unpack: u32,
-}
-
-impl Pixels {
-    fn enter(gl: &Gl, context: &Context) -> Self {
-        let mut store = Vec::new();
-        for &(p, ours, _) in PIXELS.iter().filter(|k| context.has(k.2)) {
-            let value = gl.get_integer(p);
-            if value != ours {
-                store.push((p, value));
-                gl.pixel_storei(p, ours);
-            }
-        }
-        let buffers = context.since((2, 1), (3, 0));
-        let bound = |binding| match buffers {
-            true => gl.get_integer(binding) as u32,
-            false => 0,
-        };
-        let pack = bound(c::PIXEL_PACK_BUFFER_BINDING);
-        let unpack = bound(c::PIXEL_UNPACK_BUFFER_BINDING);
-        if pack != 0 {
-            gl.bind_buffer(c::PIXEL_PACK_BUFFER, 0);
-        }
-        if unpack != 0 {
-            gl.bind_buffer(c::PIXEL_UNPACK_BUFFER, 0);
-        }
-        Pixels {
-            store,
-            pack,
-            unpack,
-        }
-    }
-
-    fn leave(&self, gl: &Gl) {
-        self.store.iter().for_each(|&(p, v)| gl.pixel_storei(p, v));
-        if self.pack != 0 {
-            gl.bind_buffer(c::PIXEL_PACK_BUFFER, self.pack);
-        }
-        if self.unpack != 0 {
-            gl.bind_buffer(c::PIXEL_UNPACK_BUFFER, self.unpack);
         }
     }
 }

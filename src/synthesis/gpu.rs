@@ -107,7 +107,6 @@ impl Passes {
             gl.active_texture(c::TEXTURE0 + unit);
             gl.bind_texture(c::TEXTURE_2D_ARRAY, texture);
         }
-        gl.bind_vertex_array(self.vertex_array);
         let height = atlas.tiles.height as i32;
         let own = atlas.tiles.own();
         for layer in 0..disparities.sources.map_or(1, |sources| sources.count()) {
@@ -132,7 +131,7 @@ impl Passes {
                 let width = atlas.enter_pyramid(gl, target, layer);
                 gl.viewport(0, 0, width, height);
                 program.bind(gl, &words);
-                gl.draw_arrays(c::TRIANGLES, 0, 3);
+                gl.draw_triangle(self.vertex_array);
             }
         }
         gl.active_texture(c::TEXTURE0 + RAY_RANGE_UNIT);
@@ -164,7 +163,7 @@ impl Passes {
             let width = atlas.enter_distortion(gl, target);
             gl.viewport(0, 0, width, height);
             program.bind(gl, &words);
-            gl.draw_arrays(c::TRIANGLES, 0, 3);
+            gl.draw_triangle(self.vertex_array);
         }
         true
     }
@@ -204,7 +203,7 @@ impl Passes {
             };
             let words = uniforms(&tiles, atlas.flipped, disparities).words();
             program.bind(gl, &words);
-            gl.draw_arrays(c::TRIANGLES, 0, 3);
+            gl.draw_triangle(self.vertex_array);
         }
     }
 }

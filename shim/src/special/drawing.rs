@@ -3,8 +3,8 @@
 use crate::context::{Inside, enter, inside, peek, peek_inside, real, recording, set_inside};
 use crate::hooks::{ask, compile, imm};
 use core::slice::from_raw_parts;
-use manyview_core::gl::Indices;
 use manyview_core::gl::consts::LIST_BASE;
+use manyview_core::gl::{Indices, Vertices};
 use manyview_core::gl::{Ptr, slot};
 use manyview_core::layer::{Primitive, Primitives};
 use manyview_core::plan::Kind;
@@ -57,21 +57,18 @@ fn primitives(p: Primitives, call: &mut dyn FnMut()) {
 }
 
 pub(crate) unsafe fn glDrawArrays(mode: u32, first: i32, count: i32) {
+    // SAFETY: of the program's draw, used before its call returns.
+    let vertices = unsafe { Vertices::new(first, count) };
     // SAFETY: the program's own call.
-    primitives(Primitives::Arrays { mode, first, count }, &mut || unsafe {
+    primitives(Primitives::Arrays { mode, vertices }, &mut || unsafe {
         real().glDrawArrays(mode, first, count)
     });
 }
 
 pub(crate) unsafe fn glDrawElements(mode: u32, count: i32, type_: u32, indices: Ptr) {
-    // SAFETY: used before the program's call returns.
-    let indices_ = unsafe { Indices::new(indices) };
-    let p = Primitives::Elements {
-        mode,
-        count,
-        kind: type_,
-        indices: indices_,
-    };
+    // SAFETY: of the program's draw, used before its call returns.
+    let own = unsafe { Indices::new(count, type_, indices) };
+    let p = Primitives::Elements { mode, indices: own };
     // SAFETY: the program's own call.
     primitives(p, &mut || unsafe {
         real().glDrawElements(mode, count, type_, indices)
@@ -86,14 +83,9 @@ pub(crate) unsafe fn glDrawRangeElements(
     type_: u32,
     indices: Ptr,
 ) {
-    // SAFETY: used before the program's call returns.
-    let indices_ = unsafe { Indices::new(indices) };
-    let p = Primitives::Elements {
-        mode,
-        count,
-        kind: type_,
-        indices: indices_,
-    };
+    // SAFETY: of the program's draw, used before its call returns.
+    let own = unsafe { Indices::new(count, type_, indices) };
+    let p = Primitives::Elements { mode, indices: own };
     // SAFETY: the program's own call.
     primitives(p, &mut || unsafe {
         real().glDrawRangeElements(mode, start, end, count, type_, indices)

@@ -5,6 +5,7 @@ use super::Stage;
 use crate::atlas::Grid;
 use crate::config::AtlasLayout::{Layers, SideBySide};
 use crate::config::{AtlasLayout, Clip};
+use crate::gl::Vertices;
 use crate::gl::consts as c;
 use crate::gl::fake::Fake;
 use crate::plan::{Method, Reason};
@@ -58,7 +59,7 @@ impl Drawing {
             &how,
             &mut |views| {
                 counts.push(views);
-                gl.draw_arrays_instanced(how.mode, 0, 3, views as i32);
+                gl.draw_arrays_instanced(how.mode, Vertices::without_arrays(0, 3), views as i32);
             },
         );
         counts

@@ -8,6 +8,7 @@ use crate::atlas::{Grid, Names};
 use crate::config::AtlasLayout::SideBySide;
 use crate::config::Clip;
 use crate::draw::Drawing as Surfaces;
+use crate::gl::Vertices;
 use crate::gl::consts as c;
 use crate::gl::fake::Scope;
 
@@ -69,7 +70,7 @@ fn surfaces_are_drawn_once_as_patches_and_leave_no_trace() {
             &rays,
             &mut |mode| {
                 modes.push(mode);
-                gl.draw_arrays(mode, 0, 30);
+                gl.draw_arrays(mode, Vertices::without_arrays(0, 30));
             },
         );
         let differences = before.differences(&stage.fake.state());
@@ -116,7 +117,7 @@ fn a_variant_draws_with_the_map_in_a_unit_that_it_has_no_use_for() {
             hazard,
             &rays,
             &mut || {
-                gl.draw_arrays(c::TRIANGLES, 0, 30);
+                gl.draw_arrays(c::TRIANGLES, Vertices::without_arrays(0, 30));
             },
         );
         gl.use_program(program);

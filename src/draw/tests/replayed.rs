@@ -4,6 +4,7 @@ use super::super::{ReplayHazard, enter_own, others, replay};
 use super::{Stage, sheared};
 use crate::atlas::{Grid, ViewSet};
 use crate::config::AtlasLayout::{Layers, SideBySide};
+use crate::gl::Vertices;
 use crate::gl::consts as c;
 use crate::gl::fake::Fake;
 use crate::state::Effect;
@@ -41,7 +42,7 @@ fn every_view_has_its_tile_and_its_camera() {
     let mut views = Vec::new();
     assert!(stage.replay(ReplayHazard::None, &mut |view| {
         views.push(view);
-        gl.draw_arrays(c::TRIANGLES, 0, 3);
+        gl.draw_arrays(c::TRIANGLES, Vertices::without_arrays(0, 3));
     }));
     let order: Vec<u32> = stage.atlas.tiles.order().collect();
     assert_eq!((&views, views.last()), (&order, Some(&1)));
@@ -68,7 +69,9 @@ fn the_scissor_of_the_program_is_cut_to_the_tile() {
     });
     let before = stage.fake.state();
     let gl = stage.gl;
-    stage.replay(ReplayHazard::None, &mut |_| gl.draw_arrays(c::POINTS, 0, 1));
+    stage.replay(ReplayHazard::None, &mut |_| {
+        gl.draw_arrays(c::POINTS, Vertices::without_arrays(0, 1))
+    });
     for (drawn, view) in stage.fake.draws().iter().zip(stage.atlas.tiles.order()) {
         let (_, x) = stage.atlas.tiles.place(view);
         assert_eq!(
@@ -88,7 +91,9 @@ fn layers_need_neither_viewport_nor_scissor() {
     let mut stage = Stage::new(Layers, Grid::FULL);
     let before = stage.fake.state();
     let gl = stage.gl;
-    stage.replay(ReplayHazard::None, &mut |_| gl.draw_arrays(c::POINTS, 0, 1));
+    stage.replay(ReplayHazard::None, &mut |_| {
+        gl.draw_arrays(c::POINTS, Vertices::without_arrays(0, 1))
+    });
     let drawn = stage.fake.draws();
     let bound = drawn
         .iter()
@@ -117,7 +122,7 @@ fn what_is_flat_keeps_the_projection() {
         ReplayHazard::None,
         true,
         &mut |_| {
-            gl.draw_arrays(c::POINTS, 0, 1);
+            gl.draw_arrays(c::POINTS, Vertices::without_arrays(0, 1));
         },
     );
     assert_eq!(
@@ -207,7 +212,7 @@ fn a_list_leaves_what_the_programs_own_call_leaves() {
         gl.push_matrix();
         gl.load_matrix(&[3.0; 16]);
         gl.push_attrib(c::CURRENT_BIT);
-        gl.draw_arrays(c::TRIANGLES, 0, 3);
+        gl.draw_arrays(c::TRIANGLES, Vertices::without_arrays(0, 3));
     };
     let alone = {
         let mut stage = Stage::new(SideBySide, Grid::FULL);
@@ -323,7 +328,7 @@ fn what_begins_in_the_own_view_ends_in_the_others() {
             let (gl, before, shear) = (stage.gl, stage.fake.state(), stage.shear());
             let (state, rig) = (&stage.state, &stage.rig);
             enter_own(&gl, &mut stage.atlas, state, rig, shear);
-            gl.draw_arrays(c::POINTS, 0, 1);
+            gl.draw_arrays(c::POINTS, Vertices::without_arrays(0, 1));
             let mut views = Vec::new();
             others(
                 &gl,

@@ -4,9 +4,9 @@ use super::super::{ReplayHazard, replay};
 use super::Stage;
 use crate::atlas::Grid;
 use crate::config::AtlasLayout::SideBySide;
-use crate::gl::Gl;
 use crate::gl::consts as c;
 use crate::gl::fake::{Drawn, Scope};
+use crate::gl::{Gl, Vertices};
 
 fn half() -> Grid {
     Grid::scaled([32, 24], [64, 48])
@@ -27,7 +27,7 @@ fn drawn(hazard: ReplayHazard, program: impl FnOnce(&Gl)) -> Vec<Drawn> {
         hazard,
         true,
         &mut |_| {
-            gl.draw_arrays(c::TRIANGLES, 0, 3);
+            gl.draw_arrays(c::TRIANGLES, Vertices::without_arrays(0, 3));
         },
     );
     stage.fake.assert_restored(&before);
@@ -86,7 +86,7 @@ fn a_clamped_offset_keeps_its_clamp() {
         ReplayHazard::None,
         true,
         &mut |_| {
-            gl.draw_arrays(c::TRIANGLES, 0, 3);
+            gl.draw_arrays(c::TRIANGLES, Vertices::without_arrays(0, 3));
         },
     );
     let drawn = stage.fake.draws();

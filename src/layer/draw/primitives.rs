@@ -4,7 +4,7 @@ use super::super::Support;
 use super::Send;
 use super::corners::corners;
 use crate::draw::Drawing;
-use crate::gl::{Gl, Indices, consts as c};
+use crate::gl::{Gl, Indices, Vertices, consts as c};
 
 /// A draw from arrays that may be instanced. Counts, types and modes are GL's.
 #[derive(Clone, Copy, Debug)]
@@ -13,43 +13,45 @@ pub enum Primitives {
     Arrays {
         /// Primitive mode.
         mode: u32,
-        /// First vertex.
-        first: i32,
-        /// Number of vertices.
-        count: i32,
+        /// Its vertices.
+        vertices: Vertices,
     },
     /// glDrawElements and glDrawRangeElements.
     Elements {
         /// Primitive mode.
         mode: u32,
-        /// Number of indices.
-        count: i32,
-        /// GL_UNSIGNED_BYTE, _SHORT or _INT.
-        kind: u32,
-        /// The program's pointer.
+        /// Its indices.
         indices: Indices,
     },
 }
 
 impl Primitives {
     /// Its primitive mode.
-    pub(super) fn mode(&self) -> u32 {
+    pub(in crate::layer) fn mode(&self) -> u32 {
         match *self {
             Primitives::Arrays { mode, .. } | Primitives::Elements { mode, .. } => mode,
         }
     }
 
+    /// The number of its vertices, with those that come more than once.
+    pub(in crate::layer) fn count(&self) -> u32 {
+        let count = match self {
+            Primitives::Arrays { vertices, .. } => vertices.count(),
+            Primitives::Elements { indices, .. } => indices.count(),
+        };
+        count.max(0).unsigned_abs()
+    }
+
     /// What it is made of.
     pub(super) fn drawing(&self, gl: &Gl, support: &Support) -> Drawing {
-        let (Primitives::Arrays { count, .. } | Primitives::Elements { count, .. }) = *self;
-        let (mode, count) = (self.mode(), count.max(0).unsigned_abs());
+        let mode = self.mode();
         let lists = || match *self {
-            Primitives::Arrays { first, .. } => first >= 0,
+            Primitives::Arrays { vertices, .. } => vertices.first() >= 0,
             Primitives::Elements { indices, .. } => gl.has_own_indices(indices),
         };
         Drawing {
             mode: Some(mode),
-            vertices: u64::from(count),
+            vertices: u64::from(self.count()),
             cuts: [c::TRIANGLES, c::QUADS].contains(&mode) || !support.restarts(gl) && lists(),
             material: false,
         }
@@ -60,58 +62,29 @@ impl Primitives {
         match (how, *self) {
             (Send::AsItIs, _) => call(),
             (Send::InMode(mode), _) => self.in_mode(gl, mode),
-            (
-                Send::Instances { mode, count },
-                Primitives::Arrays {
-                    first, count: n, ..
-                },
-            ) => {
-                gl.draw_arrays_instanced(mode, first, n, count as i32);
+            (Send::Instances { mode, count }, Primitives::Arrays { vertices, .. }) => {
+                gl.draw_arrays_instanced(mode, vertices, count as i32);
             }
-            (
-                Send::Instances { mode, count },
-                Primitives::Elements {
-                    count: n,
-                    kind,
-                    indices,
-                    ..
-                },
-            ) => gl.draw_elements_instanced(mode, n, kind, indices, count as i32),
+            (Send::Instances { mode, count }, Primitives::Elements { indices, .. }) => {
+                gl.draw_elements_instanced(mode, indices, count as i32);
+            }
         }
     }
 
     /// The draw in another mode; as patches also if it is not of triangles or quads by themselves.
     fn in_mode(&self, gl: &Gl, mode: u32) {
-        let (Primitives::Arrays { count, .. } | Primitives::Elements { count, .. }) = *self;
-        let count_up = count.max(0).unsigned_abs();
-        let list = match mode {
-            c::PATCHES => corners(self.mode(), count_up),
+        let places = match mode {
+            c::PATCHES => corners(self.mode(), self.count()),
             _ => None,
         };
-        match (*self, list) {
-            (Primitives::Arrays { first, count, .. }, None) => gl.draw_arrays(mode, first, count),
-            (Primitives::Arrays { first, .. }, Some(mut list)) => {
-                let first = first.max(0).unsigned_abs();
-                list.iter_mut()
-                    .for_each(|at| *at = at.saturating_add(first));
-                gl.draw_listed(mode, &list);
+        match (*self, places) {
+            (Primitives::Arrays { vertices, .. }, None) => gl.draw_arrays(mode, vertices),
+            (Primitives::Arrays { vertices, .. }, Some(places)) => {
+                gl.draw_places(mode, vertices, &places);
             }
-            (
-                Primitives::Elements {
-                    count,
-                    kind,
-                    indices,
-                    ..
-                },
-                None,
-            ) => gl.draw_elements(mode, count, kind, indices),
-            (Primitives::Elements { kind, indices, .. }, Some(mut list)) => {
-                if let Some(own) = gl.own_indices(count_up, kind, indices) {
-                    let own: Vec<u32> = own.collect();
-                    list.iter_mut()
-                        .for_each(|at| *at = own.get(*at as usize).copied().unwrap_or(0));
-                    gl.draw_listed(mode, &list);
-                }
+            (Primitives::Elements { indices, .. }, None) => gl.draw_elements(mode, indices),
+            (Primitives::Elements { indices, .. }, Some(places)) => {
+                gl.draw_places_of_elements(mode, indices, &places);
             }
         }
     }

@@ -8,6 +8,7 @@ use crate::config::CaptureWhat;
 use crate::gl::{Gl, consts as c};
 use crate::plan::decide::{DisparityMapping, Scene};
 use crate::present::capture::read_rgb;
+use crate::state::Neutral;
 use crate::volume::{Before, Head, Samples};
 
 impl Layer {
@@ -20,7 +21,13 @@ impl Layer {
     }
 
     /// The state is as [`crate::state::Neutral`] has it; changes the read framebuffer.
-    pub(super) fn take_samples(&mut self, gl: &Gl, scene: &Scene, mapping: &DisparityMapping) {
+    pub(super) fn take_samples(
+        &mut self,
+        gl: &Gl,
+        neutral: &Neutral,
+        scene: &Scene,
+        mapping: &DisparityMapping,
+    ) {
         self.synthesis.samples = None;
         let reference = self.targets.atlas.reference_framebuffer();
         let (Some(reference), true) = (
@@ -33,15 +40,26 @@ impl Layer {
         let [width, height] = [tiles.width, tiles.height];
         let depths = |x: i32| -> Vec<f32> {
             let depth = |d: &u32| (f64::from(*d) / f64::from(u32::MAX)) as f32;
-            upright(&gl.read_depth32(x, 0, width, height), width, depth)
+            upright(
+                &gl.read_depth32(neutral.pixels(), x, 0, width, height),
+                width,
+                depth,
+            )
         };
-        let own = tile(gl, &self.targets.atlas, tiles.own()).into_raw();
+        let own = tile(gl, neutral, &self.targets.atlas, tiles.own()).into_raw();
         let (_, x) = self.targets.atlas.readable(tiles.own());
         let own = (own, depths(x));
         gl.bind_framebuffer(c::READ_FRAMEBUFFER, reference);
-        let reference = (read_rgb(gl, 0, 0, width, height).into_raw(), depths(0));
+        let reference = (
+            read_rgb(gl, neutral, 0, 0, width, height).into_raw(),
+            depths(0),
+        );
         gl.read_buffer(c::COLOR_ATTACHMENT0 + 1);
-        let moved = upright(&gl.read_red(0, 0, width, height), width, |m| *m);
+        let moved = upright(
+            &gl.read_red(neutral.pixels(), 0, 0, width, height),
+            width,
+            |m| *m,
+        );
         gl.read_buffer(c::COLOR_ATTACHMENT0);
         let before = scene.before.map(|(mapping, to)| Before {
             line: mapping.ramp.line(),

@@ -9,13 +9,13 @@ use crate::gl::{Gl, consts as c};
 use crate::state::Touch;
 
 /// Vertices that are compared at most: more take longer than they save.
-const MOST: i32 = 1 << 14;
+const MOST: u32 = 1 << 14;
 
 /// The surface that was drawn last, and wholly: nothing of it was left out by the alpha test.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::layer) struct Surface {
     mode: u32,
-    count: i32,
+    count: u32,
     /// Of the positions.
     sum: u64,
     modelview: [f32; 16],
@@ -41,23 +41,16 @@ impl Layer {
     /// The surface of a draw, where that can be told.
     fn surface(&mut self, gl: &Gl, next: Option<Primitives>) -> Option<Surface> {
         let next = next?;
-        let (Primitives::Arrays { mode, count, .. } | Primitives::Elements { mode, count, .. }) =
-            next;
+        let (mode, count) = (next.mode(), next.count());
         let fixed = self.state.compatibility && self.state.program == 0 && self.state.pipeline == 0;
         if !fixed || mode > c::POLYGON || !(1..=MOST).contains(&count) {
             return None;
         }
         let sum = match next {
-            Primitives::Arrays { first, .. } => {
-                let first = u32::try_from(first).ok()?;
-                gl.positions_sum(first..first.checked_add(count.unsigned_abs())?)?
-            }
+            Primitives::Arrays { vertices, .. } => gl.positions_sum(vertices)?,
             // An index that ends a primitive is that of no vertex.
             Primitives::Elements { .. } if self.session.support.restarts(gl) => return None,
-            Primitives::Elements { kind, indices, .. } => {
-                let indices = gl.own_indices(count.unsigned_abs(), kind, indices)?;
-                gl.positions_sum(indices)?
-            }
+            Primitives::Elements { indices, .. } => gl.positions_sum_of_elements(indices)?,
         };
         self.state
             .read_classification(gl, Touch::MODELVIEW | Touch::RANGE);

@@ -2,9 +2,9 @@
 
 use super::super::{Group, Layer, Primitives};
 use crate::config::Config;
-use crate::gl::Gl;
 use crate::gl::consts as c;
 use crate::gl::fake::{Drawn, Fake};
+use crate::gl::{Gl, Vertices};
 use crate::state::Touch;
 use std::sync::Arc;
 
@@ -63,11 +63,11 @@ impl Bench {
 
     /// glDrawArrays of one triangle.
     pub(super) fn draw(&mut self) {
-        let (mode, first, count) = (c::TRIANGLES, 0, 3);
-        let primitives = Primitives::Arrays { mode, first, count };
+        let (mode, vertices) = (c::TRIANGLES, Vertices::without_arrays(0, 3));
+        let primitives = Primitives::Arrays { mode, vertices };
         let gl = self.gl;
         self.layer
-            .primitives(&gl, primitives, &mut || gl.draw_arrays(mode, first, count));
+            .primitives(&gl, primitives, &mut || gl.draw_arrays(mode, vertices));
     }
 
     /// glClear of colours and depths.
