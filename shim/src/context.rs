@@ -10,7 +10,8 @@ use crate::provider::Provider;
 use crate::registry::{self, Key};
 use crate::shares;
 use crate::switch::{self, Mode, say, turn_off};
-use core::cell::{Cell, RefCell};
+use crate::viewports::Viewports;
+use core::cell::{Cell, OnceCell, RefCell};
 use core::panic::AssertUnwindSafe;
 use manyview_core::gl::{Gl, Ptr, Real};
 use manyview_core::layer::{Frames, Layer};
@@ -18,6 +19,8 @@ use manyview_core::layer::{Frames, Layer};
 /// One context of the program, from its first MakeCurrent to its destruction. Only the thread that has it current looks at it.
 pub(crate) struct Context {
     key: Key,
+    /// Its driver, from when it was first current.
+    gl: OnceCell<Gl>,
     drawable: Cell<Drawable>,
     /// Whoever works with it has it alone: a call from inside the layer or the driver finds it borrowed.
     work: RefCell<Work>,
@@ -27,6 +30,8 @@ pub(crate) struct Context {
 struct Work {
     /// Where the window was, for outputs that follow it.
     seen: Option<Seen>,
+    /// Sizes of viewports since the drawable's size was another one.
+    viewports: Viewports,
     layer: Option<Layer>,
     /// With one view: only frames are counted and captured.
     frames: Option<Frames>,
@@ -36,9 +41,11 @@ impl Context {
     pub(crate) fn new(key: Key, drawable: Drawable) -> Context {
         Context {
             key,
+            gl: OnceCell::new(),
             drawable: Cell::new(drawable),
             work: RefCell::new(Work {
                 seen: None,
+                viewports: Viewports::default(),
                 layer: None,
                 frames: None,
             }),
@@ -156,11 +163,14 @@ fn with_context<R>(f: impl FnOnce(&Gl, &Context, &mut Work) -> R) -> Option<R> {
         return None;
     }
     current(|context| {
-        // SAFETY: the context is current on this thread while the hook runs.
-        let gl = unsafe { Gl::new(context.key.0.real()) };
+        let gl = guarded(|| {
+            // SAFETY: the context is current on this thread while the hook runs, and only then is the value used.
+            let gl = || unsafe { Gl::new(context.key.0.real()) };
+            context.gl.get_or_init(gl)
+        });
         let work = AssertUnwindSafe(|| {
             let mut work = context.work.try_borrow_mut().ok()?;
-            Some(f(&gl, context, &mut work))
+            Some(f(gl, context, &mut work))
         });
         let done = guarded(|| std::panic::catch_unwind(work));
         done.unwrap_or_else(|_| {
@@ -170,7 +180,7 @@ fn with_context<R>(f: impl FnOnce(&Gl, &Context, &mut Work) -> R) -> Option<R> {
                 if let Ok(mut work) = context.work.try_borrow_mut()
                     && let Some(l) = &mut work.layer
                 {
-                    guarded(|| l.abandon(&gl));
+                    guarded(|| l.abandon(gl));
                 }
             });
             let _ = std::panic::catch_unwind(abandon);
@@ -248,8 +258,8 @@ pub(crate) fn made_current(provider: Provider, handle: Ptr, drawable: Option<Dra
 fn attach(gl: &Gl, key: Key, work: &mut Work, width: u32, height: u32) -> Result<(), String> {
     match (switch::mode(), switch::config()) {
         (Mode::Active, Some(config)) => {
-            let group = shares::group(key.0, key.1);
-            let layer = Layer::new(gl, config, width, height, group);
+            let member = shares::member(key.0, key.1);
+            let layer = Layer::new(gl, config, width, height, member);
             work.layer = Some(layer.map_err(|e| e.to_string())?);
         }
         (Mode::Observe, Some(config)) => work.frames = Some(Frames::new(config, width, height)),
@@ -331,10 +341,22 @@ pub(crate) fn frame<R>(drawable: Option<Drawable>, swap: impl FnOnce() -> R) -> 
     r
 }
 
-/// Follows the window's size: at the swap and when the program sets its viewport, which are safe moments on the GL thread.
-pub(crate) fn check_size() {
+/// The program sets its viewport to a size. One that it did not use before may be that of a window that has another size now.
+pub(crate) fn viewport_set(width: i32, height: i32) {
+    let new = |context: &Context| {
+        let mut work = context.work.try_borrow_mut().ok()?;
+        Some(work.viewports.is_new((width, height)))
+    };
+    if current(new).flatten() == Some(true) {
+        check_size();
+    }
+}
+
+/// Follows the size of what the program draws to: at the swap, and at a viewport of a new size, which are safe moments on the GL thread.
+fn check_size() {
     let failed = with_context(|gl, c, work| {
         let (w, h) = drawable::size(c.drawable.get())?;
+        work.viewports.window_has((w, h));
         if let Some(f) = &mut work.frames {
             f.resize(w, h);
         }

@@ -15,8 +15,9 @@ pub(crate) fn export(name: &[u8]) -> Option<(usize, Ptr)> {
     Some((slot, address.0.cast_mut().cast()))
 }
 
-/// Which function is to answer a dlsym call: the one behind ours, or [`answer`]. No allocation, no thread-local: this runs at any
-/// time in any thread, for every name.
+/// Which function is to answer a dlsym call: the one behind ours, or [`answer`]. This runs at any time in any thread, for every name, and
+/// so early that there may be no memory to be had: nothing is allocated before a library of GL is loaded. The first call after that reads
+/// the options.
 unsafe extern "C" fn choose(handle: *mut c_void, name: *const c_char) -> *const c_void {
     let next = provider::next_dlsym().map_or(core::ptr::null(), |f| f as *const c_void);
     if name.is_null() || next.is_null() {

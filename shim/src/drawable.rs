@@ -3,6 +3,7 @@
 use crate::geometry::{self, Seen};
 use crate::provider::Provider;
 use crate::windows;
+use crate::xcb;
 use core::ffi::c_ulong;
 use manyview_core::gl::Ptr;
 use manyview_core::layer::OnScreen;
@@ -23,7 +24,7 @@ pub(crate) fn window(drawable: Drawable) -> Option<(String, u32)> {
     match drawable {
         Drawable::Glx(display, drawable) => {
             // SAFETY: the program has just shown a frame with this display on this thread.
-            let name = unsafe { geometry::display_name(display) }?;
+            let name = unsafe { xcb::display_name(display) }?;
             let window = windows::behind(display, drawable);
             Some((name, u32::try_from(window).ok()?))
         }
@@ -66,7 +67,7 @@ pub(crate) fn place(
         match drawable {
             Drawable::Glx(display, drawable) => {
                 let window = windows::behind(display, drawable);
-                (geometry::connection(display)?, window as u32)
+                (xcb::connection(display)?, window as u32)
             }
             Drawable::Egl(display, surface) => windows::behind_surface(display, surface)?,
             // Memory lies nowhere.

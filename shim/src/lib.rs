@@ -21,7 +21,9 @@ mod shares;
 mod socket;
 mod special;
 mod switch;
+mod viewports;
 mod windows;
+mod xcb;
 
 /// Address of a function, in a static table.
 #[derive(Clone, Copy)]

@@ -2,13 +2,13 @@
 
 use crate::provider::Provider;
 use manyview_core::gl::Ptr;
-use manyview_core::layer::Group;
+use manyview_core::layer::Member;
 use std::sync::{Arc, Mutex, PoisonError};
 
 struct Created {
     provider: Provider,
     handle: Ptr,
-    group: Arc<Group>,
+    member: Arc<Member>,
 }
 
 // SAFETY: the handle is only compared.
@@ -21,10 +21,9 @@ pub(crate) fn created(provider: Provider, handle: Ptr, share: Ptr) {
     if handle.is_null() {
         return;
     }
-    let group = if share.is_null() {
-        Arc::default()
-    } else {
-        group(provider, share)
+    let member = match share.is_null() {
+        true => Member::default(),
+        false => member(provider, share).sharing(),
     };
     let mut all = CREATED.lock().unwrap_or_else(PoisonError::into_inner);
     // A driver gives the handle of a destroyed context out again.
@@ -32,7 +31,7 @@ pub(crate) fn created(provider: Provider, handle: Ptr, share: Ptr) {
     all.push(Created {
         provider,
         handle,
-        group,
+        member: Arc::new(member),
     });
 }
 
@@ -42,21 +41,21 @@ pub(crate) fn destroyed(provider: Provider, handle: Ptr) {
     all.retain(|c| (c.provider, c.handle) != (provider, handle));
 }
 
-/// What a context's share group has in common.
-pub(crate) fn group(provider: Provider, handle: Ptr) -> Arc<Group> {
+/// The place of a context in its share group.
+pub(crate) fn member(provider: Provider, handle: Ptr) -> Arc<Member> {
     let mut all = CREATED.lock().unwrap_or_else(PoisonError::into_inner);
     if let Some(c) = all
         .iter()
         .find(|c| (c.provider, c.handle) == (provider, handle))
     {
-        return c.group.clone();
+        return c.member.clone();
     }
     // Created by a function that is not hooked.
-    let group: Arc<Group> = Arc::default();
+    let member: Arc<Member> = Arc::default();
     all.push(Created {
         provider,
         handle,
-        group: group.clone(),
+        member: member.clone(),
     });
-    group
+    member
 }

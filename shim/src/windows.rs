@@ -1,6 +1,6 @@
 //! Which windows of X are behind what the program draws to: drawables of glXCreateWindow, and surfaces of EGL.
 
-use crate::geometry::{self, Connection};
+use crate::xcb::{self, Connection};
 use core::ffi::{CStr, c_ulong};
 use manyview_core::gl::Ptr;
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -107,7 +107,7 @@ unsafe fn is_xlib(native: Ptr) -> bool {
     ];
     others
         .into_iter()
-        .all(|(library, symbol)| geometry::function(library, symbol) != Some(first))
+        .all(|(library, symbol)| xcb::function(library, symbol) != Some(first))
 }
 
 /// The program has made a surface for a window; `window` is what it gave to EGL, by `address` if it gave that of the window's number.
@@ -153,7 +153,7 @@ pub(crate) unsafe fn behind_surface(display: Ptr, surface: Ptr) -> Option<(Conne
     };
     let connection = match native {
         // SAFETY: a Display that EGL uses for this surface, and so is open.
-        Native::Xlib(display) => unsafe { geometry::connection(display as Ptr) }?,
+        Native::Xlib(display) => unsafe { xcb::connection(display as Ptr) }?,
         Native::Xcb(connection) => connection as Connection,
     };
     Some((connection, window))

@@ -167,7 +167,7 @@ fn the_other_views_get_what_the_own_one_has() {
     // OpenGL ES does not blit within one framebuffer.
     let fake = fake.es(3, 2);
     fake.forget();
-    beside.share_own(&gl);
+    beside.share_own(&fake.gl());
     assert_eq!(
         (fake.count("glBlit*"), fake.count("glCopyImageSubData")),
         (0, 6)

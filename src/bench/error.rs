@@ -58,38 +58,6 @@ pub enum BenchError {
         /// Where it was looked for.
         searched: Vec<PathBuf>,
     },
-    /// A scene that gave no times.
-    #[error(
-        "the scene {what} ended {how} before its frames were drawn; `manyview doctor` says what OpenGL there is"
-    )]
-    Ended {
-        /// Scene and configuration.
-        what: String,
-        /// With which status.
-        how: String,
-    },
-    /// A scene that takes too long.
-    #[error(
-        "the scene {what} did not draw {frames} frames within {seconds} s; ask for fewer views or a smaller --size"
-    )]
-    Silent {
-        /// Scene and configuration.
-        what: String,
-        /// As asked for.
-        frames: u32,
-        /// The limit.
-        seconds: u64,
-    },
-    /// A scene that answers something else.
-    #[error(
-        "the scene {what} answered '{line}' in place of times; build it again with `make demos`"
-    )]
-    Answer {
-        /// Scene and configuration.
-        what: String,
-        /// What it said.
-        line: String,
-    },
     /// The layer wrote no picture.
     #[error("the layer wrote no picture of the scene {what}: {reason}")]
     NoPicture {
@@ -130,12 +98,7 @@ impl BenchError {
             | Self::SheetName(_)
             | Self::ChartName(_) => 2,
             Self::NoScene { .. } | Self::Chart(_) | Self::Write { .. } => 3,
-            Self::Ended { .. }
-            | Self::Silent { .. }
-            | Self::Answer { .. }
-            | Self::Unproved(_)
-            | Self::NoWalk(_)
-            | Self::NoPicture { .. } => 4,
+            Self::Unproved(_) | Self::NoWalk(_) | Self::NoPicture { .. } => 4,
         }
     }
 }

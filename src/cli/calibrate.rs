@@ -1,13 +1,14 @@
 //! `manyview calibrate`
 #![forbid(unsafe_code)]
 
+use super::error::CommandError;
 use super::{Outcome, mask, print, show, tell};
 use clap::{Args, Subcommand};
 use indicatif::{ProgressBar, ProgressStyle};
 use manyview::calibrate::{self, CalibrateError, Fit, Guess, Photo, Setup, Sighting};
 use manyview::config::panel;
 use manyview::display::{Display, Kind};
-use manyview::launch::{LaunchError, writable};
+use manyview::launch::writable;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -191,8 +192,8 @@ fn fit(arguments: &FitArguments) -> Outcome {
 }
 
 impl PanelArguments {
-    fn setup(&self) -> Result<Setup, LaunchError> {
-        let size = mask::size(&self.size).ok_or_else(|| LaunchError::Size(self.size.clone()))?;
+    fn setup(&self) -> Result<Setup, CommandError> {
+        let size = mask::size(&self.size).ok_or_else(|| CommandError::Size(self.size.clone()))?;
         self.sheet.setup(size)
     }
 }
@@ -213,7 +214,7 @@ impl SheetArguments {
         Err(CalibrateError::Display { reason })
     }
 
-    pub(super) fn setup(&self, (width, height): (u32, u32)) -> Result<Setup, LaunchError> {
+    pub(super) fn setup(&self, (width, height): (u32, u32)) -> Result<Setup, CommandError> {
         let Some(Display {
             kind: Kind::Slanted(lens),
             views,
@@ -233,7 +234,7 @@ impl SheetArguments {
 
 impl FitArguments {
     /// Side of a pixel in mm, where it is known.
-    fn pixel_mm(&self, setup: &Setup) -> Result<Option<f64>, LaunchError> {
+    fn pixel_mm(&self, setup: &Setup) -> Result<Option<f64>, CommandError> {
         let Some(text) = &self.screen_mm else {
             return Ok(self
                 .dpi

@@ -1,12 +1,13 @@
 //! `manyview capture`
 #![forbid(unsafe_code)]
 
+use super::error::CommandError;
 use super::layer::{CaptureArguments, LayerArguments};
 use super::{Outcome, print, scratch, tell};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
 use manyview::config::{Capture, Config, OptionId, Origin, Output, Settings};
-use manyview::launch::{CaptureJob, Captured, Launch, LaunchError};
+use manyview::launch::{CaptureJob, Captured, Launch};
 use std::ffi::OsString;
 use std::path::Path;
 use std::process::ExitCode;
@@ -77,14 +78,14 @@ pub(super) struct Shot<'a> {
 pub(super) fn shoot(
     shot: Shot,
     mut settings: Settings,
-) -> Result<(Capture, Captured), LaunchError> {
+) -> Result<(Capture, Captured), CommandError> {
     let scratch = scratch()?;
     let status = scratch.path().join("status.json");
     let written = status.to_string_lossy().into_owned();
     settings.set(OptionId::Status, written, Origin::CommandLine);
     let launch = Launch::prepare(shot.command, &settings)?;
     let Some(capture) = &launch.config.capture else {
-        return Err(LaunchError::NoPicture);
+        return Err(CommandError::NoPicture);
     };
     let job = CaptureJob {
         launch: &launch,

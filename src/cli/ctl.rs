@@ -1,11 +1,11 @@
 //! `manyview ctl`
 #![forbid(unsafe_code)]
 
+use super::error::CommandError;
 use super::{Outcome, print};
 use clap::{Args, Subcommand};
 use manyview::config::Capture;
 use manyview::control::{ALL, Answer, ControlError, LAYER, Picture, Request, line, place};
-use manyview::launch::LaunchError;
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -101,7 +101,7 @@ fn word(value: &Value) -> String {
     }
 }
 
-fn request(what: &What) -> Result<Request, LaunchError> {
+fn request(what: &What) -> Result<Request, CommandError> {
     Ok(match what {
         What::Set { pairs } => {
             let mut values = BTreeMap::new();
@@ -119,10 +119,8 @@ fn request(what: &What) -> Result<Request, LaunchError> {
                 None | Some("output") => Capture::completed(path),
                 Some(_) => path.clone(),
             };
-            let path = std::path::absolute(&path).map_err(|source| LaunchError::System {
-                doing: "finding the current folder",
-                source,
-            })?;
+            let path = std::path::absolute(&path)
+                .map_err(|source| CommandError::system("finding the current folder", source))?;
             if path.to_str().is_none() {
                 return Err(ControlError::NotUtf8(path).into());
             }
@@ -136,7 +134,7 @@ fn request(what: &What) -> Result<Request, LaunchError> {
 }
 
 /// The program to talk to. Sockets at which nobody listens any more are removed on the way.
-fn find(wanted: Option<u32>) -> Result<(u32, UnixStream), LaunchError> {
+fn find(wanted: Option<u32>) -> Result<(u32, UnixStream), CommandError> {
     let user = rustix::process::geteuid().as_raw();
     let folder = place::folder(std::env::var_os(place::RUNTIME).as_deref(), user);
     let mut listening = Vec::new();
@@ -185,7 +183,7 @@ fn program(pid: u32) -> Option<String> {
     Some(name.trim_end().to_owned())
 }
 
-fn ask(pid: u32, stream: UnixStream, request: &Request) -> Result<Answer, LaunchError> {
+fn ask(pid: u32, stream: UnixStream, request: &Request) -> Result<Answer, CommandError> {
     let failed = |source: std::io::Error| match source.kind() {
         ErrorKind::WouldBlock | ErrorKind::TimedOut => ControlError::Silent {
             pid,
@@ -193,10 +191,7 @@ fn ask(pid: u32, stream: UnixStream, request: &Request) -> Result<Answer, Launch
         }
         .into(),
         ErrorKind::BrokenPipe | ErrorKind::ConnectionReset => ControlError::Closed(pid).into(),
-        _ => LaunchError::System {
-            doing: "talking to the program",
-            source,
-        },
+        _ => CommandError::system("talking to the program", source),
     };
     stream
         .set_read_timeout(Some(PATIENCE))
@@ -210,8 +205,6 @@ fn ask(pid: u32, stream: UnixStream, request: &Request) -> Result<Answer, Launch
     if answer.is_empty() {
         return Err(ControlError::Closed(pid).into());
     }
-    serde_json::from_str(&answer).map_err(|error| LaunchError::System {
-        doing: "reading the program's answer",
-        source: error.into(),
-    })
+    serde_json::from_str(&answer)
+        .map_err(|error| CommandError::system("reading the program's answer", error.into()))
 }

@@ -2,8 +2,8 @@
 #![forbid(unsafe_code)]
 
 use super::Outcome;
+use super::error::CommandError;
 use clap::{Args, CommandFactory};
-use manyview::launch::LaunchError;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -15,10 +15,8 @@ pub(crate) struct Arguments {
 }
 
 pub(crate) fn run(arguments: &Arguments) -> Outcome {
-    write(&arguments.out).map_err(|source| LaunchError::System {
-        doing: "writing the manual pages",
-        source,
-    })?;
+    write(&arguments.out)
+        .map_err(|source| CommandError::system("writing the manual pages", source))?;
     Ok(ExitCode::SUCCESS)
 }
 

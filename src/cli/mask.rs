@@ -1,10 +1,11 @@
 //! `manyview mask`
 #![forbid(unsafe_code)]
 
+use super::error::CommandError;
 use super::{Outcome, tell};
 use clap::Args;
 use manyview::config::{Config, OptionId, Settings, panel};
-use manyview::launch::{LaunchError, writable};
+use manyview::launch::writable;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -34,7 +35,7 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
         (OptionId::Views, &arguments.views),
     ]);
     let config = Config::from_settings(&settings)?;
-    let size = size(&arguments.size).ok_or_else(|| LaunchError::Size(arguments.size.clone()))?;
+    let size = size(&arguments.size).ok_or_else(|| CommandError::Size(arguments.size.clone()))?;
     writable("the mask", &arguments.out)?;
     panel::write_mask(&config.display, config.views, size, &arguments.out)?;
     tell(&format_args!("wrote {}", arguments.out.display()));

@@ -9,6 +9,7 @@ mod capture;
 mod ctl;
 mod displays;
 mod doctor;
+mod error;
 mod layer;
 mod man;
 mod mask;
@@ -19,8 +20,8 @@ mod volume;
 mod weave;
 
 use clap::{Parser, Subcommand};
+use error::CommandError;
 use image::{ImageFormat, RgbImage};
-use manyview::launch::LaunchError;
 use manyview::simulate::SimulateError;
 use std::io::Write;
 use std::path::Path;
@@ -76,7 +77,7 @@ enum Action {
 }
 
 /// The end of a subcommand: an exit status, or the reason why it could not do its work.
-type Outcome = Result<ExitCode, LaunchError>;
+type Outcome = Result<ExitCode, CommandError>;
 
 pub(crate) fn main() -> ExitCode {
     let outcome = match Arguments::parse().command {
@@ -120,20 +121,17 @@ fn save(seen: &RgbImage, out: &Path) -> Outcome {
 fn print(text: &str) -> Outcome {
     match std::io::stdout().write_all(text.as_bytes()) {
         // Whoever closed the pipe has read enough.
-        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => Err(LaunchError::System {
-            doing: "writing the result",
-            source: error,
-        }),
+        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {
+            Err(CommandError::system("writing the result", error))
+        }
         _ => Ok(ExitCode::SUCCESS),
     }
 }
 
 /// Pretty JSON, with its last line's end.
-fn json(value: &impl serde::Serialize) -> Result<String, LaunchError> {
-    let text = serde_json::to_string_pretty(value).map_err(|error| LaunchError::System {
-        doing: "writing JSON",
-        source: error.into(),
-    })?;
+fn json(value: &impl serde::Serialize) -> Result<String, CommandError> {
+    let text = serde_json::to_string_pretty(value)
+        .map_err(|error| CommandError::system("writing JSON", error.into()))?;
     Ok(text + "\n")
 }
 
@@ -143,11 +141,8 @@ fn print_json(value: &impl serde::Serialize) -> Outcome {
 }
 
 /// A folder for temporary files.
-fn scratch() -> Result<tempfile::TempDir, LaunchError> {
-    tempfile::tempdir().map_err(|source| LaunchError::System {
-        doing: "making a temporary folder",
-        source,
-    })
+fn scratch() -> Result<tempfile::TempDir, CommandError> {
+    tempfile::tempdir().map_err(|source| CommandError::system("making a temporary folder", source))
 }
 
 #[cfg(test)]

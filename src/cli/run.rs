@@ -1,12 +1,13 @@
 //! `manyview run`
 #![forbid(unsafe_code)]
 
+use super::error::CommandError;
 use super::layer::LayerArguments;
 use super::{Outcome, scratch, tell};
 use clap::Args;
 use manyview::bench::proof;
 use manyview::config::{OptionId, Origin, Settings, Status};
-use manyview::launch::{Launch, LaunchError};
+use manyview::launch::Launch;
 use manyview::report::Summary;
 use std::ffi::OsString;
 use std::io::Write;
@@ -71,7 +72,7 @@ pub(super) struct Told {
 
 impl Told {
     /// Has it written to a folder of its own.
-    pub(super) fn new(settings: &mut Settings) -> Result<Self, LaunchError> {
+    pub(super) fn new(settings: &mut Settings) -> Result<Self, CommandError> {
         let folder = scratch()?;
         let file = folder.path().join("status.json");
         settings.set(OptionId::Status, file.to_string_lossy(), Origin::Default);

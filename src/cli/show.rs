@@ -2,12 +2,13 @@
 #![forbid(unsafe_code)]
 
 use super::calibrate::SheetArguments;
+use super::error::CommandError;
 use super::{Outcome, mask, print, tell};
 use clap::Args;
 use image::RgbImage;
 use manyview::calibrate::{self, Action, ByEye, CalibrateError, KEYS, action};
 use manyview::display::LensPart;
-use manyview::launch::{LaunchError, writable};
+use manyview::launch::writable;
 use manyview::window::{Event, Window};
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -35,7 +36,7 @@ pub(crate) struct Arguments {
 
 pub(crate) fn run(arguments: &Arguments) -> Outcome {
     let asked = arguments.size.as_ref();
-    let asked = asked.map(|text| mask::size(text).ok_or_else(|| LaunchError::Size(text.clone())));
+    let asked = asked.map(|text| mask::size(text).ok_or_else(|| CommandError::Size(text.clone())));
     let asked = asked.transpose()?;
     let sheet = arguments.sheet.display()?;
     if sheet.is_some() && arguments.out.is_none() && !arguments.photos {
@@ -102,7 +103,7 @@ fn by_eye(window: &mut Window, fit: &mut ByEye, size: (u32, u32), out: &Path) ->
     }
 }
 
-fn show(window: &mut Window, fit: &ByEye) -> Result<(), LaunchError> {
+fn show(window: &mut Window, fit: &ByEye) -> Result<(), CommandError> {
     Ok(window.show(&fit.picture()?)?)
 }
 

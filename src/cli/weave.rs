@@ -1,6 +1,7 @@
 //! `manyview weave`
 #![forbid(unsafe_code)]
 
+use super::error::CommandError;
 use super::mask::size;
 use super::{Outcome, tell};
 use clap::Args;
@@ -8,7 +9,7 @@ use image::RgbImage;
 use manyview::config::{Config, Filter, OptionId, Origin, Settings};
 use manyview::display::{Display, Placement, QuiltName};
 use manyview::interleave::{quilt, reference};
-use manyview::launch::{LaunchError, writable};
+use manyview::launch::writable;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -47,7 +48,7 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
     settings.set(OptionId::Output, "panel", Origin::CommandLine);
     let display = Config::from_settings(&settings)?.display;
     let wanted = match &arguments.size {
-        Some(text) => Some(size(text).ok_or_else(|| LaunchError::Size(text.clone()))?),
+        Some(text) => Some(size(text).ok_or_else(|| CommandError::Size(text.clone()))?),
         None => display.facts.screen,
     };
     let name = name(arguments, &display)?;
@@ -69,7 +70,7 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
     }
     let config = Config::from_settings(&settings)?;
     if views.len() < config.views as usize {
-        return Err(LaunchError::QuiltViews {
+        return Err(CommandError::QuiltViews {
             has: views.len(),
             wanted: config.views,
         });
@@ -84,7 +85,7 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
         _ => config.display.fine_mask(&placement, config.views)?,
     };
     let panel = reference::filtered(&views, &mask, config.filter)?;
-    let refused = |error: image::ImageError| LaunchError::Picture {
+    let refused = |error: image::ImageError| CommandError::Picture {
         file: arguments.out.clone(),
         reason: error.to_string(),
     };
@@ -100,16 +101,16 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
 }
 
 /// Columns, rows and aspect of the quilt: as asked for, by its name, or the panel's.
-fn name(arguments: &Arguments, display: &Display) -> Result<QuiltName, LaunchError> {
+fn name(arguments: &Arguments, display: &Display) -> Result<QuiltName, CommandError> {
     if let Some(text) = &arguments.quilt {
         let read = QuiltName::read(&format!("_qs{text}"));
         return read
             .ok()
             .flatten()
-            .ok_or_else(|| LaunchError::QuiltShape(text.clone()));
+            .ok_or_else(|| CommandError::QuiltShape(text.clone()));
     }
     let name = arguments.input.file_name().unwrap_or_default();
-    let unknown = || LaunchError::QuiltUnknown(arguments.input.clone());
+    let unknown = || CommandError::QuiltUnknown(arguments.input.clone());
     match (
         QuiltName::read(&name.to_string_lossy())?,
         display.facts.quilt,
@@ -124,8 +125,8 @@ fn name(arguments: &Arguments, display: &Display) -> Result<QuiltName, LaunchErr
     }
 }
 
-fn picture(path: &Path) -> Result<RgbImage, LaunchError> {
-    let refused = |reason: String| LaunchError::Picture {
+fn picture(path: &Path) -> Result<RgbImage, CommandError> {
+    let refused = |reason: String| CommandError::Picture {
         file: path.to_owned(),
         reason,
     };

@@ -6,10 +6,12 @@ use super::immediate::{Ends, Recording};
 use super::real::{Ptr, Real};
 use core::ffi::CStr;
 
-/// The driver of the context that is current on this thread. Every method is the GL command of its name.
+/// The driver of the context that is current on this thread, asked for its version once. Every method is the GL command of its name.
 #[derive(Clone, Copy, Debug)]
 pub struct Gl {
     pub(super) real: &'static Real,
+    version: (u32, u32),
+    es: bool,
     // The context is current on one thread only.
     _not_send: core::marker::PhantomData<*const ()>,
 }
@@ -128,10 +130,18 @@ impl Gl {
     /// # Safety
     /// A context of this provider is current on this thread for as long as the value is used.
     pub unsafe fn new(real: &'static Real) -> Self {
-        Gl {
+        let mut gl = Gl {
             real,
+            version: (0, 0),
+            es: false,
             _not_send: core::marker::PhantomData,
-        }
+        };
+        let text = gl.get_string(c::VERSION);
+        let number = text.trim_start_matches("OpenGL ES ");
+        let mut parts = number.split(['.', ' ']).map(|p| p.parse().unwrap_or(0));
+        gl.version = (parts.next().unwrap_or(0), parts.next().unwrap_or(0));
+        gl.es = text.starts_with("OpenGL ES");
+        gl
     }
 
     /// The table behind, for hooks that pass on the program's own arguments.
@@ -272,8 +282,7 @@ impl Gl {
 
     /// Whether the context is of OpenGL ES.
     pub fn is_es(&self) -> bool {
-        self.get_string(super::consts::VERSION)
-            .starts_with("OpenGL ES")
+        self.es
     }
 
     /// Whether the context is at least of this version of OpenGL, or of that of OpenGL ES; none where OpenGL ES has it in no version.
@@ -285,10 +294,7 @@ impl Gl {
     /// Major and minor version of the context, of OpenGL or of OpenGL ES: for what both have since the same version, else
     /// [`Gl::since`].
     pub fn version(&self) -> (u32, u32) {
-        let s = self.get_string(super::consts::VERSION);
-        let s = s.trim_start_matches("OpenGL ES ");
-        let mut parts = s.split(['.', ' ']).map(|p| p.parse().unwrap_or(0));
-        (parts.next().unwrap_or(0), parts.next().unwrap_or(0))
+        self.version
     }
 
     /// glLoadMatrixf; column-major.

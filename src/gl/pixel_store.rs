@@ -33,9 +33,9 @@ pub struct PixelStore {
 }
 
 impl PixelStore {
-    /// Saves the program's values and sets the layer's, in a context of this version.
-    pub fn enter(gl: &Gl, version: (u32, u32), es: bool) -> Self {
-        let has = |since: Since| !es || since.is_some_and(|since| version >= since);
+    /// Saves the program's values and sets the layer's.
+    pub fn enter(gl: &Gl) -> Self {
+        let has = |since: Since| gl.since((1, 0), since);
         let mut program = Vec::new();
         for &(name, ours, _) in STORE.iter().filter(|k| has(k.2)) {
             let value = gl.get_integer(name);
@@ -44,7 +44,7 @@ impl PixelStore {
                 gl.pixel_storei(name, ours);
             }
         }
-        let buffers = version >= if es { (3, 0) } else { (2, 1) };
+        let buffers = gl.since((2, 1), Some((3, 0)));
         let unbound = |binding, target| match buffers {
             true => {
                 let bound = gl.get_integer(binding) as u32;

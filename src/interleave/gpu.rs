@@ -1,8 +1,8 @@
 //! The output passes in the program's context: on the GPU, or by the CPU reference where the context's GLSL is too old.
 
 use super::shader::{
-    BLOCK_BOUNDS_UNIT, DEPTH_UNIT, MASK_UNIT, Pass, RAY_RANGE_UNIT, REFERENCE_UNITS, SampleAligned,
-    Synthesis, Texels, Uniforms, VIEWS_UNIT,
+    BLOCK_BOUNDS_UNIT, DEPTH_UNIT, MASK_UNIT, MaskUniforms, Pass, RAY_RANGE_UNIT, REFERENCE_UNITS,
+    SampleAligned, Synthesis, Texels, Uniforms, VIEWS_UNIT,
 };
 use super::sheet::{self, Sheet};
 use super::{Depth, Disparities, Form, Layout, Program, reference, rgbd};
@@ -160,6 +160,11 @@ impl Interleaver {
         i
     }
 
+    /// Whether pictures are made by shaders, and not by the CPU.
+    pub fn on_gpu(&self) -> bool {
+        self.cpu.is_none()
+    }
+
     /// What the user should know about how pictures are made.
     pub fn note(&self) -> Option<String> {
         self.cpu
@@ -255,31 +260,29 @@ impl Interleaver {
         }
         gl.active_texture(c::TEXTURE0 + VIEWS_UNIT);
         gl.bind_texture(c::TEXTURE_2D_ARRAY, source.texture);
-        let t = &source.tiles;
+        let tiles = source.tiles;
         let uniforms = Uniforms {
-            tile: [t.width, t.height],
-            stride: t.stride,
+            tiles,
+            rows_top_down: source.top_down,
             picture: size,
-            columns: t.columns,
-            views: t.views,
             layout: match form {
                 Form::Layout(layout) => layout,
                 _ => Layout::View(0),
             },
-            rows_top_down: source.top_down,
             linear: source.srgb,
-            filter: match form {
-                Form::Panel(_, filter) => filter,
-                _ => Filter::Nearest,
+            mask: MaskUniforms {
+                filter: match form {
+                    Form::Panel(_, filter) => filter,
+                    _ => Filter::Nearest,
+                },
+                period: self.uploaded.map_or([1; 2], |known| known.period),
+                column_bits: column_bits(&tiles),
+                black: self.uploaded.map_or(0, |known| known.black),
             },
-            period: self.uploaded.map_or([1; 2], |known| known.period),
-            column_bits: column_bits(t),
-            black: self.uploaded.map_or(0, |known| known.black),
             matrices: match form {
                 Form::Anaglyph(anaglyph) => anaglyph.matrices(),
                 _ => Default::default(),
             },
-            grid: t.grid,
             depth: source.depth.map_or([0.0; 2], |(_, depth)| depth.ends),
             disparities: source
                 .pyramid

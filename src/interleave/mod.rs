@@ -20,6 +20,7 @@ mod sheet;
 mod sources;
 #[cfg(test)]
 mod tests;
+mod uniforms;
 
 pub use anaglyph::Matrix;
 pub use depth::{Depth, rgbd};

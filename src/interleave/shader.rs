@@ -5,12 +5,9 @@
 //! (no `ADJUST_COORDINATE_SPACE`): the shaders are written for OpenGL's window space, y upwards.
 #![forbid(unsafe_code)]
 
-use super::Layout;
-use super::anaglyph::Matrix;
-use super::disparities::Disparities;
 pub use super::pass::{Pass, SampleAligned, Step, Synthesis, Texels};
-use crate::atlas::Grid;
-use crate::config::{DisocclusionSource, Filter};
+pub use super::uniforms::{MaskUniforms, Uniforms};
+use crate::config::DisocclusionSource;
 use naga::back::glsl;
 use naga::valid::{Capabilities, ValidationFlags, Validator};
 
@@ -148,103 +145,6 @@ impl UniformSlot {
     /// Its part of [`Uniforms::words`].
     pub fn of<'w>(&self, words: &'w [u32]) -> Option<&'w [u32]> {
         words.get(self.first..self.first.checked_add(self.count)?)
-    }
-}
-
-/// What the passes need to know; `struct Uniforms` of common.wgsl. Sizes in pixels, width and height.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Uniforms {
-    /// One view.
-    pub tile: [u32; 2],
-    /// From slot to slot of a layer of the atlas; at least the width of the tile.
-    pub stride: u32,
-    /// The picture made.
-    pub picture: [u32; 2],
-    /// Slots in a layer of the atlas, at least 1.
-    pub columns: u32,
-    /// N, at least 1.
-    pub views: u32,
-    /// Whole views beside each other; only the layout pass reads it.
-    pub layout: Layout,
-    /// True when row 0 of the views' texture is the top row of the picture.
-    pub rows_top_down: bool,
-    /// Colours are linear light when they are fetched, and are written as such.
-    pub linear: bool,
-    /// What a subpixel between views shows; only the interleave pass reads it.
-    pub filter: Filter,
-    /// The mask repeats after as many columns and rows, at least 1.
-    pub period: [u32; 2],
-    /// Bits of a place in the mask that are its column; only the passes of texels read it.
-    pub column_bits: u32,
-    /// What the mask has at black subpixels.
-    pub black: u32,
-    /// Of the left and the right view; only the anaglyph pass reads them.
-    pub matrices: (Matrix, Matrix),
-    /// White and black as values of the depth buffer; only the RGBD pass reads them.
-    pub depth: [f32; 2],
-    /// Where the picture's pixels lie in the tiles; only the passes of lenses read it.
-    pub grid: Grid,
-    /// What depths are; only the passes of synthesis read it.
-    pub disparities: Disparities,
-}
-
-impl Uniforms {
-    /// In the order and alignment of the WGSL struct.
-    pub fn words(&self) -> [u32; 84] {
-        let [tile_x, tile_y] = self.tile;
-        let [out_x, out_y] = self.picture;
-        let (grid_x, grid_y) = self.layout.grid(self.views);
-        let (columns, views) = (self.columns.max(1), self.views.max(1));
-        let [period_x, period_y] = self.period.map(|p| p.max(1));
-        let mut words = [0; 84];
-        let whole = [
-            tile_x,
-            tile_y,
-            out_x,
-            out_y,
-            grid_x,
-            grid_y,
-            self.stride,
-            columns,
-            views,
-            self.layout.first(),
-            u32::from(self.rows_top_down),
-            u32::from(self.layout.from_top()),
-            u32::from(self.linear),
-            match self.filter {
-                Filter::Nearest => 0,
-                Filter::Blend => 1,
-                Filter::Gaussian => 2,
-            },
-            period_x,
-            period_y,
-            self.column_bits,
-            self.black,
-        ];
-        for (word, value) in words.iter_mut().zip(whole) {
-            *word = value;
-        }
-        let (left, right) = self.matrices;
-        // Each row is a vec4.
-        for (i, row) in left.iter().chain(&right).enumerate() {
-            for (word, value) in words.iter_mut().skip(20 + 4 * i).zip(row) {
-                *word = value.to_bits();
-            }
-        }
-        for (word, value) in words.iter_mut().skip(44).zip(self.depth) {
-            *word = value.to_bits();
-        }
-        let grid = &self.grid;
-        let [[x, y], [step_x, step_y]] = [grid.origin, grid.step];
-        let lenses = [grid.across, grid.shear, x, step_x, 0.0, grid.up, y, step_y];
-        for (word, value) in words.iter_mut().skip(48).zip(lenses) {
-            *word = (value as f32).to_bits();
-        }
-        let disparities = self.disparities.rows(views);
-        for (word, value) in words.iter_mut().skip(56).zip(disparities.as_flattened()) {
-            *word = value.to_bits();
-        }
-        words
     }
 }
 

@@ -4,6 +4,7 @@
 use super::reference::{ReferenceError, anaglyph, arrange, filtered, interleave};
 use super::shader::*;
 use super::*;
+use crate::atlas::{Grid, Tiles, ViewSet};
 use crate::config::{DisocclusionSource, Filter, Glasses, Mixture};
 use crate::display::{Display, GUARD, Mask, Placement};
 use image::{GrayImage, Rgb, RgbImage, Rgba, RgbaImage};
@@ -240,31 +241,39 @@ fn every_pass_translates_for_every_version() {
 #[test]
 fn uniforms_are_found_by_name() {
     let uniforms = Uniforms {
-        tile: [1, 2],
-        stride: 3,
+        tiles: Tiles {
+            views: 10,
+            window: [1, 2],
+            grid: Grid {
+                across: 5.0,
+                shear: 6.0,
+                up: 7.0,
+                origin: [8.0, 9.0],
+                step: [10.0, 11.0],
+                exact: true,
+            },
+            shown: ViewSet::ALL,
+            width: 1,
+            height: 2,
+            stride: 3,
+            columns: 9,
+            rows: 1,
+        },
         picture: [5, 6],
-        columns: 9,
-        views: 10,
         layout: Layout::Quilt {
             columns: 7,
             rows: 8,
         },
         rows_top_down: true,
         linear: false,
-        filter: Filter::Gaussian,
-        period: [11, 12],
-        column_bits: 13,
-        black: 14,
+        mask: MaskUniforms {
+            filter: Filter::Gaussian,
+            period: [11, 12],
+            column_bits: 13,
+            black: 14,
+        },
         matrices: ([[1.0; 3]; 3], [[2.0; 3]; 3]),
         depth: [3.0, 4.0],
-        grid: Grid {
-            across: 5.0,
-            shear: 6.0,
-            up: 7.0,
-            origin: [8.0, 9.0],
-            step: [10.0, 11.0],
-            exact: true,
-        },
         disparities: Disparities {
             scale: 21.0,
             offset: 22.0,

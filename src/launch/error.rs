@@ -1,15 +1,7 @@
 //! Why a program was not started, or its pictures not taken.
 #![forbid(unsafe_code)]
 
-use crate::bench::BenchError;
-use crate::calibrate::CalibrateError;
 use crate::config::ConfigError;
-use crate::control::ControlError;
-use crate::display::{DisplayError, MaskError, QuiltError};
-use crate::interleave::reference::ReferenceError;
-use crate::simulate::SimulateError;
-use crate::volume::VolumeError;
-use crate::window::WindowError;
 use std::path::PathBuf;
 
 /// What went wrong; each kind has its exit status.
@@ -18,68 +10,6 @@ pub enum LaunchError {
     /// An option.
     #[error(transparent)]
     Config(#[from] ConfigError),
-    /// A capture without a file to write to.
-    #[error("no picture is asked for; set --out to the file to write")]
-    NoPicture,
-    /// The size of a mask.
-    #[error(
-        "--size is '{0}'; give width and height in pixels such as 1920x1080, each from 1 to 16384"
-    )]
-    Size(String),
-    /// A mask that could not be made or written.
-    #[error(transparent)]
-    Mask(#[from] MaskError),
-    /// A panel.
-    #[error(transparent)]
-    Display(#[from] DisplayError),
-    /// A quilt.
-    #[error(transparent)]
-    Quilt(#[from] QuiltError),
-    /// Columns and rows that are none.
-    #[error("--quilt is '{0}'; give columns and rows such as 8x6, each from 1 to 256")]
-    QuiltShape(String),
-    /// A picture of which nobody says what it holds.
-    #[error(
-        "{}: neither its name nor the panel says how many columns and rows of views it has; give them as --quilt 8x6", _0.display()
-    )]
-    QuiltUnknown(PathBuf),
-    /// More views are asked for than there are.
-    #[error("the quilt has {has} views; give --views 1 to {has} instead of {wanted}")]
-    QuiltViews {
-        /// Of the quilt.
-        has: usize,
-        /// As asked for.
-        wanted: u32,
-    },
-    /// Views that make no picture.
-    #[error(transparent)]
-    Reference(#[from] ReferenceError),
-    /// A picture that is not read or not written.
-    #[error("{}: {reason}", file.display())]
-    Picture {
-        /// Its file.
-        file: PathBuf,
-        /// What is wrong with it.
-        reason: String,
-    },
-    /// What an eye would see, but for this.
-    #[error(transparent)]
-    Simulate(#[from] SimulateError),
-    /// What a volumetric display cannot show, or what is no stack of its slices.
-    #[error(transparent)]
-    Volume(#[from] VolumeError),
-    /// A panel that could not be measured.
-    #[error(transparent)]
-    Calibrate(#[from] CalibrateError),
-    /// Nothing was measured.
-    #[error(transparent)]
-    Bench(#[from] BenchError),
-    /// A window of our own that cannot be had.
-    #[error(transparent)]
-    Window(#[from] WindowError),
-    /// A running program that was not asked, or has refused.
-    #[error(transparent)]
-    Control(#[from] ControlError),
     /// The program is neither a path nor in PATH.
     #[error("{0}: not found; give a path, or a name that is in PATH")]
     AppNotFound(String),
@@ -167,6 +97,38 @@ pub enum LaunchError {
         /// How many frames it got.
         seen: String,
     },
+    /// A scene that gave no times.
+    #[error(
+        "the scene {what} ended {how} before its frames were drawn; `manyview doctor` says what OpenGL there is"
+    )]
+    SceneEnded {
+        /// Scene and configuration.
+        what: String,
+        /// With which status.
+        how: String,
+    },
+    /// A scene that takes too long.
+    #[error(
+        "the scene {what} did not draw {frames} frames within {seconds} s; ask for fewer views or a smaller --size"
+    )]
+    SceneSilent {
+        /// Scene and configuration.
+        what: String,
+        /// As asked for.
+        frames: u32,
+        /// The limit.
+        seconds: u64,
+    },
+    /// A scene that answers something else.
+    #[error(
+        "the scene {what} answered '{line}' in place of times; build it again with `make demos`"
+    )]
+    SceneAnswer {
+        /// Scene and configuration.
+        what: String,
+        /// What it said.
+        line: String,
+    },
     /// A signal asked the launcher to stop.
     #[error("stopped by signal {0}")]
     Interrupted(i32),
@@ -177,30 +139,17 @@ impl LaunchError {
     #[must_use]
     pub fn exit_status(&self) -> u8 {
         match self {
-            Self::Config(_)
-            | Self::NotWritable { .. }
-            | Self::NoPicture
-            | Self::Size(_)
-            | Self::Mask(_)
-            | Self::Display(_)
-            | Self::Quilt(_)
-            | Self::QuiltShape(_)
-            | Self::QuiltUnknown(_)
-            | Self::QuiltViews { .. }
-            | Self::Reference(_)
-            | Self::Picture { .. }
-            | Self::Simulate(_)
-            | Self::Volume(_)
-            | Self::Calibrate(_) => 2,
-            Self::Bench(error) => error.exit_status(),
-            Self::Control(error) => error.exit_status(),
-            Self::Window(error) => error.exit_status(),
+            Self::Config(_) | Self::NotWritable { .. } => 2,
             Self::NoLibrary { .. }
             | Self::BadLibrary { .. }
             | Self::NoDisplay { .. }
             | Self::NoOpenGl
             | Self::System { .. } => 3,
-            Self::EndedEarly { .. } | Self::TimedOut { .. } => 4,
+            Self::EndedEarly { .. }
+            | Self::TimedOut { .. }
+            | Self::SceneEnded { .. }
+            | Self::SceneSilent { .. }
+            | Self::SceneAnswer { .. } => 4,
             Self::AppNotExecutable { .. } | Self::AppClosed { .. } => 126,
             Self::AppNotFound(_) => 127,
             Self::Interrupted(signal) => {

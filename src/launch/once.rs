@@ -5,7 +5,6 @@ use super::error::LaunchError;
 use super::program::{Ended, Launch, without_layer};
 use super::screen::Screen;
 use super::stepped::Stop;
-use crate::bench::BenchError;
 use crate::config::DISABLE;
 use std::ffi::OsString;
 use std::io::Read;
@@ -84,17 +83,16 @@ fn run(
     let status = ended.map_err(|error| {
         error.unwrap_or_else(|| {
             let seconds = LIMIT.as_secs();
-            BenchError::Silent {
+            LaunchError::SceneSilent {
                 what: what.clone(),
                 frames: 1,
                 seconds,
             }
-            .into()
         })
     })?;
     if !status.success() {
         let how = Ended(status).describe();
-        return Err(BenchError::Ended { what, how }.into());
+        return Err(LaunchError::SceneEnded { what, how });
     }
     let said = said.and_then(|thread| thread.join().ok());
     said.unwrap_or_else(|| Ok(String::new()))

@@ -5,7 +5,6 @@ use super::error::LaunchError;
 use super::program::{Ended, Launch, without_layer};
 use super::screen::Screen;
 use super::signals;
-use crate::bench::BenchError;
 use crate::bench::protocol::{Hello, Times};
 use crate::config::DISABLE;
 use signal_hook::iterator::Signals;
@@ -164,7 +163,7 @@ impl Stepped {
         let times = Times::read(&line, frames);
         times.ok_or_else(|| {
             let what = self.what.clone();
-            BenchError::Answer { what, line }.into()
+            LaunchError::SceneAnswer { what, line }
         })
     }
 
@@ -178,12 +177,11 @@ impl Stepped {
                 Err(RecvTimeoutError::Timeout) => {
                     let what = self.what.clone();
                     let seconds = ANSWER_LIMIT.as_secs();
-                    return Err(BenchError::Silent {
+                    return Err(LaunchError::SceneSilent {
                         what,
                         frames,
                         seconds,
-                    }
-                    .into());
+                    });
                 }
                 Err(RecvTimeoutError::Disconnected) => {
                     self.end();
@@ -192,7 +190,7 @@ impl Stepped {
                         .wait()
                         .map_or_else(|error| error.to_string(), |status| Ended(status).describe());
                     let what = self.what.clone();
-                    return Err(BenchError::Ended { what, how }.into());
+                    return Err(LaunchError::SceneEnded { what, how });
                 }
             }
         }

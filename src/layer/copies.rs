@@ -5,7 +5,6 @@
 
 use super::{Layer, keep_bindings};
 use crate::gl::{Gl, Object, consts as c};
-use std::sync::Arc;
 
 impl Layer {
     /// glCopyTexImage* and glCopyTexSubImage*: from each view into its own texture. Columns in pixels.
@@ -149,9 +148,9 @@ impl Layer {
         self.targets.offscreen.attachments_changed();
     }
 
-    /// Whether other contexts see its objects: each has its group in its layer, and in the record of what was created.
+    /// Whether other contexts see its objects.
     pub fn is_shared(&self) -> bool {
-        Arc::strong_count(&self.session.group) > 2
+        self.session.group.has_others()
     }
 
     /// Whether the views differ in anything but the window.

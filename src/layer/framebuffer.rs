@@ -193,7 +193,7 @@ impl Layer {
         call: &mut dyn FnMut(),
     ) {
         let mut taken = false;
-        let (default, es) = (self.state.window.default_buffer, self.state.window.es);
+        let (default, es) = (self.state.window.default_buffer, gl.is_es());
         self.with_true_zero(gl, target, &mut || {
             call();
             let is = |(i, b): (u32, &u32)| gl.get_integer(c::DRAW_BUFFER0 + i) as u32 == *b;

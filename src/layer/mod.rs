@@ -31,6 +31,7 @@ mod queries;
 mod recordings;
 mod sampling;
 mod session;
+mod share_group;
 pub mod support;
 mod synthesis;
 mod targets;
@@ -50,17 +51,17 @@ use crate::atlas::{Atlas, AtlasError, Grid, Names, Tiles};
 use crate::config::{AtlasLayout, Config, Optimisation, Strategy, profile};
 use crate::draw::{Driver, Programs};
 use crate::gl::{Gl, consts as c};
-use crate::offscreen::{Images, SharedImages};
 use crate::plan::Rig;
 use crate::plan::decide::{Known, Mono};
 use crate::report::{Proof, Report};
-use crate::state::{BACK, Lists, State, Window};
+use crate::state::{BACK, State, Window};
 use cameras::Cameras;
 use diagnostics::Diagnostics;
 use frame::Frame;
 use recordings::Recordings;
 use session::Session;
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+pub use share_group::Member;
+use std::sync::Arc;
 use support::Support;
 use targets::Targets;
 use variants::Variants;
@@ -84,25 +85,6 @@ pub enum LayerError {
     /// The atlas.
     #[error(transparent)]
     Atlas(#[from] AtlasError),
-}
-
-/// What the contexts of a share group have in common.
-#[derive(Debug, Default)]
-pub struct Group {
-    lists: Mutex<Lists>,
-    images: SharedImages,
-}
-
-impl Group {
-    /// Display lists, and the programs that were linked.
-    fn lists(&self) -> MutexGuard<'_, Lists> {
-        self.lists.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-
-    /// Textures and renderbuffers that the views differ in.
-    fn images(&self) -> MutexGuard<'_, Images> {
-        self.images.lock().unwrap_or_else(PoisonError::into_inner)
-    }
 }
 
 /// One context and its drawable.
@@ -138,7 +120,7 @@ impl Layer {
         config: &'static Config,
         width: u32,
         height: u32,
-        group: Arc<Group>,
+        group: Arc<Member>,
     ) -> Result<Layer, LayerError> {
         let support = Support::ask(gl)?;
         let layer = Self::made(gl, config, (width, height), group, support);
@@ -155,7 +137,7 @@ impl Layer {
         gl: &Gl,
         config: &'static Config,
         (width, height): (u32, u32),
-        group: Arc<Group>,
+        group: Arc<Member>,
         support: Support,
     ) -> Result<Layer, LayerError> {
         let window = Window::ask(gl, width, height, support.compatibility);
@@ -283,7 +265,7 @@ impl Layer {
     /// The program uses a texture name that it never asked for and that is ours: our textures move to other names.
     pub fn yield_names(&mut self, gl: &Gl) {
         // Core profiles have no names but those that were asked for.
-        if self.targets.names.hidden() || !(self.state.compatibility || self.session.support.es) {
+        if self.targets.names.hidden() || !(self.state.compatibility || gl.is_es()) {
             return;
         }
         self.outside_list(gl, |layer| layer.move_names(gl));

@@ -1,6 +1,6 @@
 //! What a destroyed context leaves in its share group, and who deletes it.
 
-use super::{Group, Layer};
+use super::{Layer, Member};
 use crate::gl::{Gl, Held, Object, consts as c};
 use crate::offscreen::Images;
 use crate::state::Orphans;
@@ -39,7 +39,7 @@ impl Layer {
 }
 
 /// Deletes what destroyed contexts of the share group have orphans.
-pub(super) fn delete_orphans(gl: &Gl, group: &Group) {
+pub(super) fn delete_orphans(gl: &Gl, group: &Member) {
     let orphans = std::mem::take(&mut group.lists().orphans);
     if !orphans.framebuffers.is_empty() {
         let bound = gl.get_integer(c::DRAW_FRAMEBUFFER_BINDING) as u32;

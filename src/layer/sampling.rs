@@ -47,7 +47,7 @@ impl Layer {
             self.output(),
             &self.placement(),
             self.targets.detail,
-            self.targets.interleaver.note().is_none(),
+            self.targets.interleaver.on_gpu(),
         )
     }
 

@@ -1,6 +1,6 @@
 //! What holds for as long as a context is under the layer: what the user wants, what the driver can, who shares its objects.
 
-use super::{Group, OnScreen, Support, auto};
+use super::{Member, OnScreen, Support, auto};
 use crate::config::{Config, Live, Strategy};
 use crate::display::Display;
 use crate::gl::Gl;
@@ -14,7 +14,7 @@ pub(super) struct Session {
     pub(super) support: Support,
     /// In force: what the user asked for, or `auto` has come to.
     pub(super) strategy: Strategy,
-    pub(super) group: Arc<Group>,
+    pub(super) group: Arc<Member>,
     /// What the user changes while the program runs.
     pub(super) live: Live,
     /// Where the window lies; none where the window system does not tell.
@@ -30,7 +30,7 @@ impl Session {
         gl: &Gl,
         config: &'static Config,
         support: Support,
-        group: Arc<Group>,
+        group: Arc<Member>,
         program: Option<&str>,
     ) -> Self {
         let all: Vec<Strategy> = [

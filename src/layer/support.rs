@@ -85,7 +85,7 @@ impl Support {
     /// Whether an index may end a primitive.
     #[must_use]
     pub fn restarts(&self, gl: &Gl) -> bool {
-        let on = |since, name| !self.es && self.version >= since && gl.is_enabled(name);
+        let on = |since, name| !gl.is_es() && gl.version() >= since && gl.is_enabled(name);
         on((3, 1), c::PRIMITIVE_RESTART) || on((4, 3), c::PRIMITIVE_RESTART_FIXED_INDEX)
     }
 

@@ -41,7 +41,7 @@ impl Targets {
         let mut names = Names::default();
         let interleaver = Interleaver::new(gl, &mut names, support.glsl, config.synthesis());
         match interleaver.note() {
-            Some(note) if support.es => return Err(LayerError::Passes(note)),
+            Some(note) if gl.is_es() => return Err(LayerError::Passes(note)),
             Some(note) => report.note(note),
             None => {}
         }
@@ -49,7 +49,7 @@ impl Targets {
             true => Detail::SampleAligned,
             false => Detail::Full,
         };
-        if support.es && config.view_scale != ViewScale::Fixed(1.0) {
+        if gl.is_es() && config.view_scale != ViewScale::Fixed(1.0) {
             report.note("views are drawn at the size of the window, because the program has shaders of its own".into());
         }
         let window = &state.window;
@@ -60,11 +60,11 @@ impl Targets {
             session.live.output,
             &placement,
             detail,
-            interleaver.note().is_none(),
+            interleaver.on_gpu(),
         );
         let strategy = session.strategy;
         let atlas = make_atlas(gl, &mut names, config, state, support, grid, strategy)?;
-        let images = session.group.images.clone();
+        let images = session.group.shared_images();
         Ok(Targets {
             atlas,
             names,

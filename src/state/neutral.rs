@@ -57,24 +57,23 @@ pub struct Neutral {
 }
 
 /// What the context is, as far as it decides what there is to save.
-struct Context {
-    version: (u32, u32),
-    es: bool,
+struct Context<'g> {
+    gl: &'g Gl,
     compatibility: bool,
     srgb: bool,
 }
 
-impl Context {
+impl Context<'_> {
     fn since(&self, desktop: (u32, u32), of_es: (u32, u32)) -> bool {
-        self.version >= if self.es { of_es } else { desktop }
+        self.gl.since(desktop, Some(of_es))
     }
 
     fn has(&self, needs: Needs) -> bool {
         match needs {
             Needs::Any => true,
             Needs::Compatibility => self.compatibility,
-            Needs::Desktop => !self.es,
-            Needs::Srgb => self.version >= (3, 0) && self.srgb,
+            Needs::Desktop => !self.gl.is_es(),
+            Needs::Srgb => self.gl.version() >= (3, 0) && self.srgb,
             Needs::Version(desktop, of_es) => self.since(desktop, of_es),
         }
     }
@@ -84,16 +83,15 @@ impl Neutral {
     /// Saves the program's state and sets the neutral one; `compatibility`: the context has fixed function.
     pub fn enter(gl: &Gl, compatibility: bool) -> Neutral {
         let context = Context {
-            version: gl.version(),
-            es: gl.is_es(),
+            gl,
             compatibility,
             srgb: gl.switches_srgb(),
         };
         let enabled = disable_all(gl, &context);
         let colours = Colours::enter(gl, &context);
-        let pixels = PixelStore::enter(gl, context.version, context.es);
+        let pixels = PixelStore::enter(gl);
         // A core context answers one mode, a compatibility context one per face, and OpenGL ES has none.
-        let [front, back] = match context.es {
+        let [front, back] = match gl.is_es() {
             true => [c::FILL; 2],
             false => gl.get_integers(c::POLYGON_MODE).map(|m| m as u32),
         };
@@ -141,7 +139,7 @@ impl Neutral {
 
 /// Disables the capabilities that would spoil a copy of colours; answers those that were on.
 fn disable_all(gl: &Gl, context: &Context) -> Vec<u32> {
-    let planes = match context.es && !gl.has_extension("GL_EXT_clip_cull_distance") {
+    let planes = match gl.is_es() && !gl.has_extension("GL_EXT_clip_cull_distance") {
         true => 0,
         false => gl.get_integer(c::MAX_CLIP_DISTANCES).max(0) as u32,
     };

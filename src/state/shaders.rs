@@ -35,7 +35,8 @@ pub struct Shaders {
     links: u64,
 }
 
-/// Changes of uniforms, in all contexts.
+/// Changes of uniforms, in all contexts: also one without a layer, such as that of a thread that loads, sets uniforms of programs that it
+/// shares. A change in another share group costs one more look at the uniforms, and no picture is wrong.
 static CHANGES: AtomicU64 = AtomicU64::new(1);
 
 /// Programs that were linked or deleted, in all share groups.

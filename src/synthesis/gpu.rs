@@ -6,11 +6,11 @@
 //! `shaders/reference.wgsl`); that camera's map is made here as well, and has to be what [`super::RowDistortionMap`] says.
 
 use crate::atlas::{Atlas, DistortionTarget, PyramidTarget, PyramidTextures, Tiles};
-use crate::config::{DisocclusionSource, Filter};
+use crate::config::DisocclusionSource;
 use crate::gl::{Gl, consts as c};
 use crate::interleave::shader::{
-    BLOCK_BOUNDS_UNIT, DEPTH_UNIT, Pass, RAY_RANGE_UNIT, STEPS_UNITS, Synthesis, Uniforms,
-    VIEWS_UNIT,
+    BLOCK_BOUNDS_UNIT, DEPTH_UNIT, MaskUniforms, Pass, RAY_RANGE_UNIT, STEPS_UNITS, Synthesis,
+    Uniforms, VIEWS_UNIT,
 };
 use crate::interleave::{Disparities, Layout, Places, Program, bind_reference};
 use crate::state::Neutral;
@@ -209,23 +209,15 @@ impl Passes {
 }
 
 fn uniforms(tiles: &Tiles, top_down: bool, disparities: Disparities) -> Uniforms {
-    let tile = [tiles.width, tiles.height];
     Uniforms {
-        tile,
-        stride: tiles.stride,
-        picture: tile,
-        columns: tiles.columns,
-        views: tiles.views,
-        layout: Layout::View(0),
+        tiles: *tiles,
         rows_top_down: top_down,
+        picture: [tiles.width, tiles.height],
+        layout: Layout::View(0),
         linear: false,
-        filter: Filter::Nearest,
-        period: [1; 2],
-        column_bits: 0,
-        black: 0,
+        mask: MaskUniforms::default(),
         matrices: Default::default(),
         depth: [0.0; 2],
-        grid: tiles.grid,
         disparities,
     }
 }

@@ -1,8 +1,7 @@
 //! State that the layer follows call by call, and what the program asks about.
 
-use crate::context::{check_size, draws_to_memory, enter, frame, peek, real, write_back_shared};
+use crate::context::{draws_to_memory, enter, frame, peek, real, viewport_set, write_back_shared};
 use crate::hooks::{ask, compile, touch};
-use core::sync::atomic::{AtomicI64, Ordering::Relaxed};
 use manyview_core::gl::{Ptr, consts::PROGRAM_BINARY_FORMATS};
 use manyview_core::state::{Command, Touch};
 
@@ -15,14 +14,8 @@ pub(crate) unsafe fn glMatrixMode(mode: u32) {
     }
 }
 
-/// Last viewport size seen, so that the window's size is asked for only when the program may have noticed a change.
-static SEEN: AtomicI64 = AtomicI64::new(-1);
-
 pub(crate) unsafe fn glViewport(x: i32, y: i32, width: i32, height: i32) {
-    let key = i64::from(width) << 32 | i64::from(height as u32);
-    if SEEN.swap(key, Relaxed) != key {
-        check_size();
-    }
+    viewport_set(width, height);
     touch(Touch::RECTS);
     // SAFETY: the program's own call.
     unsafe { real().glViewport(x, y, width, height) };

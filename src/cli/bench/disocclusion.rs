@@ -1,6 +1,7 @@
 //! `manyview bench --preset popescu-table1`: no program is started; models are drawn by the CPU reference.
 #![forbid(unsafe_code)]
 
+use super::super::error::CommandError;
 use super::{Arguments, measure, unwritten, write_json};
 use crate::cli::{Outcome as Ended, print, tell};
 use image::{RgbImage, imageops};
@@ -8,7 +9,6 @@ use manyview::bench::disocclusion::{
     Experiment, Frame, Images, Outcome, Scene, View, sheet, text, viewpoints, write_csv,
 };
 use manyview::bench::{BenchError, Preset};
-use manyview::launch::LaunchError;
 use manyview::model::{MODELS, Surface};
 use std::path::Path;
 use std::process::ExitCode;
@@ -124,7 +124,11 @@ fn views(
     all.into_iter().filter_map(|(_, _, view)| view).collect()
 }
 
-fn write(arguments: &Arguments, outcome: &Outcome, sheets: &[RgbImage]) -> Result<(), LaunchError> {
+fn write(
+    arguments: &Arguments,
+    outcome: &Outcome,
+    sheets: &[RgbImage],
+) -> Result<(), CommandError> {
     let wrote = |file: &Path| tell(&format_args!("wrote {}", file.display()));
     if let Some(file) = &arguments.json {
         write_json(outcome, file)?;

@@ -1,6 +1,7 @@
 //! `manyview bench --hard`: draws the hard cases under every strategy and says which bounds hold.
 #![forbid(unsafe_code)]
 
+use super::super::error::CommandError;
 use super::{Arguments, write_json};
 use crate::cli::{Outcome as Ended, print, scratch, tell};
 use image::{RgbImage, imageops};
@@ -11,7 +12,7 @@ use manyview::bench::hard::{
 };
 use manyview::bench::{BenchError, CONFIGURATIONS, Configuration, find};
 use manyview::config::{AtlasLayout, OptionId, Origin, Settings};
-use manyview::launch::{Launch, LaunchError, Screen, Stop, once, writable};
+use manyview::launch::{Launch, Screen, Stop, once, writable};
 use std::collections::HashMap;
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
@@ -79,7 +80,7 @@ fn measured(
     cases: &[&'static Case],
     configurations: &[&'static Configuration],
     api: &str,
-) -> Result<Vec<Outcome>, LaunchError> {
+) -> Result<Vec<Outcome>, CommandError> {
     let mut stop = Stop::watch()?;
     let program = super::measure::program("hard", "hard")?;
     let screen = if api == "egl" {
@@ -204,11 +205,11 @@ impl Runner<'_> {
     fn under(
         &mut self,
         configuration: &'static Configuration,
-    ) -> Result<Vec<Outcome>, LaunchError> {
+    ) -> Result<Vec<Outcome>, CommandError> {
         let layered = match self.layered(configuration) {
             Ok(layered) => layered,
             // The program ends well without the layer, so this is an answer as well.
-            Err(LaunchError::Bench(error)) => {
+            Err(CommandError::Bench(error)) => {
                 let failed = |bound: &Bound| {
                     let most = bound.under(configuration, self.options);
                     let note = error.to_string();
@@ -269,7 +270,7 @@ impl Runner<'_> {
         width: u32,
         x: u32,
         actual: &RgbImage,
-    ) -> Result<f64, LaunchError> {
+    ) -> Result<f64, CommandError> {
         let [spacing, focal] = self
             .cameras
             .map(|number| number.parse().unwrap_or(f64::NAN));
@@ -302,7 +303,7 @@ impl Runner<'_> {
         view: Option<u32>,
         width: u32,
         x: u32,
-    ) -> Result<&(RgbImage, String), LaunchError> {
+    ) -> Result<&(RgbImage, String), CommandError> {
         let key = (view, width, x);
         if !self.drawn.contains_key(&key) {
             let out = self.folder.join("oracle.png");
@@ -327,7 +328,7 @@ impl Runner<'_> {
         Ok(&self.drawn[&key])
     }
 
-    fn layered(&mut self, configuration: &'static Configuration) -> Result<Layered, LaunchError> {
+    fn layered(&mut self, configuration: &'static Configuration) -> Result<Layered, CommandError> {
         let at = |name: &str| self.folder.join(name);
         let (atlas, report) = (at("atlas.png"), at("report.json"));
         // A picture of the run before is no picture of this one.
@@ -376,7 +377,7 @@ impl Runner<'_> {
             .collect()
     }
 
-    fn picture(&self, file: &Path, what: &str) -> Result<RgbImage, LaunchError> {
+    fn picture(&self, file: &Path, what: &str) -> Result<RgbImage, CommandError> {
         let picture = image::open(file).map_err(|error| BenchError::NoPicture {
             what: what.to_owned(),
             reason: error.to_string(),

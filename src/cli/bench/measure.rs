@@ -1,6 +1,7 @@
 //! Scenes in turns: the bare program, then each configuration, round after round.
 #![forbid(unsafe_code)]
 
+use super::super::error::CommandError;
 use crate::cli::scratch;
 use image::RgbImage;
 use indicatif::{ProgressBar, ProgressStyle};
@@ -10,7 +11,7 @@ use manyview::bench::{
     Row, Scene, Spread, Variant, median, ratios,
 };
 use manyview::config::{OptionId, Origin};
-use manyview::launch::{Launch, LaunchError, Screen, Stepped, Stop, library};
+use manyview::launch::{Launch, Screen, Stepped, Stop, library};
 use manyview::metric::Comparison;
 use std::collections::BTreeMap;
 use std::ffi::OsString;
@@ -55,7 +56,7 @@ impl Member {
         }
     }
 
-    fn turn(&mut self, frames: u32, stop: &mut Stop) -> Result<(), LaunchError> {
+    fn turn(&mut self, frames: u32, stop: &mut Stop) -> Result<(), CommandError> {
         let Times { wall, cpu, gpu } = self.stepped.step(frames, stop)?;
         self.wall.push(median(&wall));
         self.cpu.push(median(&cpu));
@@ -72,7 +73,7 @@ pub(super) fn run(
     rounds: u32,
     api: &str,
     preset: Option<&'static Preset>,
-) -> Result<Bench, LaunchError> {
+) -> Result<Bench, CommandError> {
     let date = humantime::format_rfc3339_seconds(SystemTime::now()).to_string();
     let mut stop = Stop::watch()?;
     let programs = programs(groups)?;
@@ -127,7 +128,7 @@ pub(super) fn run(
 }
 
 /// The program of each group; all are there before the first is started.
-fn programs(groups: &[Group]) -> Result<Vec<PathBuf>, LaunchError> {
+fn programs(groups: &[Group]) -> Result<Vec<PathBuf>, CommandError> {
     let scenes = groups.iter().map(|group| group.scene);
     scenes
         .map(|scene| program(scene.name, scene.program))
@@ -135,7 +136,7 @@ fn programs(groups: &[Group]) -> Result<Vec<PathBuf>, LaunchError> {
 }
 
 /// Finds the program of a scene.
-pub(super) fn program(scene: &'static str, program: &'static str) -> Result<PathBuf, LaunchError> {
+pub(super) fn program(scene: &'static str, program: &'static str) -> Result<PathBuf, CommandError> {
     let folders = library::scene_folders()?;
     let mut places = folders.iter().map(|folder| folder.join(program));
     places.find(|path| path.is_file()).ok_or_else(|| {
@@ -188,7 +189,7 @@ impl Runner<'_> {
         rounds: u32,
         stop: &mut Stop,
         bar: &ProgressBar,
-    ) -> Result<(Hello, Vec<Row>), LaunchError> {
+    ) -> Result<(Hello, Vec<Row>), CommandError> {
         let folder = scratch()?;
         let exact = Variant {
             configuration: &EXACT,
@@ -305,7 +306,7 @@ impl Runner<'_> {
         &self,
         variant: &Variant,
         stop: &mut Stop,
-    ) -> Result<Option<&'static Configuration>, LaunchError> {
+    ) -> Result<Option<&'static Configuration>, CommandError> {
         if variant.configuration.name != AUTO {
             return Ok(None);
         }
@@ -331,7 +332,7 @@ impl Runner<'_> {
         variant: &Variant,
         place: &Place,
         stop: &mut Stop,
-    ) -> Result<Stepped, LaunchError> {
+    ) -> Result<Stepped, CommandError> {
         let mut settings = variant.settings(&self.group.views.to_string());
         for (id, value) in [
             (
@@ -348,7 +349,12 @@ impl Runner<'_> {
             settings.set(id, value, Origin::Default);
         }
         let launch = Launch::prepare(&self.command(), &settings)?;
-        Stepped::layered(&launch, self.screen, &self.what(variant), stop)
+        Ok(Stepped::layered(
+            &launch,
+            self.screen,
+            &self.what(variant),
+            stop,
+        )?)
     }
 
     fn command(&self) -> Vec<OsString> {
@@ -376,7 +382,7 @@ impl Runner<'_> {
         format!("{} with {}", self.group.scene.name, variant.name())
     }
 
-    fn picture(&self, variant: &Variant, place: &Place) -> Result<RgbImage, LaunchError> {
+    fn picture(&self, variant: &Variant, place: &Place) -> Result<RgbImage, CommandError> {
         let picture = image::open(&place.picture).map_err(|error| {
             let notes = Report::read(&place.report).notes;
             BenchError::NoPicture {

@@ -7,6 +7,7 @@ mod measure;
 mod prove;
 mod walk;
 
+use super::error::CommandError;
 use super::layer::variable;
 use super::mask::size;
 use super::{Outcome, json, print, tell};
@@ -17,7 +18,7 @@ use manyview::bench::{
     Scene, Variant, chart, find, table,
 };
 use manyview::config::{Config, Optimisation, OptionId, Settings};
-use manyview::launch::{LaunchError, writable};
+use manyview::launch::writable;
 use measure::Group;
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
@@ -200,7 +201,7 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
 }
 
 /// Checks that the files can be written before anything is measured.
-fn check_files(arguments: &Arguments) -> Result<(), LaunchError> {
+fn check_files(arguments: &Arguments) -> Result<(), CommandError> {
     for (purpose, file) in [
         ("the JSON", &arguments.json),
         ("the CSV", &arguments.csv),
@@ -217,13 +218,13 @@ fn check_files(arguments: &Arguments) -> Result<(), LaunchError> {
 }
 
 /// Writes the results as JSON, and says so.
-fn write_json(measured: &impl serde::Serialize, file: &Path) -> Result<(), LaunchError> {
+fn write_json(measured: &impl serde::Serialize, file: &Path) -> Result<(), CommandError> {
     std::fs::write(file, json(measured)?).map_err(|error| unwritten(file, &error))?;
     tell(&format_args!("wrote {}", file.display()));
     Ok(())
 }
 
-fn unwritten(file: &Path, reason: &dyn std::fmt::Display) -> LaunchError {
+fn unwritten(file: &Path, reason: &dyn std::fmt::Display) -> CommandError {
     BenchError::Write {
         file: file.to_owned(),
         reason: reason.to_string(),
@@ -235,7 +236,7 @@ fn unwritten(file: &Path, reason: &dyn std::fmt::Display) -> LaunchError {
 fn groups(
     arguments: &Arguments,
     preset: Option<&'static Preset>,
-) -> Result<Vec<Group>, LaunchError> {
+) -> Result<Vec<Group>, CommandError> {
     let names = |given: &[String],
                  presets: fn(&Preset) -> &'static [&'static str],
                  default: &[&str]|
@@ -301,10 +302,10 @@ fn groups(
 fn sizes(
     arguments: &Arguments,
     preset: Option<&'static Preset>,
-) -> Result<Vec<(u32, u32)>, LaunchError> {
+) -> Result<Vec<(u32, u32)>, CommandError> {
     let mut sizes = Vec::new();
     for text in &arguments.size {
-        sizes.push(size(text).ok_or_else(|| LaunchError::Size(text.clone()))?);
+        sizes.push(size(text).ok_or_else(|| CommandError::Size(text.clone()))?);
     }
     if sizes.is_empty() {
         sizes.push(preset.map_or(SIZE, |preset| preset.size));

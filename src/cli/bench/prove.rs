@@ -1,6 +1,7 @@
 //! `manyview bench -- APP`: the user's own program under each configuration, one after the other, each proved.
 #![forbid(unsafe_code)]
 
+use super::super::error::CommandError;
 use super::super::layer::variable;
 use super::super::run::Told;
 use super::super::{Outcome, print, tell};
@@ -9,7 +10,7 @@ use manyview::bench::{
     BenchError, CONFIGURATIONS, DEFAULT_CONFIGURATIONS, ProofRow, Proofs, Variant, find,
 };
 use manyview::config::{OptionId, Origin, Settings};
-use manyview::launch::{Launch, LaunchError, ProveJob, Screen, Stop};
+use manyview::launch::{Launch, ProveJob, Screen, Stop};
 use std::process::ExitCode;
 use std::time::{Duration, SystemTime};
 
@@ -77,7 +78,7 @@ pub(super) fn run(arguments: &Arguments, frames: u32) -> Outcome {
 }
 
 /// All configurations, checked before the first is started.
-fn turns(arguments: &Arguments) -> Result<Vec<Turn>, LaunchError> {
+fn turns(arguments: &Arguments) -> Result<Vec<Turn>, CommandError> {
     let mut variants = Vec::new();
     let variant = |name: &str, view_scale: &str| {
         let configuration = find(CONFIGURATIONS, |known| known.name, "--strategy", name)?;

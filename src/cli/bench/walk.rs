@@ -1,6 +1,7 @@
 //! `manyview bench --fps F -- APP`: the user's own program, held at a rate by `hybrid`.
 #![forbid(unsafe_code)]
 
+use super::super::error::CommandError;
 use super::super::layer::variable;
 use super::super::run::Told;
 use super::super::{Outcome, print, scratch, tell};
@@ -9,7 +10,7 @@ use image::RgbImage;
 use manyview::bench::BenchError;
 use manyview::bench::walk::{Frame, Walk, told, write};
 use manyview::config::{Config, OptionId, Origin, Settings, TrueViews};
-use manyview::launch::{CaptureJob, Launch, LaunchError};
+use manyview::launch::{CaptureJob, Launch};
 use manyview::metric::Comparison;
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::RangeInclusive;
@@ -45,7 +46,7 @@ impl<'a> Run<'a> {
         &self,
         name: &str,
         frames: &RangeInclusive<u64>,
-    ) -> Result<(BTreeMap<u64, PathBuf>, serde_json::Value), LaunchError> {
+    ) -> Result<(BTreeMap<u64, PathBuf>, serde_json::Value), CommandError> {
         let mut settings = Settings::default();
         let report = self.scratch.join("report.json");
         let out = self.scratch.join(format!("{name}-%d.png"));
@@ -62,7 +63,7 @@ impl<'a> Run<'a> {
         let settings = given(self.arguments, settings)?;
         let launch = Launch::prepare(&self.arguments.command, &settings)?;
         let Some(capture) = &launch.config.capture else {
-            return Err(LaunchError::NoPicture);
+            return Err(CommandError::NoPicture);
         };
         let job = CaptureJob {
             launch: &launch,
@@ -77,7 +78,7 @@ impl<'a> Run<'a> {
     }
 
     /// Milliseconds and views drawn of frames, while nothing is written.
-    fn times(&self, frames: &RangeInclusive<u64>) -> Result<Vec<(f64, u32)>, LaunchError> {
+    fn times(&self, frames: &RangeInclusive<u64>) -> Result<Vec<(f64, u32)>, CommandError> {
         // The picture ends the run; the frame before it has been told of.
         let end = frames.end() + 1;
         let (_, report) = self.pictures("end", &(end..=end))?;
@@ -92,7 +93,7 @@ impl<'a> Run<'a> {
 }
 
 /// The options of the command over those of the environment.
-fn given(arguments: &Arguments, mut settings: Settings) -> Result<Settings, LaunchError> {
+fn given(arguments: &Arguments, mut settings: Settings) -> Result<Settings, CommandError> {
     let views = arguments.views.first().map(String::as_str);
     let ours = [
         (OptionId::Views, views),
@@ -172,7 +173,7 @@ pub(super) fn run(arguments: &Arguments, rate: &str) -> Outcome {
         let file = files.and_then(|files| files.get(&frame));
         let file = file.ok_or_else(|| BenchError::NoWalk(format!("frame {frame} is missing")))?;
         let picture = image::open(file).map_err(|error| unwritten(file, &error))?;
-        Ok::<RgbImage, LaunchError>(picture.into_rgb8())
+        Ok::<RgbImage, CommandError>(picture.into_rgb8())
     };
     let mut rows = Vec::new();
     for ((frame, (ms, drawn)), (exact_ms, _)) in frames.zip(held).zip(exact_times) {
@@ -208,7 +209,7 @@ pub(super) fn run(arguments: &Arguments, rate: &str) -> Outcome {
     Ok(ExitCode::SUCCESS)
 }
 
-fn save(arguments: &Arguments, walk: &Walk) -> Result<(), LaunchError> {
+fn save(arguments: &Arguments, walk: &Walk) -> Result<(), CommandError> {
     if let Some(file) = &arguments.json {
         write_json(walk, file)?;
     }

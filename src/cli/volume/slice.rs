@@ -2,11 +2,11 @@
 #![forbid(unsafe_code)]
 
 use super::super::capture::{Shot, shoot};
+use super::super::error::CommandError;
 use super::super::layer::LayerArguments;
 use super::super::{Outcome, scratch, tell};
 use clap::{Args, ValueEnum};
 use manyview::config::{OptionId, Origin, Settings};
-use manyview::launch::LaunchError;
 use manyview::simulate::SimulateError;
 use manyview::volume::{RotatingScreen, Samples, Slices, Source, Volume, VolumeError};
 use std::ffi::OsString;
@@ -75,10 +75,8 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
         timeout: arguments.timeout,
     };
     shoot(shot, settings)?;
-    let bytes = std::fs::read(&file).map_err(|source| LaunchError::System {
-        doing: "reading what the program has shown",
-        source,
-    })?;
+    let bytes = std::fs::read(&file)
+        .map_err(|source| CommandError::system("reading what the program has shown", source))?;
     let source = match arguments.of {
         Of::Reference => Source::Reference,
         Of::Own => Source::Own,
@@ -102,7 +100,7 @@ pub(crate) fn run(arguments: &Arguments) -> Outcome {
 }
 
 /// Sets the options that slices need, and answers whether the user has placed the zero parallax.
-fn complete(settings: &mut Settings) -> Result<bool, LaunchError> {
+fn complete(settings: &mut Settings) -> Result<bool, CommandError> {
     if let Some((field, value)) = settings.field(OptionId::Strategy)
         && field.origin == Origin::CommandLine
         && value != "occlusion"
@@ -128,7 +126,7 @@ fn complete(settings: &mut Settings) -> Result<bool, LaunchError> {
     Ok(places.iter().any(|id| settings.get(*id).is_some()))
 }
 
-fn refused(flag: &'static str, found: &str, expected: &'static str) -> LaunchError {
+fn refused(flag: &'static str, found: &str, expected: &'static str) -> CommandError {
     SimulateError::Option {
         flag,
         found: found.to_owned(),

@@ -206,8 +206,11 @@ impl Fake {
 
     /// The layer's own calls.
     pub fn gl(&self) -> Gl {
+        let before = self.with(|driver| std::mem::replace(&mut driver.by_program, true));
         // SAFETY: the functions of the table are those of this driver, which is this thread's and needs no context.
-        unsafe { Gl::new(self.real) }
+        let gl = unsafe { Gl::new(self.real) };
+        self.with(|driver| driver.by_program = before);
+        gl
     }
 
     /// Calls of the program: what they make is the program's, and they are not among the calls of the layer.

@@ -1,6 +1,6 @@
 //! A whole layer on the fake driver, and a program that calls it as the hooks do.
 
-use super::super::{Group, Layer, Primitives};
+use super::super::{Layer, Primitives};
 use crate::config::Config;
 use crate::gl::consts as c;
 use crate::gl::fake::{Drawn, Fake};
@@ -41,7 +41,7 @@ impl Bench {
         });
         let config = Box::leak(Box::new(config.expect("options")));
         let gl = fake.gl();
-        let layer = Layer::new(&gl, config, 64, 48, Arc::new(Group::default()));
+        let layer = Layer::new(&gl, config, 64, 48, Arc::default());
         let layer = layer.expect("a layer");
         fake.forget();
         Bench { fake, gl, layer }

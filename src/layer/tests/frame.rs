@@ -129,7 +129,7 @@ fn what_a_frame_asks_is_known() {
     bench.draw();
     bench.fake.forget();
     bench.swap();
-    assert_eq!(total(&bench), 86, "{:#?}", bench.fake.asked());
+    assert_eq!(total(&bench), 83, "{:#?}", bench.fake.asked());
 }
 
 #[test]

@@ -1,0 +1,114 @@
+//! The uniforms of the output passes: `struct Uniforms` of `shaders/common.wgsl`.
+#![forbid(unsafe_code)]
+
+use super::Layout;
+use super::anaglyph::Matrix;
+use super::disparities::Disparities;
+use crate::atlas::Tiles;
+use crate::config::Filter;
+
+/// What the passes need to know. Sizes in pixels, width and height.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Uniforms {
+    /// The views, and where they lie.
+    pub tiles: Tiles,
+    /// True when row 0 of the views' texture is the top row of the picture.
+    pub rows_top_down: bool,
+    /// The picture made.
+    pub picture: [u32; 2],
+    /// Whole views beside each other; only the layout pass reads it.
+    pub layout: Layout,
+    /// Colours are linear light when they are fetched, and are written as such.
+    pub linear: bool,
+    /// Only the passes of a panel read it.
+    pub mask: MaskUniforms,
+    /// Of the left and the right view; only the anaglyph pass reads them.
+    pub matrices: (Matrix, Matrix),
+    /// White and black as values of the depth buffer; only the RGBD pass reads them.
+    pub depth: [f32; 2],
+    /// What depths are; only the passes of synthesis read it.
+    pub disparities: Disparities,
+}
+
+/// What a panel's passes need to know of the mask.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MaskUniforms {
+    /// What a subpixel between views shows; only the interleave pass reads it.
+    pub filter: Filter,
+    /// It repeats after as many columns and rows, at least 1.
+    pub period: [u32; 2],
+    /// Bits of a place in it that are its column; only the passes of texels read it.
+    pub column_bits: u32,
+    /// What it has at black subpixels.
+    pub black: u32,
+}
+
+impl Default for MaskUniforms {
+    /// Of no mask.
+    fn default() -> Self {
+        MaskUniforms {
+            filter: Filter::Nearest,
+            period: [1; 2],
+            column_bits: 0,
+            black: 0,
+        }
+    }
+}
+
+/// Words in the alignment of WGSL: a vector of two begins at a multiple of two words, one of three or four at a multiple of four.
+#[derive(Default)]
+struct Words(Vec<u32>);
+
+impl Words {
+    fn put<const N: usize>(&mut self, values: [u32; N]) {
+        let from = self.0.len().next_multiple_of(N.next_power_of_two());
+        self.0.resize(from, 0);
+        self.0.extend(values);
+    }
+
+    fn put_floats<const N: usize>(&mut self, values: [f32; N]) {
+        self.put(values.map(f32::to_bits));
+    }
+}
+
+impl Uniforms {
+    /// In the order and alignment of the WGSL struct.
+    pub fn words(&self) -> Vec<u32> {
+        let (tiles, mask) = (&self.tiles, &self.mask);
+        let views = tiles.views.max(1);
+        let (columns, rows) = self.layout.grid(tiles.views);
+        let mut words = Words(Vec::with_capacity(96));
+        words.put([tiles.width, tiles.height]);
+        words.put(self.picture);
+        words.put([columns, rows]);
+        words.put([tiles.stride]);
+        words.put([tiles.columns.max(1)]);
+        words.put([views]);
+        words.put([self.layout.first()]);
+        words.put([u32::from(self.rows_top_down)]);
+        words.put([u32::from(self.layout.from_top())]);
+        words.put([u32::from(self.linear)]);
+        words.put([match mask.filter {
+            Filter::Nearest => 0,
+            Filter::Blend => 1,
+            Filter::Gaussian => 2,
+        }]);
+        words.put(mask.period.map(|p| p.max(1)));
+        words.put([mask.column_bits]);
+        words.put([mask.black]);
+        let (left, right) = self.matrices;
+        for [red, green, blue] in left.into_iter().chain(right) {
+            words.put_floats([red, green, blue, 0.0]);
+        }
+        let [white, black] = self.depth;
+        words.put_floats([white, black, 0.0, 0.0]);
+        let grid = &tiles.grid;
+        let [[x, y], [step_x, step_y]] = [grid.origin, grid.step];
+        words.put_floats([grid.across, grid.shear, x, step_x].map(|v| v as f32));
+        words.put_floats([0.0, grid.up, y, step_y].map(|v| v as f32));
+        for row in self.disparities.rows(views) {
+            words.put_floats(row);
+        }
+        words.0
+    }
+}

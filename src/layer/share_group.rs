@@ -1,0 +1,84 @@
+//! What the contexts of a share group have in common.
+
+use crate::offscreen::{Images, SharedImages};
+use crate::state::Lists;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+#[derive(Debug, Default)]
+struct Group {
+    lists: Mutex<Lists>,
+    images: SharedImages,
+    members: AtomicUsize,
+}
+
+/// The place of one context in its share group: from its creation until it is destroyed and its layer is gone.
+#[derive(Debug)]
+pub struct Member(Arc<Group>);
+
+impl Default for Member {
+    /// Of a context that shares with none yet.
+    fn default() -> Self {
+        Member::of(Arc::default())
+    }
+}
+
+impl Member {
+    fn of(group: Arc<Group>) -> Self {
+        group.members.fetch_add(1, Ordering::Relaxed);
+        Member(group)
+    }
+
+    /// That of a new context that shares with this one.
+    #[must_use]
+    pub fn sharing(&self) -> Self {
+        Member::of(self.0.clone())
+    }
+
+    /// Whether there are other contexts in the group.
+    #[must_use]
+    pub fn has_others(&self) -> bool {
+        self.0.members.load(Ordering::Relaxed) > 1
+    }
+
+    /// Display lists, and the programs that were linked.
+    pub(super) fn lists(&self) -> MutexGuard<'_, Lists> {
+        let lists = self.0.lists.lock();
+        lists.unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Textures and renderbuffers that the views differ in.
+    pub(super) fn images(&self) -> MutexGuard<'_, Images> {
+        let images = self.0.images.lock();
+        images.unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// The same, to be kept.
+    pub(super) fn shared_images(&self) -> SharedImages {
+        self.0.images.clone()
+    }
+}
+
+impl Drop for Member {
+    fn drop(&mut self) {
+        self.0.members.fetch_sub(1, Ordering::Relaxed);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_context_has_others_while_they_live() {
+        let first = Member::default();
+        assert!(!first.has_others());
+        let second = first.sharing();
+        let third = second.sharing();
+        drop(first);
+        assert!(second.has_others() && third.has_others());
+        drop(second);
+        assert!(!third.has_others());
+        assert!(!Member::default().has_others());
+    }
+}
