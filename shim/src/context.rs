@@ -3,55 +3,17 @@
 use crate::control;
 use crate::deep;
 use crate::drawable::{self, Drawable};
-use crate::geometry::Seen;
 use crate::keys;
 use crate::live;
 use crate::provider::Provider;
-use crate::registry::{self, Key};
+use crate::record::{Context, Key, Work};
+use crate::registry;
 use crate::shares;
 use crate::switch::{self, Mode, say, turn_off};
-use crate::viewports::Viewports;
-use core::cell::{Cell, OnceCell, RefCell};
+use core::cell::Cell;
 use core::panic::AssertUnwindSafe;
 use manyview_core::gl::{Gl, Ptr, Real};
 use manyview_core::layer::{Frames, Layer};
-
-/// One context of the program, from its first MakeCurrent to its destruction. Only the thread that has it current looks at it.
-pub(crate) struct Context {
-    key: Key,
-    /// Its driver, from when it was first current.
-    gl: OnceCell<Gl>,
-    drawable: Cell<Drawable>,
-    /// Whoever works with it has it alone: a call from inside the layer or the driver finds it borrowed.
-    work: RefCell<Work>,
-}
-
-/// What hooks work with.
-struct Work {
-    /// Where the window was, for outputs that follow it.
-    seen: Option<Seen>,
-    /// Sizes of viewports since the drawable's size was another one.
-    viewports: Viewports,
-    layer: Option<Layer>,
-    /// With one view: only frames are counted and captured.
-    frames: Option<Frames>,
-}
-
-impl Context {
-    pub(crate) fn new(key: Key, drawable: Drawable) -> Context {
-        Context {
-            key,
-            gl: OnceCell::new(),
-            drawable: Cell::new(drawable),
-            work: RefCell::new(Work {
-                seen: None,
-                viewports: Viewports::default(),
-                layer: None,
-                frames: None,
-            }),
-        }
-    }
-}
 
 /// Per thread. No destructor: threads may call GL while they are torn down.
 struct Thread {
@@ -175,7 +137,7 @@ fn with_context<R>(f: impl FnOnce(&Gl, &Context, &mut Work) -> R) -> Option<R> {
         let done = guarded(|| std::panic::catch_unwind(work));
         done.unwrap_or_else(|_| {
             set_inside(Inside::Outside);
-            turn_off("internal fault");
+            give_up("internal fault");
             let abandon = AssertUnwindSafe(|| {
                 if let Ok(mut work) = context.work.try_borrow_mut()
                     && let Some(l) = &mut work.layer
@@ -188,6 +150,13 @@ fn with_context<R>(f: impl FnOnce(&Gl, &Context, &mut Work) -> R) -> Option<R> {
         })
     })
     .flatten()
+}
+
+/// Turns the layer off for good, and whoever controls it is told.
+fn give_up(why: &str) {
+    if turn_off(why) {
+        control::close(control::State::Closed);
+    }
 }
 
 /// The context that was current on this thread with a drawable; used to tell whether MakeCurrent changes anything.
@@ -364,7 +333,7 @@ fn check_size() {
         l.resize(gl, w, h).err().map(|e| e.to_string())
     });
     if let Some(Some(e)) = failed {
-        turn_off(&e);
+        give_up(&e);
     }
 }
 

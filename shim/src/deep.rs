@@ -5,7 +5,7 @@
 //! library, was bound past us; an entry that is not bound yet is bound here. This runs when a program asks dlsym for anything
 //! after it has opened a library, and when a context is made current.
 
-use crate::dl::export;
+use crate::exports::export;
 use crate::provider::{own, symbol};
 use crate::switch::{self, Mode};
 use core::ffi::{CStr, c_char, c_void};

@@ -2,18 +2,11 @@
 //! dynamic linker looks (VirtualGL issue 266).
 
 use crate::deep;
-use crate::entry::EXPORTS;
+use crate::exports::export;
 use crate::provider;
 use crate::switch;
 use core::ffi::{CStr, c_char, c_void};
 use manyview_core::gl::Ptr;
-
-/// Our exported function of a name, with its slot.
-pub(crate) fn export(name: &[u8]) -> Option<(usize, Ptr)> {
-    let i = EXPORTS.binary_search_by(|e| e.0.cmp(name)).ok()?;
-    let (_, slot, address) = EXPORTS[i];
-    Some((slot, address.0.cast_mut().cast()))
-}
 
 /// Which function is to answer a dlsym call: the one behind ours, or [`answer`]. This runs at any time in any thread, for every name, and
 /// so early that there may be no memory to be had: nothing is allocated before a library of GL is loaded. The first call after that reads

@@ -11,11 +11,13 @@ mod drawable;
 #[rustfmt::skip]
 #[allow(non_snake_case, unreachable_pub, unused_unsafe, clippy::missing_safety_doc, clippy::too_many_arguments, clippy::not_unsafe_ptr_arg_deref, reason = "generated; the names and signatures are the API's own, the contract of each is the API's")]
 mod entry;
+mod exports;
 mod geometry;
 mod hooks;
 mod keys;
 mod live;
 mod provider;
+mod record;
 mod registry;
 mod shares;
 mod socket;

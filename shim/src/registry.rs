@@ -1,17 +1,12 @@
 //! Every context of the program that has been current, and which thread has it.
 
-use crate::context::Context;
-use crate::provider::Provider;
+use crate::record::{Context, Key};
 use core::ffi::c_int;
-use manyview_core::gl::Ptr;
 use std::sync::{Condvar, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 /// How long a thread waits for another one that has left a context in the driver, and not yet here.
 const HANDOVER: Duration = Duration::from_secs(1);
-
-/// A context of the program: handles are those of one provider.
-pub(crate) type Key = (Provider, Ptr);
 
 struct Entry {
     key: Key,
@@ -119,6 +114,7 @@ pub(crate) fn is_destroyed(context: *const Context) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::provider::Provider;
 
     fn key(handle: usize) -> Key {
         (Provider::Gl, core::ptr::without_provenance_mut(handle))

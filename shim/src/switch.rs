@@ -1,6 +1,5 @@
 //! Whether the layer is on in this process, and so where each exported function leads.
 
-use crate::control;
 use crate::entry::{ENTRY, HOOK};
 use crate::provider;
 use core::sync::atomic::{AtomicBool, Ordering::Relaxed};
@@ -72,14 +71,15 @@ pub(crate) fn say(text: &str) {
     }
 }
 
-/// Turns the layer off for the rest of the process.
-pub(crate) fn turn_off(why: &str) {
-    if !OFF.swap(true, Relaxed) {
-        control::close(control::State::Closed);
+/// Turns the layer off for the rest of the process; answers whether it was on.
+pub(crate) fn turn_off(why: &str) -> bool {
+    let was_on = !OFF.swap(true, Relaxed);
+    if was_on {
         say(&format!(
             "{why}; the layer is off, the program goes on without it"
         ));
     }
+    was_on
 }
 
 /// Whether the layer was turned off.

@@ -32,7 +32,8 @@ pub use view_set::ViewSet;
 use crate::gl::{Gl, consts as c};
 use crate::state::Window;
 
-/// Tiles, textures and framebuffers of one context.
+/// Tiles, textures and framebuffers of one context. More than 12 fields: one for each kind of image, made when it is first wanted.
+/// More than 25 methods: what is done with each kind, in a file for each.
 #[derive(Debug)]
 pub struct Atlas {
     /// Where the views lie.
@@ -89,14 +90,14 @@ fn color_format(w: &Window) -> (u32, u32, u32) {
     match (r, a) {
         _ if w.float => (c::RGBA16F, c::RGBA, c::FLOAT),
         (9..=10, _) => (c::RGB10_A2, c::RGBA, c::UNSIGNED_INT_2_10_10_10_REV),
-        (11.., _) if w.es => (c::RGBA16F, c::RGBA, c::FLOAT),
+        (11.., _) if w.buffers.es => (c::RGBA16F, c::RGBA, c::FLOAT),
         (11.., _) => (c::RGBA16, c::RGBA, c::UNSIGNED_SHORT),
         (5, 0) => (c::RGB565, c::RGB, c::UNSIGNED_BYTE),
         (5, 1) => (c::RGB5_A1, c::RGBA, c::UNSIGNED_BYTE),
         (4, _) => (c::RGBA4, c::RGBA, c::UNSIGNED_BYTE),
         // A window without alpha reads 1 there, and blending with the destination's alpha sees 1.
         // Which OpenGL ES cannot draw to.
-        (_, 0) if w.srgb && w.es => (c::SRGB8_ALPHA8, c::RGBA, c::UNSIGNED_BYTE),
+        (_, 0) if w.srgb && w.buffers.es => (c::SRGB8_ALPHA8, c::RGBA, c::UNSIGNED_BYTE),
         (_, 0) if w.srgb => (c::SRGB8, c::RGB, c::UNSIGNED_BYTE),
         (_, 0) => (c::RGB8, c::RGB, c::UNSIGNED_BYTE),
         _ if w.srgb => (c::SRGB8_ALPHA8, c::RGBA, c::UNSIGNED_BYTE),
@@ -121,7 +122,7 @@ fn depth_format(w: &Window) -> Option<(u32, u32, u32, u32)> {
             c::UNSIGNED_SHORT,
             c::DEPTH_ATTACHMENT,
         )),
-        (25.., 0) if w.es => Some((
+        (25.., 0) if w.buffers.es => Some((
             c::DEPTH_COMPONENT32F,
             c::DEPTH_COMPONENT,
             c::FLOAT,

@@ -33,7 +33,7 @@ pub struct Bench {
     pub limits: Vec<Limit>,
 }
 
-/// One configuration of one scene.
+/// One configuration of one scene. More than 12 fields: one for each member of the JSON.
 #[derive(Debug, Serialize)]
 pub struct Row {
     /// Name of the scene.

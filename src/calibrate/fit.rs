@@ -15,6 +15,17 @@ const UNSURE_PART: f64 = 0.05;
 /// Root mean square of the residuals, turns, above which the model does not describe the photo.
 const LARGEST_RESIDUAL: f64 = 0.08;
 
+/// How well the phase of the mask is known, as standard deviations in views.
+#[derive(Clone, Copy, Debug)]
+pub struct PhaseError {
+    /// The mean over the panel.
+    pub mean: f64,
+    /// At the worst place of the panel.
+    pub worst: f64,
+    /// The part of the panel that may be off by more than half a view, at four standard deviations, 0 to 1.
+    pub unsure: f64,
+}
+
 /// A lens sheet measured.
 #[derive(Clone, Debug)]
 pub struct Fit {
@@ -34,12 +45,8 @@ pub struct Fit {
     pub cameras: Vec<Camera>,
     /// The residuals of the fit.
     pub residuals: Residuals,
-    /// Standard deviation of the phase, in views: the mean over the panel.
-    pub deviation: f64,
-    /// The same at the worst place of the panel.
-    pub worst_deviation: f64,
-    /// The part of the panel that may be off by more than half a view, at four standard deviations, 0 to 1.
-    pub unsure: f64,
+    /// How well the phase of the mask is known.
+    pub phase: PhaseError,
     /// Reasons to doubt the fit, each with the remedy; empty for a good fit.
     pub doubts: Vec<String>,
     /// Residual of each block of each photo, in views: column and row of 11, then the value.
@@ -147,7 +154,7 @@ impl Answer<'_> {
         }
         let all: Vec<f64> = misses.iter().flatten().map(|(_, miss)| *miss).collect();
         let residuals = Residuals::of(&all);
-        let known = self.known(&sheet, &misses)?;
+        let phase = self.phase_error(&sheet, &misses)?;
         let mut fit = Fit {
             pitch,
             slant,
@@ -157,9 +164,7 @@ impl Answer<'_> {
             bias: self.setup.bias.then_some(sheet.bias),
             cameras,
             residuals,
-            deviation: known.mean,
-            worst_deviation: known.worst,
-            unsure: known.unsure,
+            phase,
             doubts: Vec::new(),
             misses,
         };
@@ -174,7 +179,11 @@ impl Answer<'_> {
     }
 
     /// How well the phase of the mask is known over the panel, in views.
-    fn known(&self, sheet: &Sheet, misses: &[Vec<((usize, usize), f64)>]) -> Option<Known> {
+    fn phase_error(
+        &self,
+        sheet: &Sheet,
+        misses: &[Vec<((usize, usize), f64)>],
+    ) -> Option<PhaseError> {
         let covariance = &self.solution.minimum.covariance;
         let first = self.problem.sheet_at();
         let views = f64::from(self.setup.views);
@@ -209,7 +218,7 @@ impl Answer<'_> {
             unsure += f64::from(u8::from(SURE * deviation + shape > 0.5));
         }
         let count = (BLOCKS * BLOCKS) as f64;
-        Some(Known {
+        Some(PhaseError {
             mean: mean / count,
             worst,
             unsure: unsure / count,
@@ -235,7 +244,7 @@ impl Answer<'_> {
 
     fn doubts(&self, fit: &Fit) -> Vec<String> {
         let mut doubts = Vec::new();
-        if fit.unsure > UNSURE_PART {
+        if fit.phase.unsure > UNSURE_PART {
             let remedy = if self.sightings.len() == 1 {
                 "take another photo from 10 degrees to the side and another distance, or give --cone and --focal"
             } else {
@@ -243,7 +252,7 @@ impl Answer<'_> {
             };
             doubts.push(format!(
                 "{:.0} % of the panel may be off by more than half a view; {remedy}",
-                100.0 * fit.unsure
+                100.0 * fit.phase.unsure
             ));
         }
         if self.solution.ambiguous {
@@ -267,12 +276,6 @@ impl Answer<'_> {
         }
         doubts
     }
-}
-
-struct Known {
-    mean: f64,
-    worst: f64,
-    unsure: f64,
 }
 
 /// Residuals that neighbours and photos have in common: the mean over photos and 3x3 blocks.

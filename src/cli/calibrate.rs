@@ -2,12 +2,11 @@
 #![forbid(unsafe_code)]
 
 use super::error::CommandError;
+use super::sheet::SheetArguments;
 use super::{Outcome, mask, print, show, tell};
 use clap::{Args, Subcommand};
 use indicatif::{ProgressBar, ProgressStyle};
 use manyview::calibrate::{self, CalibrateError, Fit, Guess, Photo, Setup, Sighting};
-use manyview::config::panel;
-use manyview::display::{Display, Kind};
 use manyview::launch::writable;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -39,28 +38,6 @@ enum Step {
 }
 
 #[derive(Args)]
-pub(super) struct SheetArguments {
-    /// Panel as it is thought to be: a built-in name or a file of kind "slanted", with a pitch right to 1 %
-    #[arg(long, value_name = "NAME|FILE", required_unless_present = "pitch")]
-    display: Option<String>,
-    /// In place of --display: subpixels from lens to lens, right to 1 %
-    #[arg(long, value_name = "P", conflicts_with = "display", requires = "views")]
-    pitch: Option<f64>,
-    /// With --pitch: subpixels per row downwards
-    #[arg(
-        long,
-        value_name = "S",
-        default_value_t = 0.0,
-        allow_hyphen_values = true,
-        conflicts_with = "display"
-    )]
-    slant: f64,
-    /// With --pitch: number of views
-    #[arg(long, value_name = "N", conflicts_with = "display")]
-    views: Option<u32>,
-}
-
-#[derive(Args)]
 struct PanelArguments {
     #[command(flatten)]
     sheet: SheetArguments,
@@ -82,24 +59,8 @@ struct PatternArguments {
 struct FitArguments {
     #[command(flatten)]
     panel: PanelArguments,
-    /// Width and height of the lit part of the panel in mm
-    #[arg(long, value_name = "WxH", conflicts_with = "dpi")]
-    screen_mm: Option<String>,
-    /// Pixels per inch of the panel
-    #[arg(long, value_name = "N")]
-    dpi: Option<f64>,
-    /// Distance of the camera from the panel in the first photo, in mm, if it was measured
-    #[arg(long, value_name = "MM")]
-    distance: Option<f64>,
-    /// Write the pitch for viewers at this distance in mm, in place of that of the lens sheet
-    #[arg(long, value_name = "MM")]
-    viewer: Option<f64>,
-    /// Angle over which the views are seen once, in degrees, from the data sheet [default: about 40]
-    #[arg(long, value_name = "DEGREES")]
-    cone: Option<f64>,
-    /// Focal length of the camera in mm for film of 36x24 mm [default: what the photos say]
-    #[arg(long, value_name = "MM")]
-    focal: Option<f64>,
+    #[command(flatten)]
+    setup: SetupArguments,
     /// Measure where red, green and blue lie under the lenses as well
     #[arg(long)]
     colours: bool,
@@ -118,6 +79,29 @@ struct FitArguments {
     /// Photos, JPEG or PNG
     #[arg(required = true, value_name = "PHOTO")]
     photos: Vec<PathBuf>,
+}
+
+// What was measured beside the photos.
+#[derive(Args)]
+struct SetupArguments {
+    /// Width and height of the lit part of the panel in mm
+    #[arg(long, value_name = "WxH", conflicts_with = "dpi")]
+    screen_mm: Option<String>,
+    /// Pixels per inch of the panel
+    #[arg(long, value_name = "N")]
+    dpi: Option<f64>,
+    /// Distance of the camera from the panel in the first photo, in mm, if it was measured
+    #[arg(long, value_name = "MM")]
+    distance: Option<f64>,
+    /// Write the pitch for viewers at this distance in mm, in place of that of the lens sheet
+    #[arg(long, value_name = "MM")]
+    viewer: Option<f64>,
+    /// Angle over which the views are seen once, in degrees, from the data sheet [default: about 40]
+    #[arg(long, value_name = "DEGREES")]
+    cone: Option<f64>,
+    /// Focal length of the camera in mm for film of 36x24 mm [default: what the photos say]
+    #[arg(long, value_name = "MM")]
+    focal: Option<f64>,
 }
 
 pub(crate) fn run(arguments: &Arguments) -> Outcome {
@@ -145,12 +129,12 @@ fn fit(arguments: &FitArguments) -> Outcome {
         let pixel = pixel.ok_or(CalibrateError::NoScreenSize { option })?;
         Ok::<_, CalibrateError>(Some(mm / pixel))
     };
-    setup.distance = pixels("--distance", arguments.distance)?.map(|value| Guess {
+    setup.distance = pixels("--distance", arguments.setup.distance)?.map(|value| Guess {
         value,
         spread: TAPE,
     });
-    setup.viewer = pixels("--viewer", arguments.viewer)?;
-    setup.cone = arguments.cone.map_or(Setup::CONE, |value| Guess {
+    setup.viewer = pixels("--viewer", arguments.setup.viewer)?;
+    setup.cone = arguments.setup.cone.map_or(Setup::CONE, |value| Guess {
         value,
         spread: DATA_SHEET,
     });
@@ -163,7 +147,7 @@ fn fit(arguments: &FitArguments) -> Outcome {
     let (mut photos, mut sightings) = (Vec::new(), Vec::new());
     for path in &arguments.photos {
         bar.set_message(path.display().to_string());
-        let photo = Photo::load(path)?.with_equivalent(arguments.focal);
+        let photo = Photo::load(path)?.with_equivalent(arguments.setup.focal);
         sightings.push(Sighting::new(&photo, &setup)?);
         photos.push(photo);
         bar.inc(1);
@@ -198,45 +182,12 @@ impl PanelArguments {
     }
 }
 
-impl SheetArguments {
-    /// The sheet as it is thought to be; none where only numbers are given.
-    pub(super) fn display(&self) -> Result<Option<Display>, CalibrateError> {
-        let Some(name) = &self.display else {
-            return Ok(None);
-        };
-        let display = panel::load(name).map_err(|reason| CalibrateError::Display { reason })?;
-        if let Kind::Slanted(_) = display.kind {
-            return Ok(Some(display));
-        }
-        let reason = format!(
-            "display `{name}` is no slanted lens sheet; give one of kind \"slanted\", or --pitch, --slant and --views"
-        );
-        Err(CalibrateError::Display { reason })
-    }
-
-    pub(super) fn setup(&self, (width, height): (u32, u32)) -> Result<Setup, CommandError> {
-        let Some(Display {
-            kind: Kind::Slanted(lens),
-            views,
-            ..
-        }) = self.display()?
-        else {
-            let (pitch, views) = (self.pitch.unwrap_or(0.0), self.views.unwrap_or(0));
-            return Ok(Setup::new(width, height, views, pitch, self.slant));
-        };
-        let (pitch, slant) = (lens.pitch.to_f64(), lens.slant.to_f64());
-        let mut setup = Setup::new(width, height, views, pitch, slant);
-        setup.order = lens.order;
-        setup.inverted = lens.inverted;
-        Ok(setup)
-    }
-}
-
 impl FitArguments {
     /// Side of a pixel in mm, where it is known.
     fn pixel_mm(&self, setup: &Setup) -> Result<Option<f64>, CommandError> {
-        let Some(text) = &self.screen_mm else {
+        let Some(text) = &self.setup.screen_mm else {
             return Ok(self
+                .setup
                 .dpi
                 .filter(|dpi| *dpi > 0.0)
                 .map(|dpi| MM_PER_INCH / dpi));
@@ -306,9 +257,9 @@ fn report(fit: &Fit, setup: &Setup, pixel: Option<f64>) -> String {
     let _ = writeln!(
         text,
         "confidence ± {:.3} views over the panel, ± {:.3} at its worst place; {:.0} % of it may be off by half a view or more",
-        fit.deviation,
-        fit.worst_deviation,
-        100.0 * fit.unsure
+        fit.phase.mean,
+        fit.phase.worst,
+        100.0 * fit.phase.unsure
     );
     text
 }

@@ -14,6 +14,7 @@ mod layer;
 mod man;
 mod mask;
 mod run;
+mod sheet;
 mod show;
 mod simulate;
 mod volume;

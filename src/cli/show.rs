@@ -1,8 +1,8 @@
 //! `manyview calibrate show`
 #![forbid(unsafe_code)]
 
-use super::calibrate::SheetArguments;
 use super::error::CommandError;
+use super::sheet::SheetArguments;
 use super::{Outcome, mask, print, tell};
 use clap::Args;
 use image::RgbImage;

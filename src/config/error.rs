@@ -5,6 +5,10 @@ use super::field::Field;
 use crate::display::MAX_FINE_VIEWS;
 use std::path::PathBuf;
 
+/// The depths that may be given, in words.
+pub(super) const DEPTH_REMEDY: &str =
+    "give a number from -10 (far before the panel) to 1 (infinitely far); 0 is on the panel";
+
 /// Why the options cannot be used.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum ConfigError {
@@ -215,7 +219,7 @@ pub enum ConfigError {
         reason: String,
     },
     /// A depth for flat draws out of range.
-    #[error("{field} is '{value}'; {remedy}", remedy = super::profile::DEPTH_REMEDY)]
+    #[error("{field} is '{value}'; {remedy}", remedy = DEPTH_REMEDY)]
     HudDepth {
         /// The option.
         field: Field,

@@ -2,10 +2,12 @@
 #![forbid(unsafe_code)]
 
 mod capture;
+mod choice;
 mod class;
 mod error;
 mod explain;
 mod field;
+mod file;
 mod live;
 mod options;
 pub mod panel;
@@ -40,7 +42,7 @@ pub const MAX_VIEWS: u32 = 256;
 /// The name of the library, whatever its folder.
 pub const LIBRARY_FILE: &str = "libmanyview.so";
 
-/// Everything the layer needs to know before the first frame.
+/// Everything the layer needs to know before the first frame. More than 12 fields: about one for each row of [`options::OPTIONS`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct Config {
     /// Number of views N, at least 1.

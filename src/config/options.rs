@@ -120,7 +120,7 @@ impl Former {
     };
 }
 
-/// One row of the table. Help texts, manual pages, the manual and the messages for wrong values come from it.
+/// One row of the table. More than 12 fields: the columns. Help texts, manual pages, the manual and the messages for wrong values come from it.
 #[derive(Clone, Copy, Debug)]
 pub struct OptionSpec {
     /// Which option.

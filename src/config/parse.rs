@@ -1,6 +1,7 @@
 //! From written options to a [`Config`]; every value is checked here and nowhere else.
 #![forbid(unsafe_code)]
 
+use super::choice::{choice, choices};
 use super::error::ConfigError;
 use super::field::{Field, Origin};
 use super::options::OptionId;
@@ -123,18 +124,6 @@ fn views(settings: &Settings, display: &Display, output: Output) -> Result<u32, 
             .map_err(|reason| ConfigError::Display { field, reason })?;
     }
     Ok(views)
-}
-
-/// The words that an option knows, for a message.
-fn choices(id: OptionId) -> String {
-    let listed = id.spec().listed("and");
-    match id {
-        OptionId::Output => format!(
-            "{listed}, with KIND red-cyan, green-magenta or amber-blue, and -half or -grey after it"
-        ),
-        OptionId::Disable => format!("{listed}, several of them with commas between"),
-        _ => listed,
-    }
 }
 
 const OUTPUTS: &[(&str, Output)] = &[
@@ -285,24 +274,6 @@ fn one_view(field: &Field, value: &str, views: u32) -> Result<u32, ConfigError> 
         });
     }
     Ok(view)
-}
-
-pub(super) fn choice<T: Copy>(
-    settings: &Settings,
-    id: OptionId,
-    table: &[(&str, T)],
-) -> Result<Option<T>, ConfigError> {
-    let Some((field, value)) = settings.field(id) else {
-        return Ok(None);
-    };
-    match table.iter().find(|(name, _)| *name == value) {
-        Some((_, choice)) => Ok(Some(*choice)),
-        None => Err(ConfigError::Choice {
-            choices: choices(id),
-            field,
-            value: value.to_owned(),
-        }),
-    }
 }
 
 pub(super) fn camera(settings: &Settings) -> Result<Camera, ConfigError> {

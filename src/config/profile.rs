@@ -4,7 +4,8 @@
 #![forbid(unsafe_code)]
 
 use super::class::{Class, DepthRange, DepthState, Projection, Viewport, Word};
-use super::settings::{one_line, read_capped};
+use super::error::DEPTH_REMEDY;
+use super::file::{one_line, read_capped};
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 use toml::{Table, Value};
@@ -31,7 +32,7 @@ pub struct Profile {
     pub rules: Vec<Rule>,
 }
 
-/// One rule. An empty list and `None` match everything.
+/// One rule. An empty list and `None` match everything. More than 12 fields: one for each key of a rule.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rule {
     /// File names of programs.
@@ -347,10 +348,6 @@ fn number<'a>(table: &'a Table, key: &str) -> Option<(&'a Value, Option<f64>)> {
     };
     Some((value, number))
 }
-
-/// The depths that may be given, in words.
-pub const DEPTH_REMEDY: &str =
-    "give a number from -10 (far before the panel) to 1 (infinitely far); 0 is on the panel";
 
 /// `5`, `"5..9"` or `"5.."`, both ends included, counted from 1.
 fn range(table: &Table, key: &str) -> Result<Option<(u32, u32)>, String> {

@@ -5,13 +5,11 @@
 
 use super::error::ConfigError;
 use super::field::{Field, Origin, Renaming};
+use super::file::{one_line, read_capped};
 use super::options::{OPTIONS, OptionId, PathKind};
 use super::{panel, profile};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-
-/// A TOML file of options is never larger.
-const MAX_FILE_BYTES: u64 = 64 * 1024;
 
 /// A value as it was written.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -242,19 +240,4 @@ fn rebase(kind: PathKind, value: &str, folder: &Path) -> String {
     } else {
         value.to_owned()
     }
-}
-
-pub(super) fn read_capped(path: &Path) -> Result<String, String> {
-    let about = std::fs::metadata(path).map_err(|error| error.to_string())?;
-    if !about.is_file() {
-        return Err("it is not a file".to_owned());
-    }
-    if about.len() > MAX_FILE_BYTES {
-        return Err(format!("it is larger than {MAX_FILE_BYTES} bytes"));
-    }
-    std::fs::read_to_string(path).map_err(|error| error.to_string())
-}
-
-pub(super) fn one_line(text: &str) -> String {
-    text.split_whitespace().collect::<Vec<_>>().join(" ")
 }

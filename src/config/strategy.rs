@@ -1,7 +1,7 @@
 //! Strategies: which views are drawn, and which are synthesised.
 #![forbid(unsafe_code)]
 
-use super::parse::choice;
+use super::choice::choice;
 use super::{Config, ConfigError, OptionId, Settings};
 
 const STRATEGIES: &[(&str, Strategy)] = &[

@@ -17,7 +17,7 @@ use super::lattice::{Direction, Lattice, Row};
 use super::lens_phase::Phase;
 use super::{Mask, MaskError, Placement};
 
-/// The calibration of a device; lengths in pixels unless said otherwise.
+/// The calibration of a device; lengths in pixels unless said otherwise. More than 12 fields: those of the device.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LookingGlass {
     /// Serial number; its beginning names the model.

@@ -2,68 +2,16 @@
 //!
 //! Based on: Luo et al. (GBMVR) and de Sorbier et al. for the geometry shader; instances as in ANGLE's multiview emulation.
 
-use super::fixed_state::{Driver, FixedState};
+use super::fixed_state::FixedState;
 use super::fragment_state;
 use super::pixel_size::Units;
+use super::programs::{Programs, Stages, Uniforms};
 use super::state_guard::StateGuard;
 use crate::atlas::{Atlas, Tiles as TilePlaces};
-use crate::fixed::{
-    self, Amplifier, Clip, FixedKey, FragmentKey, Limits, Patches, Primitive, Tiles, Unsupported,
-    generate, generate_fragment, sampler,
-};
+use crate::fixed::{self, Amplifier, FixedKey, Primitive, Tiles, Unsupported};
 use crate::gl::{Gl, consts as c};
 use crate::plan::{Method, Reason, Rig, Shear};
 use crate::state::State;
-use std::collections::HashMap;
-use std::ffi::CString;
-
-/// The uniforms of `fixed`'s shaders.
-#[derive(Debug, Default, PartialEq)]
-struct Uniforms {
-    /// `mv_view`: row 0 of P_i · modelview.
-    rows: Vec<[f32; 4]>,
-    /// `mv_tile`.
-    tiles: Vec<[f32; 4]>,
-    /// `mv_map`.
-    map: [f32; 4],
-    /// `mv_clip`.
-    clip: [f32; 4],
-    /// `mv_grid`.
-    grid: [f32; 4],
-}
-
-#[derive(Debug)]
-pub(super) struct Program {
-    pub(super) name: u32,
-    pub(super) patches: Patches,
-    views: i32,
-    map: i32,
-    clip: i32,
-    tiles: i32,
-    grid: i32,
-    pub(super) window: i32,
-    pub(super) disparity: i32,
-    pub(super) levels: i32,
-    /// What the uniforms hold.
-    uploaded: Uniforms,
-}
-
-/// Canonical keys of a program: the vertex stage, and the fragment stage where that is generated as well.
-pub(super) type Stages = (FixedKey, Option<FragmentKey>);
-
-/// The generated programs of one context.
-#[derive(Debug)]
-pub struct Programs {
-    /// What the driver can do.
-    pub limits: Limits,
-    pub(super) driver: Driver,
-    clip: Clip,
-    /// All uniforms are sent with each draw.
-    resends: bool,
-    pub(super) cache: HashMap<Stages, Option<Program>>,
-    /// Programs compiled so far.
-    pub compiled: u64,
-}
 
 /// A draw that an amplifier can make, decided.
 #[derive(Clone, Copy, Debug)]
@@ -76,22 +24,10 @@ pub struct Amplified {
 }
 
 impl Programs {
-    /// For a context. `clip` is for views that lie side by side; `resends`: uniforms that have their value are sent again.
-    pub fn new(limits: Limits, driver: Driver, clip: Clip, resends: bool) -> Programs {
-        Programs {
-            limits,
-            driver,
-            clip,
-            resends,
-            cache: HashMap::new(),
-            compiled: 0,
-        }
-    }
-
     /// Whether all views can be drawn with one viewport and one scissor.
     pub fn allow(state: &State, atlas: &Atlas) -> Result<(), Reason> {
         let (tiles, grid) = (&atlas.tiles, &atlas.tiles.grid);
-        let apart = grid.step[1] != 0.0 || grid.step[0] != 0.0 && state.scissor_test;
+        let apart = grid.step[1] != 0.0 || grid.step[0] != 0.0 && state.rectangles.scissor_test;
         if apart || !grid.is_full() && tiles.columns > 1 {
             return Err(Reason::Kind(
                 "draws to views whose tiles lie at other places of the window",
@@ -196,63 +132,6 @@ impl Programs {
         }
     }
 
-    /// The names of all programs.
-    pub fn names(&self) -> impl Iterator<Item = u32> {
-        self.cache.values().flatten().map(|p| p.name)
-    }
-
-    pub(super) fn compile(
-        &mut self,
-        gl: &Gl,
-        key: &FixedKey,
-        stages: &Stages,
-    ) -> Result<(), Reason> {
-        match self.cache.get(stages) {
-            Some(Some(_)) => return Ok(()),
-            Some(None) => return Err(Reason::Compile),
-            None => {}
-        }
-        let shaders = generate(key, &self.limits).map_err(Reason::Fixed)?;
-        let fragment = match &stages.1 {
-            Some(key) => Some(generate_fragment(key, &self.limits).map_err(Reason::Fixed)?),
-            None => None,
-        };
-        let build = || -> Result<u32, String> {
-            let mut stages = vec![gl.compile(c::VERTEX_SHADER, &shaders.vertex)?];
-            if let Some(g) = &shaders.geometry {
-                stages.push(gl.compile(c::GEOMETRY_SHADER, g)?);
-            }
-            if let Some([control, evaluation]) = &shaders.tessellation {
-                stages.push(gl.compile(c::TESS_CONTROL_SHADER, control)?);
-                stages.push(gl.compile(c::TESS_EVALUATION_SHADER, evaluation)?);
-            }
-            if let Some(f) = &fragment {
-                stages.push(gl.compile(c::FRAGMENT_SHADER, f)?);
-            }
-            gl.link(&stages)
-        };
-        let program = build().ok().map(|name| Program {
-            name,
-            patches: shaders.patches,
-            views: gl.uniform_location(name, c"mv_view"),
-            map: gl.uniform_location(name, c"mv_map"),
-            clip: gl.uniform_location(name, c"mv_clip"),
-            tiles: gl.uniform_location(name, c"mv_tile"),
-            grid: gl.uniform_location(name, c"mv_grid"),
-            window: gl.uniform_location(name, c"mv_window"),
-            disparity: gl.uniform_location(name, c"mv_disparity"),
-            levels: gl.uniform_location(name, c"mv_levels"),
-            uploaded: Uniforms::default(),
-        });
-        if let (Some(program), Some(key)) = (&program, &stages.1) {
-            name_units(gl, program.name, key);
-        }
-        self.compiled += 1;
-        let ok = program.is_some();
-        self.cache.insert(*stages, program);
-        if ok { Ok(()) } else { Err(Reason::Compile) }
-    }
-
     /// Makes the draw. `call` gets the number of views that one call is for: the instance count of an instanced draw.
     #[allow(
         clippy::too_many_arguments,
@@ -334,15 +213,15 @@ impl Batch<'_> {
     /// Row 0 of the product of projection and modelview matrix for a view.
     fn first_row(&self, view: u32) -> [f32; 4] {
         let (state, tiles) = (self.state, &self.tiles);
-        let p = self.shear.map_or(state.projection, |s| {
-            s.projection(&state.projection, self.rig.position(view))
+        let p = self.shear.map_or(state.matrices.projection, |s| {
+            s.projection(&state.matrices.projection, self.rig.position(view))
         });
         if tiles.grid.is_full() {
             return first_row(&p, &self.modelview);
         }
         let p = tiles
             .grid
-            .lean_beside(state.viewport, &p, view, tiles.own());
+            .lean_beside(state.rectangles.viewport, &p, view, tiles.own());
         first_row(&p, &self.modelview)
     }
 
@@ -393,49 +272,12 @@ fn allow_target(key: &FixedKey, mode: u32, geometry: bool) -> Result<(), Reason>
     Ok(())
 }
 
-/// Sets the samplers of a program to their units. The program in use is 0, as it is for all fixed function.
-fn name_units(gl: &Gl, program: u32, key: &FragmentKey) {
-    gl.use_program(program);
-    for unit in key.sampled() {
-        if let Ok(name) = CString::new(sampler(unit)) {
-            gl.uniform_1i(gl.uniform_location(program, &name), unit as i32);
-        }
-    }
-    if key.displaced {
-        let map = gl.uniform_location(program, c"mv_distortion_map");
-        gl.uniform_1i(map, super::reference::UNIT as i32);
-    }
-    gl.use_program(0);
-}
-
 /// Row 0 of P · M, both column-major, summed in single precision in the order of Mesa's `matmul4`: the driver makes its own
 /// product so, and equal bits here make equal pixels.
 fn first_row(p: &[f32; 16], m: &[f32; 16]) -> [f32; 4] {
     [0, 4, 8, 12].map(|column: usize| {
         p[0] * m[column] + p[4] * m[column + 1] + p[8] * m[column + 2] + p[12] * m[column + 3]
     })
-}
-
-impl Program {
-    /// Sets the uniforms that are not set already. `mv_first` stays 0: each call's views begin at index 0.
-    fn upload(&mut self, gl: &Gl, new: Uniforms) {
-        if self.uploaded.rows != new.rows {
-            gl.uniform_4fv(self.views, &new.rows);
-        }
-        if self.uploaded.tiles != new.tiles {
-            gl.uniform_4fv(self.tiles, &new.tiles);
-        }
-        if self.uploaded.map != new.map {
-            gl.uniform_4fv(self.map, &[new.map]);
-        }
-        if self.uploaded.clip != new.clip {
-            gl.uniform_4fv(self.clip, &[new.clip]);
-        }
-        if self.uploaded.grid != new.grid {
-            gl.uniform_4fv(self.grid, &[new.grid]);
-        }
-        self.uploaded = new;
-    }
 }
 
 /// What a geometry shader is fed with for a mode, and the mode that does it.

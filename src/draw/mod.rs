@@ -6,6 +6,7 @@ mod current;
 mod fixed_state;
 mod fragment_state;
 mod pixel_size;
+mod programs;
 mod reference;
 mod replay;
 mod state_guard;
@@ -13,9 +14,10 @@ mod state_guard;
 mod tests;
 mod variant;
 
-pub use amplified::{Amplified, Programs};
+pub use amplified::Amplified;
 pub use current::Current;
 pub use fixed_state::{Driver, FixedState, limits};
+pub use programs::Programs;
 pub use reference::{Drawing, Rays, draw_to_reference};
 pub use replay::{
     ReplayHazard, cut, enter_own, others, replay, restore_viewport, set_tile_viewport,

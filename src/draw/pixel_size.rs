@@ -54,7 +54,7 @@ impl PixelSizeGuard {
             offset: flatten(gl, state, grid),
             ..PixelSizeGuard::default()
         };
-        if state.compatibility && units != Units::None {
+        if state.has.compatibility && units != Units::None {
             pixel_sizes.sharpen(gl, grid, units == Units::All);
         }
         pixel_sizes
@@ -107,7 +107,7 @@ fn flatten(gl: &Gl, state: &State, grid: &Grid) -> Option<[f32; 3]> {
     }
     let [factor, units] =
         [c::POLYGON_OFFSET_FACTOR, c::POLYGON_OFFSET_UNITS].map(|name| gl.get_floats::<1>(name)[0]);
-    let clamp = match state.offset_clamp {
+    let clamp = match state.has.offset_clamp {
         true => gl.get_floats::<1>(c::POLYGON_OFFSET_CLAMP)[0],
         false => 0.0,
     };

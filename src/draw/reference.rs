@@ -1,9 +1,9 @@
 //! One draw for the reference image of an occlusion camera, with a generated program or a variant of the program's own.
 
-use super::amplified::Programs;
 use super::fixed_state::FixedState;
 use super::fragment_state;
 use super::pixel_size::Units;
+use super::programs::{DISTORTION_UNIT, Programs};
 use super::replay::{ReplayHazard, replay};
 use super::state_guard::StateGuard;
 use super::variant::Variant;
@@ -12,10 +12,6 @@ use crate::fixed::{Amplifier, Primitive, Tiles};
 use crate::gl::{Gl, consts as c};
 use crate::plan::{Reason, Rig, Shear};
 use crate::state::State;
-
-/// The texture unit of the map: the last one that all drivers with OpenGL 3.0 have, or where a program's own shaders have a use for it, the
-/// last one that they have none for.
-pub(super) const UNIT: u32 = 31;
 
 /// What the rays are distorted by.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -64,7 +60,7 @@ fn few(vertices: u64, atlas: &Atlas) -> bool {
 impl Rays {
     /// `mv_window` and `mv_disparity` of a picture; `sparse`: without what is not moved.
     fn uniforms(&self, state: &State, atlas: &Atlas, sparse: bool) -> [[f32; 4]; 2] {
-        let [x, y, width, height] = state.viewport.map(|n| n as f32);
+        let [x, y, width, height] = state.rectangles.viewport.map(|n| n as f32);
         let (middle, up) = (y + height / 2.0, height / 2.0);
         let rows = match atlas.flipped {
             true => [-up, atlas.tiles.height as f32 - middle],
@@ -143,8 +139,10 @@ pub fn draw_to_reference(
     rays: &Rays,
     call: &mut dyn FnMut(),
 ) {
-    let unit = (0..=UNIT).rev().find(|unit| !units.contains(unit));
-    let unit = unit.unwrap_or(UNIT);
+    let unit = (0..=DISTORTION_UNIT)
+        .rev()
+        .find(|unit| !units.contains(unit));
+    let unit = unit.unwrap_or(DISTORTION_UNIT);
     let sparse = !few(vertices, atlas);
     variant.set_distortion(gl, unit, rays.uniforms(state, atlas, sparse));
     let map = Bound::enter(gl, unit, rays.map);
@@ -197,7 +195,7 @@ impl Programs {
         let Some(Some(program)) = self.cache.get(&stages) else {
             return Err(Reason::Compile);
         };
-        let map = Bound::enter(gl, UNIT, rays.map);
+        let map = Bound::enter(gl, DISTORTION_UNIT, rays.map);
         let around = StateGuard::enter(gl, state, atlas, &stages.0, program, Units::None, fixed);
         let [window, disparity] = rays.uniforms(state, atlas, !few);
         gl.uniform_4fv(program.window, &[window]);

@@ -53,7 +53,7 @@ pub fn replay(
 ) -> bool {
     let tiles = surface.tiles();
     let own = tiles.own();
-    if hazard == ReplayHazard::Clear && !state.scissor_test {
+    if hazard == ReplayHazard::Clear && !state.rectangles.scissor_test {
         for row in (0..tiles.rows).rev().filter(|&row| tiles.draws_row(row)) {
             surface.bind_row(gl, row);
             call(own);
@@ -247,7 +247,7 @@ impl<'a> Sending<'a> {
     /// A list that may leave matrices and attributes on the stacks.
     fn anything(&self, view: u32, call: &mut dyn FnMut(u32)) {
         let gl = self.gl;
-        let stack = Stack::take(gl, self.state.matrix_mode);
+        let stack = Stack::take(gl, self.state.matrices.mode);
         let attribs = gl.get_integer(c::ATTRIB_STACK_DEPTH);
         self.current.put(gl);
         call(view);
@@ -335,12 +335,12 @@ pub fn others(
 /// Viewport and scissor of the program in the tile of a view, which begins at an offset in pixels, cut to the tile.
 pub fn set_tile_viewport(gl: &Gl, state: &State, tiles: &Tiles, view: u32, offset: i32) {
     if tiles.grid.is_full() {
-        let [x, y, w, h] = state.viewport;
+        let [x, y, w, h] = state.rectangles.viewport;
         gl.viewport(x + offset, y, w, h);
     } else {
-        gl.viewport_f(tiles.grid.viewport(view, offset, state.viewport));
+        gl.viewport_f(tiles.grid.viewport(view, offset, state.rectangles.viewport));
     }
-    if !state.scissor_test {
+    if !state.rectangles.scissor_test {
         gl.enable(c::SCISSOR_TEST);
     }
     let [x, y, w, h] = cut(state, tiles, view, offset);
@@ -350,10 +350,10 @@ pub fn set_tile_viewport(gl: &Gl, state: &State, tiles: &Tiles, view: u32, offse
 /// What may be drawn in a tile: all of it, or what the program's scissor leaves.
 pub fn cut(state: &State, tiles: &Tiles, view: u32, offset: i32) -> [i32; 4] {
     let size = [tiles.width as i32, tiles.height as i32];
-    if !state.scissor_test {
+    if !state.rectangles.scissor_test {
         return [offset, 0, size[0], size[1]];
     }
-    let [x, y, w, h] = state.scissor;
+    let [x, y, w, h] = state.rectangles.scissor;
     let [[x0, x1], [y0, y1]] = [(x, w, 0), (y, h, 1)].map(|(from, length, axis)| {
         let ends = [from, from.saturating_add(length)];
         let ends = if tiles.grid.is_full() {
@@ -368,11 +368,11 @@ pub fn cut(state: &State, tiles: &Tiles, view: u32, offset: i32) -> [i32; 4] {
 
 /// The program's own viewport and scissor.
 pub fn restore_viewport(gl: &Gl, state: &State) {
-    let [x, y, w, h] = state.viewport;
+    let [x, y, w, h] = state.rectangles.viewport;
     gl.viewport(x, y, w, h);
-    let [x, y, w, h] = state.scissor;
+    let [x, y, w, h] = state.rectangles.scissor;
     gl.scissor(x, y, w, h);
-    if !state.scissor_test {
+    if !state.rectangles.scissor_test {
         gl.disable(c::SCISSOR_TEST);
     }
 }
@@ -394,7 +394,7 @@ const STEPS: f32 = 1024.0;
 impl Raster {
     fn at(gl: &Gl, state: &State, shear: Shear) -> Raster {
         let [x, _, _, w] = gl.get_floats::<4>(c::CURRENT_RASTER_POSITION);
-        let [left, _, width, _] = state.viewport;
+        let [left, _, width, _] = state.rectangles.viewport;
         Raster {
             shear,
             x: f64::from(x) - f64::from(left),
@@ -481,14 +481,14 @@ impl Projection<'_> {
 
     /// Loads P_i of the view at a place, as its tile needs it; nothing for a flat draw. The matrix mode stays the program's.
     fn load(&self, place: f64) {
-        let p = &self.state.projection;
+        let p = &self.state.matrices.projection;
         let p = match &self.shear {
             Some(shear) => shear.projection(p, place),
             None if self.leans() => *p,
             None => return,
         };
         self.put(&if self.leans() {
-            self.grid.lean(self.state.viewport, &p)
+            self.grid.lean(self.state.rectangles.viewport, &p)
         } else {
             p
         });
@@ -497,12 +497,12 @@ impl Projection<'_> {
     /// The program's own again.
     fn restore(&self) {
         if self.shear.is_some() || self.leans() {
-            self.put(&self.state.projection);
+            self.put(&self.state.matrices.projection);
         }
     }
 
     fn put(&self, p: &[f32; 16]) {
-        let mode = self.state.matrix_mode;
+        let mode = self.state.matrices.mode;
         if mode != c::PROJECTION {
             self.gl.matrix_mode(c::PROJECTION);
         }

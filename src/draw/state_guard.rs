@@ -1,8 +1,8 @@
 //! The program's state around an amplified draw: viewport, scissor, capabilities and pixel sizes, entered and left.
 
-use super::amplified::Program;
 use super::fixed_state::FixedState;
 use super::pixel_size::{PixelSizeGuard, Units};
+use super::programs::Program;
 use super::replay::cut;
 use crate::atlas::Atlas;
 use crate::fixed::{Amplifier, FixedKey, Patches, Primitive, Provoking, Tiles};
@@ -28,12 +28,12 @@ impl Region {
     /// For tiles beside each other. x: the viewport spans all tiles and clip distances cut at the tile and at the program's viewport and
     /// scissor. y: viewport and scissor are the program's own. Sets both.
     fn beside(gl: &Gl, state: &State, atlas: &Atlas) -> Region {
-        let [vx, vy, vw, vh] = state.viewport;
+        let [vx, vy, vw, vh] = state.rectangles.viewport;
         let tile = atlas.tiles.width as i32;
         let (mut left, mut right) = (vx.max(0), vx.saturating_add(vw).min(tile));
         let (mut bottom, mut height) = (0, atlas.tiles.height as i32);
-        if state.scissor_test {
-            let [sx, sy, sw, sh] = state.scissor;
+        if state.rectangles.scissor_test {
+            let [sx, sy, sw, sh] = state.rectangles.scissor;
             (left, right) = (left.max(sx), right.min(sx.saturating_add(sw)));
             (bottom, height) = (sy, sh);
         }
@@ -48,7 +48,7 @@ impl Region {
         ];
         let all = atlas.tiles.texture_width() as i32;
         gl.viewport(0, vy, all, vh);
-        if state.scissor_test {
+        if state.rectangles.scissor_test {
             gl.scissor(0, bottom, all, height);
         }
         Region {
@@ -127,8 +127,8 @@ impl StateGuard {
         let grid = &atlas.tiles.grid;
         let pixel_sizes = PixelSizeGuard::enter(gl, state, grid, units);
         if !grid.is_full() {
-            gl.viewport_f(grid.viewport(atlas.tiles.own(), 0, state.viewport));
-            if state.scissor_test {
+            gl.viewport_f(grid.viewport(atlas.tiles.own(), 0, state.rectangles.viewport));
+            if state.rectangles.scissor_test {
                 let [x, y, w, h] = cut(state, &atlas.tiles, atlas.tiles.own(), 0);
                 gl.scissor(x, y, w, h);
             }
@@ -141,10 +141,10 @@ impl StateGuard {
             gl.provoking_vertex(c::LAST_VERTEX_CONVENTION);
         }
         StateGuard {
-            scale: (f64::from(state.viewport[2]) / width) as f32,
+            scale: (f64::from(state.rectangles.viewport[2]) / width) as f32,
             clip: region.clip,
             limits: region.limits,
-            viewport: state.viewport,
+            viewport: state.rectangles.viewport,
             width,
             placed: beside || !grid.is_full(),
             pixel_sizes,
@@ -169,10 +169,10 @@ impl StateGuard {
         gl.use_program(0);
         self.pixel_sizes.leave(gl);
         if self.placed {
-            let [x, y, w, h] = state.viewport;
+            let [x, y, w, h] = state.rectangles.viewport;
             gl.viewport(x, y, w, h);
-            if state.scissor_test {
-                let [x, y, w, h] = state.scissor;
+            if state.rectangles.scissor_test {
+                let [x, y, w, h] = state.rectangles.scissor;
                 gl.scissor(x, y, w, h);
             }
         }

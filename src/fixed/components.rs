@@ -3,7 +3,7 @@
 use super::key::{Amplifier, FixedKey, Tiles};
 use super::limits::Limits;
 use super::reason::Unsupported;
-use super::tessellation;
+use super::text::TESSELLATION_VERSION;
 
 /// A value that the vertex stage computes per vertex, beside the position.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -186,7 +186,7 @@ pub(super) fn check(key: &FixedKey, limits: &Limits) -> Result<(), Unsupported> 
     }
     over(passed_components(key), limits.vertex_output_components)?;
     if key.tessellates() {
-        let (needed, has) = (tessellation::VERSION, limits.glsl);
+        let (needed, has) = (TESSELLATION_VERSION, limits.glsl);
         return match has < needed {
             true => Err(Unsupported::ShadingLanguage { needed, has }),
             false => over(output_components(key), limits.vertex_output_components),

@@ -11,8 +11,7 @@
 //! view has it, and nobody asks the reference image for it. That leaves few triangles to draw. The vertex stage hands moved·w on: what is linear in clip space divided by w is linear in the picture, as moved is, however the
 //! triangle is cut.
 
-use super::text::Text;
-use super::vertex::VERSION;
+use super::text::{Text, VERSION};
 
 /// Between the stages: pixels by which a sample is moved, times w; and what is below 1 where a corner is not moved.
 pub(super) const MOVED: &str = "mv_moved";

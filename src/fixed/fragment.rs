@@ -15,11 +15,8 @@ use super::fragment_key::{FogMode, FragmentKey, FragmentUnit, TextureTarget};
 use super::key::Dialect;
 use super::limits::Limits;
 use super::reason::Unsupported;
-use super::text::Text;
+use super::text::{Text, VERSION};
 use super::{LIMITS, UNIFORM_GRID};
-
-/// Least shading language version: gradients and flat inputs in the compatibility profile.
-const VERSION: u32 = 150;
 
 /// Name of the sampler of a texture unit; it has to hold the unit's index.
 pub fn sampler(unit: usize) -> String {

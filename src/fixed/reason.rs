@@ -144,7 +144,7 @@ pub struct Rasterised {
 }
 
 /// State around a draw that does not enter the shader but can make one impossible. [`Default`] is GL's initial state
-/// with filled polygons.
+/// with filled polygons. More than 12 fields: one for each state.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Surroundings {
     /// `GL_RENDER_MODE` is `GL_RENDER`.

@@ -7,7 +7,7 @@
 use super::components::varyings;
 use super::distortion::UNIFORM_WINDOW;
 use super::key::{FixedKey, Primitive, Provoking};
-use super::text::Text;
+use super::text::{TESSELLATION_VERSION, Text};
 use super::vertex;
 
 /// Edges in pixels.
@@ -16,8 +16,6 @@ const LONGEST: u32 = 4;
 pub const LEVELS: u32 = 64;
 /// `uniform float mv_levels`
 pub const UNIFORM_LEVELS: &str = "mv_levels";
-/// Least shading language version.
-pub(super) const VERSION: u32 = 400;
 
 fn corners(key: &FixedKey) -> u8 {
     match key.target.primitive {
@@ -29,7 +27,7 @@ fn corners(key: &FixedKey) -> u8 {
 /// Text of the tessellation control shader of a canonical key.
 pub(super) fn write_control(key: &FixedKey) -> String {
     let mut text = Text::default();
-    text.line(format!("#version {VERSION} compatibility"));
+    text.line(format!("#version {TESSELLATION_VERSION} compatibility"));
     text.line(format!("layout(vertices = {}) out;", corners(key)));
     vertex::write_block(&mut text, key, "in", "mv_in[]");
     vertex::write_block(&mut text, key, "out", "mv_out[]");
@@ -92,7 +90,7 @@ fn flat_source(key: &FixedKey) -> Option<u8> {
 pub(super) fn write_evaluation(key: &FixedKey) -> String {
     let corners = corners(key);
     let mut text = Text::default();
-    text.line(format!("#version {VERSION} compatibility"));
+    text.line(format!("#version {TESSELLATION_VERSION} compatibility"));
     let domain = if corners == 4 { "quads" } else { "triangles" };
     text.line(format!("layout({domain}, equal_spacing, ccw) in;"));
     vertex::write_last(&mut text, key);

@@ -1,5 +1,11 @@
 //! Lines of a shader with their indentation.
 
+/// `#version` of vertex, geometry and fragment shaders: the compatibility profile has clip distances, `gl_InstanceID`, gradients and flat
+/// inputs from here on.
+pub(super) const VERSION: u32 = 150;
+/// `#version` of shaders that tessellate.
+pub(super) const TESSELLATION_VERSION: u32 = 400;
+
 /// A shader under construction.
 #[derive(Default)]
 pub(super) struct Text {

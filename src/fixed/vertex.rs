@@ -4,13 +4,11 @@ use super::components::{Varying, varyings};
 use super::key::{Dialect, FixedKey, FogSource, NormalScaling, PointSize, Tiles};
 use super::limits::Limits;
 use super::reason::Unsupported;
-use super::text::Text;
+use super::text::{Text, VERSION};
 use super::{UNIFORM_FIRST, lighting, texgen, view};
 
 /// Name of the block between vertex and geometry shader.
 pub(super) const BLOCK: &str = "mv_Vertex";
-/// Least shading language version: clip distances and `gl_InstanceID` in the compatibility profile.
-pub(super) const VERSION: u32 = 150;
 
 /// Text of the vertex shader of a canonical key.
 pub(super) fn write(key: &FixedKey, limits: &Limits) -> Result<String, Unsupported> {

@@ -7,6 +7,7 @@ use super::real::{Ptr, Real};
 use core::ffi::CStr;
 
 /// The driver of the context that is current on this thread, asked for its version once. Every method is the GL command of its name.
+/// More than 25 methods: one for each command.
 #[derive(Clone, Copy, Debug)]
 pub struct Gl {
     pub(super) real: &'static Real,

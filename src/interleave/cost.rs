@@ -7,8 +7,7 @@ use crate::atlas::{Atlas, Grid, Limits, Names, Tiles};
 use crate::config::{Config, Output};
 use crate::display::Placement;
 use crate::gl::{Gl, consts as c};
-use crate::state::Neutral;
-use crate::state::Window;
+use crate::state::{Buffers, Neutral, Window};
 use serde::{Deserialize, Serialize};
 use std::time::Instant;
 
@@ -177,20 +176,22 @@ impl Plain {
 /// A window of RGBA with 8 bits each and nothing else.
 fn window((width, height): (u32, u32)) -> Window {
     Window {
-        es: false,
+        buffers: Buffers {
+            es: false,
+            double_buffered: true,
+            stereo: false,
+            names_back: true,
+            default_draw: c::BACK,
+            default_read: c::BACK,
+        },
         width,
         height,
-        double_buffered: true,
-        stereo: false,
         bits: [8, 8, 8, 8, 0, 0],
         samples: 0,
         srgb_capable: false,
         srgb: false,
         float: false,
         accumulation: [0; 4],
-        names_back: true,
-        default_buffer: c::BACK,
-        default_read: c::BACK,
     }
 }
 

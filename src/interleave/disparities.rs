@@ -15,10 +15,8 @@ pub struct Disparities {
     pub offset: f32,
     /// What infinitely far moves by; what has this height has zero parallax.
     pub far: f32,
-    /// The depth of what nothing was drawn on.
-    pub clear: f32,
-    /// That is infinitely far; else it is behind everything, and the same in all views.
-    pub sky: bool,
+    /// What nothing was drawn on.
+    pub cleared: Cleared,
     /// Baseline of view 0, and from each view to the next; of the view that the picture is of, it is 0.
     pub baselines: [f32; 2],
     /// What is added to depths of views that are drawn on, so that they are farther, in units of the depth buffer.
@@ -33,6 +31,15 @@ pub struct Disparities {
     pub marked: bool,
     /// Of an occlusion camera: the pixels that it reaches behind at most.
     pub reach: f32,
+}
+
+/// What nothing was drawn on.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Cleared {
+    /// Its depth.
+    pub depth: f32,
+    /// It is infinitely far; else it is behind everything, and the same in all views.
+    pub sky: bool,
 }
 
 /// Where the pictures lie that views are made of.
@@ -65,7 +72,7 @@ impl Disparities {
     /// `field`, `baseline`, `aim`, `occlusion` and those of the sources of `shaders/common.wgsl`.
     pub(super) fn rows(&self, views: u32) -> [[f32; 4]; 7] {
         let [first, step] = self.baselines;
-        let clear = if self.sky { 0.0 } else { NOTHING };
+        let clear = if self.cleared.sky { 0.0 } else { NOTHING };
         let (view, left) = self.aim;
         let [left_edge, layer, field] = match self.places {
             Places::Tiles => [0; 3],
@@ -76,7 +83,7 @@ impl Disparities {
         let [low, high] = self.sources.map_or([[0.0; 4]; 2], |sources| sources.rows());
         let marked = f32::from(u8::from(self.marked));
         [
-            [self.scale, self.offset, self.far, self.clear],
+            [self.scale, self.offset, self.far, self.cleared.depth],
             [first, step, clear, self.margin],
             [view as f32, left as f32, marked, self.longest(views)],
             [self.reach, left_edge, layer, field],

@@ -24,7 +24,7 @@ mod uniforms;
 
 pub use anaglyph::Matrix;
 pub use depth::{Depth, rgbd};
-pub use disparities::{Disparities, Places};
+pub use disparities::{Cleared, Disparities, Places};
 pub use gpu::{Interleaver, PanelPlacement, Source, bind_reference, glsl_version};
 pub use layout::Layout;
 pub use program::Program;

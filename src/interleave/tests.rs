@@ -278,8 +278,10 @@ fn uniforms_are_found_by_name() {
             scale: 21.0,
             offset: 22.0,
             far: 23.0,
-            clear: 24.0,
-            sky: true,
+            cleared: Cleared {
+                depth: 24.0,
+                sky: true,
+            },
             baselines: [25.0, 26.0],
             margin: 27.0,
             aim: (2, 28),

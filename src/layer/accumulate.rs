@@ -87,7 +87,7 @@ impl Layer {
         self.state.refresh(gl);
         self.leave_mono(gl);
         if let (None, Operation::Clear(values)) = (&self.targets.accumulated.buffer, operation)
-            && !self.state.scissor_test
+            && !self.state.rectangles.scissor_test
         {
             self.targets.accumulated.cleared = values;
             return;
@@ -148,7 +148,7 @@ impl Layer {
 
     /// What the scissor leaves of all tiles.
     fn regions(&self) -> Vec<Region> {
-        if !self.state.scissor_test {
+        if !self.state.rectangles.scissor_test {
             return self.rows();
         }
         let tiles = self.targets.atlas.tiles;

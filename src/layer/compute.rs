@@ -12,7 +12,7 @@ impl Layer {
             return call();
         }
         self.state.refresh(gl);
-        let program = self.state.program;
+        let program = self.state.in_use.program;
         let (sampled, images) = match program {
             // Of a pipeline nothing is known.
             0 => Default::default(),

@@ -75,7 +75,7 @@ impl Layer {
                     self.known.rig.latched(),
                 )?;
                 let chosen = live.output != self.session.live.output;
-                if chosen && live.output == Output::Quad && !self.state.window.stereo {
+                if chosen && live.output == Output::Quad && !self.state.window.buffers.stereo {
                     return Err(ControlError::NoStereo);
                 }
                 self.adopt(live);

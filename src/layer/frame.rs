@@ -28,7 +28,7 @@ impl Layer {
         // Our drawing would be a hit of the program's selection, or be fed back to it.
         if self.state.list.is_some()
             || self.state.begin != crate::state::Begin::Outside
-            || self.state.render_mode != c::RENDER
+            || self.state.primitives.render_mode != c::RENDER
         {
             return;
         }
@@ -60,14 +60,14 @@ impl Layer {
         let image = if front { FRONT } else { BACK };
         self.reading(gl, image, |layer| layer.present(gl, image, neutral));
         self.leave_scene();
-        if !swap || !self.state.window.double_buffered {
+        if !swap || !self.state.window.buffers.double_buffered {
             // Mesa shows the front buffer of what is bound when it flushes.
             gl.bind_framebuffer(c::FRAMEBUFFER, 0);
             gl.flush();
         }
         if image == FRONT {
-            gl.draw_buffer(self.state.window.default_buffer);
-            gl.read_buffer(self.state.window.default_read);
+            gl.draw_buffer(self.state.window.buffers.default_draw);
+            gl.read_buffer(self.state.window.buffers.default_read);
         }
         let used = self.state.framebuffers.uses_front();
         if swap && self.targets.atlas.swapped(gl, used) {
@@ -151,7 +151,7 @@ impl Layer {
                 self.diagnostics.report.note(e);
             }
             if buffer.is_some() {
-                gl.draw_buffer(self.state.window.default_buffer);
+                gl.draw_buffer(self.state.window.buffers.default_draw);
             }
         }
     }
@@ -243,7 +243,7 @@ impl Layer {
     pub fn shows_on_flush(&self) -> bool {
         self.frame.drawn
             && !self.is_hidden()
-            && (!self.state.window.double_buffered || self.state.framebuffers.draws_front())
+            && (!self.state.window.buffers.double_buffered || self.state.framebuffers.draws_front())
     }
 
     /// Whether something was drawn since the last frame was shown.

@@ -193,7 +193,7 @@ impl Layer {
         call: &mut dyn FnMut(),
     ) {
         let mut taken = false;
-        let (default, es) = (self.state.window.default_buffer, gl.is_es());
+        let (default, es) = (self.state.window.buffers.default_draw, gl.is_es());
         self.with_true_zero(gl, target, &mut || {
             call();
             let is = |(i, b): (u32, &u32)| gl.get_integer(c::DRAW_BUFFER0 + i) as u32 == *b;
@@ -309,7 +309,7 @@ impl Layer {
     pub fn answer(&self, name: u32) -> Option<i64> {
         let f = &self.state.framebuffers;
         let zero = f.draw == 0;
-        let es = self.state.window.es;
+        let es = self.state.window.buffers.es;
         let buffer = |i: usize| i64::from(f.draw_buffers.get(i).copied().unwrap_or(c::NONE));
         match (name, &self.state.list) {
             (c::LIST_INDEX, Some(list)) => return Some(list.list.into()),
@@ -331,7 +331,9 @@ impl Layer {
                 let bits = self.state.window.accumulation.get(at);
                 bits.map(|&bits| bits.into())
             }
-            c::DOUBLEBUFFER if zero && !es => Some(self.state.window.double_buffered.into()),
+            c::DOUBLEBUFFER if zero && !es => {
+                Some(self.state.window.buffers.double_buffered.into())
+            }
             _ => None,
         }
     }
@@ -406,11 +408,11 @@ impl Layer {
     }
 
     pub(super) fn unscissored<T>(&mut self, gl: &Gl, work: impl FnOnce(&mut Self) -> T) -> T {
-        if self.state.scissor_test {
+        if self.state.rectangles.scissor_test {
             gl.disable(c::SCISSOR_TEST);
         }
         let answer = work(self);
-        if self.state.scissor_test {
+        if self.state.rectangles.scissor_test {
             gl.enable(c::SCISSOR_TEST);
         }
         answer

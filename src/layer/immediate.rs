@@ -130,8 +130,8 @@ impl Layer {
             || unknown
             || !triangles
             || !tiles.grid.is_full()
-            || state.program != 0
-            || state.pipeline != 0
+            || state.in_use.program != 0
+            || state.in_use.pipeline != 0
         {
             return all;
         }
@@ -141,8 +141,8 @@ impl Layer {
         }
         let modelview = gl.get_floats::<16>(c::MODELVIEW_MATRIX);
         let sees = |view: &u32| {
-            let p = plan.shear.map_or(state.projection, |shear| {
-                shear.projection(&state.projection, self.known.rig.position(*view))
+            let p = plan.shear.map_or(state.matrices.projection, |shear| {
+                shear.projection(&state.matrices.projection, self.known.rig.position(*view))
             });
             !bounds.outside(&[0, 1, 3].map(|row| product_row(&p, &modelview, row)))
         };

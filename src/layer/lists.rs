@@ -474,7 +474,7 @@ impl Layer {
 
     fn draw_run(&mut self, gl: &Gl, touch: Touch, content: Content, call: &mut dyn FnMut()) {
         // The list changes the current matrix, and that is the projection.
-        let projection = touch.has(Touch::MATRIX) && self.state.matrix_mode == c::PROJECTION;
+        let projection = touch.has(Touch::MATRIX) && self.state.matrices.mode == c::PROJECTION;
         let rects = touch.has(Touch::RECTS);
         let request = Request {
             demand: match (projection || rects, content.thin) {

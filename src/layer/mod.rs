@@ -87,7 +87,8 @@ pub enum LayerError {
     Atlas(#[from] AtlasError),
 }
 
-/// One context and its drawable.
+/// One context and its drawable. More than 25 methods: one for each kind of command that a hook tells of, and the steps that need several
+/// of the owners below, in a file for each subject.
 #[derive(Debug)]
 pub struct Layer {
     session: Session,
@@ -265,7 +266,7 @@ impl Layer {
     /// The program uses a texture name that it never asked for and that is ours: our textures move to other names.
     pub fn yield_names(&mut self, gl: &Gl) {
         // Core profiles have no names but those that were asked for.
-        if self.targets.names.hidden() || !(self.state.compatibility || gl.is_es()) {
+        if self.targets.names.hidden() || !(self.state.has.compatibility || gl.is_es()) {
             return;
         }
         self.outside_list(gl, |layer| layer.move_names(gl));

@@ -14,7 +14,7 @@ impl Layer {
     ) -> R {
         self.queries.pause(gl);
         self.queries.lift_condition(gl);
-        let neutral = Neutral::enter(gl, self.state.compatibility);
+        let neutral = Neutral::enter(gl, self.state.has.compatibility);
         let done = work(self, &neutral);
         neutral.leave(gl);
         self.rebind(gl);

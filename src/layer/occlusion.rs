@@ -61,7 +61,7 @@ impl Layer {
             map: next.map.0,
             disparities: next.disparities,
         };
-        let drawn = match self.state.program {
+        let drawn = match self.state.in_use.program {
             0 => self.draw_surface_to_reference(gl, draw, &drawing, &rays),
             _ => self.draw_variant_to_reference(gl, draw, &drawing, &rays),
         };
@@ -116,7 +116,7 @@ impl Layer {
         drawing: &Drawing,
         rays: &Rays,
     ) -> Result<(), Reason> {
-        let (program, rig) = (self.state.program, self.known.rig);
+        let (program, rig) = (self.state.in_use.program, self.known.rig);
         let linked = self.link_distorting(gl, program);
         linked.map_err(Reason::NoReference)?;
         let units = self.units_of(gl, program);

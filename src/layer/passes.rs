@@ -43,14 +43,14 @@ impl Layer {
     fn is_pass(&mut self, gl: &Gl, framebuffer: u32, shaders: &Shaders) -> (bool, Option<f64>) {
         let camera = match shaders {
             Shaders::Variant(variant) => variant.camera,
-            _ => camera::equivalent(&self.state.projection),
+            _ => camera::equivalent(&self.state.matrices.projection),
         };
         let target = self.targets.offscreen.target(gl, framebuffer);
         if target.is_cube() || target.attachments.is_empty() {
             return (false, None);
         }
         let alone = target.is_depth_only();
-        let [_, _, width, height] = self.state.viewport.map(i64::from);
+        let [_, _, width, height] = self.state.rectangles.viewport.map(i64::from);
         let [w, h] = self.picture_size();
         // Within a pixel, since half of an odd size is rounded.
         let fits = (width * h - height * w).abs() <= w.max(h);
@@ -73,7 +73,7 @@ impl Layer {
     /// Width and height in pixels of the picture that is drawn: of the window, or, where there is none to be seen, of the viewport.
     fn picture_size(&self) -> [i64; 2] {
         let window = [self.state.window.width, self.state.window.height].map(i64::from);
-        let [_, _, width, height] = self.state.viewport.map(i64::from);
+        let [_, _, width, height] = self.state.rectangles.viewport.map(i64::from);
         match self.is_hidden() && width > 0 && height > 0 {
             true => [width, height],
             false => window,
@@ -94,7 +94,7 @@ impl Layer {
 
     /// The textures with an image per view that a draw reads.
     pub(super) fn sampled(&mut self, gl: &Gl) -> Arc<[Bound]> {
-        let program = self.state.program;
+        let program = self.state.in_use.program;
         let changes = self.targets.offscreen.changes();
         let key = Some((program, uniform_change(), changes));
         let stale = self.state.touched.has(Touch::UNITS);

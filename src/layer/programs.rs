@@ -51,6 +51,17 @@ struct Camera {
     projection: [f32; 16],
 }
 
+/// The camera of a program, as far as it was looked for.
+#[derive(Debug)]
+struct CameraSearch {
+    /// The last one that was among its matrices.
+    found: Option<Camera>,
+    /// None of them has a perspective now.
+    lost: bool,
+    /// The changes of uniforms up to which it was looked for.
+    seen: u64,
+}
+
 /// How the draws of one program go.
 #[derive(Debug)]
 struct ProgramRecord {
@@ -69,12 +80,8 @@ struct ProgramRecord {
     units: (u64, Vec<(u32, u32)>),
     /// Its matrices that take depths back, where they are, up to a change of uniforms and for an aspect.
     unprojections: (u64, f64, Vec<(i32, [f32; 16])>),
-    /// The last one that was among them.
-    camera: Option<Camera>,
-    /// None of them has a perspective now.
-    lost: bool,
-    /// The changes of uniforms up to which its camera was looked for, and its values follow.
-    seen: u64,
+    camera: CameraSearch,
+    /// The changes of uniforms up to which the values of its variants follow, by [`VariantUse`].
     followed: [u64; 4],
 }
 
@@ -226,7 +233,7 @@ impl Layer {
         Shaders::Variant(VariantFacts {
             program,
             camera,
-            lost: known.lost,
+            lost: known.camera.lost,
             to_layer,
             to_layers,
             divides,
@@ -251,9 +258,12 @@ impl Layer {
         let Some(ProgramRecord {
             how: Ok(Drawn::ByVariant(_)),
             matrices,
-            camera,
-            lost,
-            seen,
+            camera:
+                CameraSearch {
+                    found: camera,
+                    lost,
+                    seen,
+                },
             ..
         }) = self.variants.own.known.get_mut(&program)
         else {
@@ -300,9 +310,9 @@ impl Layer {
 
     /// What the scene that is being drawn is projected by, as it is and as a projection alone.
     pub(super) fn projections(&self) -> [[f32; 16]; 2] {
-        let known = self.variants.own.known.get(&self.state.program);
-        let camera = known.and_then(|known| known.camera);
-        let fixed = || [self.state.projection; 2];
+        let known = self.variants.own.known.get(&self.state.in_use.program);
+        let camera = known.and_then(|known| known.camera.found);
+        let fixed = || [self.state.matrices.projection; 2];
         camera.map_or_else(fixed, |camera| [camera.matrix, camera.projection])
     }
 
@@ -413,9 +423,11 @@ impl Layer {
             samplers,
             units: (0, Vec::new()),
             unprojections: (0, 0.0, Vec::new()),
-            camera: None,
-            lost: true,
-            seen: 0,
+            camera: CameraSearch {
+                found: None,
+                lost: true,
+                seen: 0,
+            },
             followed: [0; 4],
             layered: [None, None],
             distorting: None,

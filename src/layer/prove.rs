@@ -183,10 +183,10 @@ impl Layer {
         }
         if first {
             let clears = matches!(facts.kind, Kind::Clear { .. });
-            self.diagnostics.proving.carries = !clears || self.state.scissor_test;
+            self.diagnostics.proving.carries = !clears || self.state.rectangles.scissor_test;
         }
         match plan.method {
-            Method::Once if self.state.render_mode == c::RENDER => {
+            Method::Once if self.state.primitives.render_mode == c::RENDER => {
                 self.diagnostics.proving.refuse(ONCE)
             }
             _ if facts.kind == Kind::Accum => self.diagnostics.proving.refuse(ACCUM),

@@ -16,11 +16,11 @@ impl Layer {
         if output != Output::Quad {
             return vec![(None, output)];
         }
-        if !window.stereo {
+        if !window.buffers.stereo {
             self.diagnostics.report.note(NO_STEREO.into());
             return vec![(None, Output::View(0))];
         }
-        let [left, right] = if image == FRONT || !window.double_buffered {
+        let [left, right] = if image == FRONT || !window.buffers.double_buffered {
             [c::FRONT_LEFT, c::FRONT_RIGHT]
         } else {
             [c::BACK_LEFT, c::BACK_RIGHT]

@@ -13,7 +13,7 @@ use super::{Layer, keep_bindings};
 use crate::atlas::{PyramidTextures, ViewSet};
 use crate::config::{CaptureWhat, Config, DisocclusionSource, Filter, Output, TrueViews};
 use crate::gl::{Gl, consts as c};
-use crate::interleave::{Disparities, Places, Sources};
+use crate::interleave::{Cleared, Disparities, Places, Sources};
 use crate::plan::Governor;
 use crate::plan::decide::{DisparityMapping, Scene};
 use crate::state::{BACK, Neutral};
@@ -294,8 +294,10 @@ impl Layer {
             scale: scale as f32,
             offset: offset as f32,
             far: far.abs() as f32,
-            clear: scene.clear,
-            sky: scene.sky,
+            cleared: Cleared {
+                depth: scene.clear,
+                sky: scene.sky,
+            },
             baselines: baselines.map(|baseline| baseline as f32),
             margin: (-scale.signum() * MARGIN * step) as f32,
             aim: (0, 0),

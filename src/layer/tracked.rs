@@ -47,7 +47,7 @@ impl Layer {
     /// After glMatrixMode that was not compiled. Modes of which the driver may refuse one are asked for when they count.
     pub fn matrix_mode(&mut self, mode: u32) {
         match mode {
-            c::MODELVIEW | c::PROJECTION | c::TEXTURE => self.state.matrix_mode = mode,
+            c::MODELVIEW | c::PROJECTION | c::TEXTURE => self.state.matrices.mode = mode,
             _ => {
                 self.touch(Touch::MODE | Touch::DSA_MATRIX);
             }
@@ -57,13 +57,13 @@ impl Layer {
     /// After glRenderMode; the driver refuses what is no mode.
     pub fn render_mode(&mut self, mode: u32) {
         if [c::RENDER, c::FEEDBACK, c::SELECT].contains(&mode) {
-            self.state.render_mode = mode;
+            self.state.primitives.render_mode = mode;
         }
     }
 
     /// After glBeginTransformFeedback and glEndTransformFeedback.
     pub fn transform_feedback(&mut self, active: bool) {
-        self.state.transform_feedback = active;
+        self.state.primitives.transform_feedback = active;
     }
 
     /// An error of the program's that the layer has taken out of the driver's queue, the oldest first.

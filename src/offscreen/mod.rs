@@ -25,7 +25,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 /// Images that several contexts see.
 pub type SharedImages = Arc<Mutex<Images>>;
 
-/// The images and framebuffers of one context.
+/// The images and framebuffers of one context. More than 25 methods: it answers for textures, for framebuffers and for what is bound.
 #[derive(Debug)]
 pub struct Offscreen {
     images: SharedImages,

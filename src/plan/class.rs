@@ -7,7 +7,7 @@ use super::Kind;
 use crate::config::{Class, DepthRange, DepthState, Profile, Projection, Rule, Viewport, Word};
 use crate::state::{State, Touch};
 
-/// What there is to know about a draw.
+/// What there is to know about a draw. More than 12 fields: one for each condition of a rule.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Traits {
     /// What the program draws with.
@@ -272,7 +272,7 @@ fn matches(rule: &Rule, facts: &Traits) -> bool {
 impl Traits {
     /// From the state, of which [`Classifier::needs`] has been read; what is not in it is left at its least.
     pub fn of(kind: Kind, state: &State) -> Traits {
-        let p = &state.projection;
+        let p = &state.matrices.projection;
         Traits {
             kind,
             target: match state.framebuffers.draw {

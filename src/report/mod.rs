@@ -3,6 +3,7 @@
 
 mod counts;
 mod disparity;
+mod frames;
 mod proof;
 mod walk;
 
@@ -13,19 +14,15 @@ pub use proof::{Culprit, Difference, Found, Proof, SpeedUp, Summary, Worst};
 use crate::config::{Config, Status, replace};
 use crate::gl::Count;
 use disparity::Disparities;
+use frames::{FrameTimes, Frames, Synthesised};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::time::{Duration, Instant};
-use walk::Walk;
 
 /// Counts of one program; written as JSON while it runs.
 #[derive(Debug, Default)]
 pub struct Report {
-    frames: u64,
-    mono_frames: u64,
-    synthesised: Synthesised,
-    walk: Walk,
-    frame_ms: Vec<f32>,
+    frames: Frames,
     /// Method and class.
     draws: Counts<(&'static str, &'static str)>,
     fallbacks: BTreeMap<String, u64>,
@@ -37,23 +34,7 @@ pub struct Report {
     /// Where a proof is asked for.
     pub proof: Option<Proof>,
     names: Names,
-    last_swap: Option<Instant>,
     last_write: Option<Instant>,
-}
-
-/// Frames whose scene was drawn in some views, and the others synthesised.
-#[derive(Clone, Copy, Debug, Default, Serialize)]
-struct Synthesised {
-    /// Subpixel by subpixel.
-    into_panel: u64,
-    /// As views.
-    into_tiles: u64,
-}
-
-impl Synthesised {
-    fn is_none(&self) -> bool {
-        self.into_panel == 0 && self.into_tiles == 0
-    }
 }
 
 /// GL names of the layer that are not deleted.
@@ -64,6 +45,7 @@ struct Names {
     lists: u32,
 }
 
+/// The file. More than 12 fields: one for each member of the JSON.
 #[derive(Serialize)]
 struct Json<'a> {
     frames: u64,
@@ -87,15 +69,6 @@ struct Json<'a> {
     names: Names,
     notes: &'a [String],
 }
-
-#[derive(Serialize)]
-struct FrameTimes {
-    median: f32,
-    p95: f32,
-}
-
-/// Frame times kept for the median.
-const KEPT: usize = 4096;
 
 impl Report {
     /// One draw went by a method; it was of a class.
@@ -143,57 +116,42 @@ impl Report {
 
     /// A frame is the same in all views, and was drawn in one.
     pub fn mono_frame(&mut self) {
-        self.mono_frames += 1;
+        self.frames.mono += 1;
     }
 
     /// Counts a frame whose views were synthesised, whole or directly into the panel's picture.
     pub fn synthesised(&mut self, into_panel: bool) {
-        match into_panel {
-            true => self.synthesised.into_panel += 1,
-            false => self.synthesised.into_tiles += 1,
-        }
+        self.frames.synthesised.count(into_panel);
     }
 
     /// Frames shown so far.
     pub fn frames(&self) -> u64 {
-        self.frames
+        self.frames.shown
     }
 
     /// A frame was shown; answers the milliseconds since the one before.
     pub fn frame(&mut self) -> Option<f32> {
-        let now = Instant::now();
-        let ms = self
-            .last_swap
-            .map(|last| now.duration_since(last).as_secs_f32() * 1e3);
-        if let Some(ms) = ms {
-            if self.frame_ms.len() < KEPT {
-                self.frame_ms.push(ms);
-            } else if let Some(slot) = self.frame_ms.get_mut(self.frames as usize % KEPT) {
-                *slot = ms;
-            }
-        }
-        self.last_swap = Some(now);
-        self.frames += 1;
-        ms
+        self.frames.show()
     }
 
     /// Notes how many views that frame has drawn.
     pub fn drew(&mut self, ms: f32, views: u32) {
-        self.walk.frame(ms, views);
+        self.frames.walk.frame(ms, views);
     }
 
     /// After a frame: writes the report and the status when it is time, after each of the first frames, then ten times a second (a program gives no sign
     /// before it ends).
     pub fn write_if_due(&mut self, config: &Config) {
         let since = self.last_write.map(|last| last.elapsed());
-        let due = self.frames <= 10 || since.is_none_or(|since| since > Duration::from_millis(100));
+        let due =
+            self.frames.shown <= 10 || since.is_none_or(|since| since > Duration::from_millis(100));
         if !due {
             return;
         }
         self.last_write = Some(Instant::now());
         // Of a proof the context tells that has proved a frame.
         if config.capture.is_some() {
-            self.write_status(config, self.frames);
+            self.write_status(config, self.frames.shown);
         }
         self.write_report(config);
     }
@@ -228,23 +186,12 @@ impl Report {
 
     /// The report as JSON.
     pub fn json(&self) -> String {
-        let mut sorted = self.frame_ms.clone();
-        sorted.sort_by(f32::total_cmp);
-        let at = |q: f64| {
-            sorted
-                .get(((sorted.len().max(1) - 1) as f64 * q) as usize)
-                .copied()
-                .unwrap_or(0.0)
-        };
         let json = Json {
-            frames: self.frames,
-            frames_drawn_once: self.mono_frames,
-            frames_synthesised: self.synthesised,
-            true_views: self.walk.json(),
-            frame_ms: FrameTimes {
-                median: at(0.5),
-                p95: at(0.95),
-            },
+            frames: self.frames.shown,
+            frames_drawn_once: self.frames.mono,
+            frames_synthesised: self.frames.synthesised,
+            true_views: self.frames.walk.json(),
+            frame_ms: self.frames.times(),
             draws: self.draws.named(|(method, _)| method),
             classes: self.draws.named(|(_, class)| class),
             fallbacks: &self.fallbacks,

@@ -3,7 +3,7 @@
 use super::scan::{Kind, Scan};
 use super::version::Version;
 
-/// What a text uses.
+/// What a text uses. More than 12 fields: one for each word that matters.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Facts {
     /// The version of the text.

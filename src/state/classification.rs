@@ -65,24 +65,26 @@ impl State {
         if stale(Touch::RANGE) {
             self.classification.depths = gl.get_floats(c::DEPTH_RANGE);
             self.classification.range = depth_range(self.classification.depths);
-            self.classification.zero_to_one =
-                self.clip_control && gl.get_integer(c::CLIP_DEPTH_MODE) as u32 == c::ZERO_TO_ONE;
+            self.classification.zero_to_one = self.has.clip_control
+                && gl.get_integer(c::CLIP_DEPTH_MODE) as u32 == c::ZERO_TO_ONE;
         }
         if stale(Touch::COVER) {
             self.classification.blends = gl.is_enabled(c::BLEND);
             self.classification.stencil = gl.is_enabled(c::STENCIL_TEST);
-            self.classification.stipple = self.compatibility && gl.is_enabled(c::POLYGON_STIPPLE);
+            self.classification.stipple =
+                self.has.compatibility && gl.is_enabled(c::POLYGON_STIPPLE);
         }
         if stale(Touch::TEXTURE) {
             // Programs sample without it being enabled.
-            let sampled = self.program != 0 || !self.compatibility || gl.is_enabled(c::TEXTURE_2D);
+            let sampled =
+                self.in_use.program != 0 || !self.has.compatibility || gl.is_enabled(c::TEXTURE_2D);
             self.classification.texture = if sampled {
                 gl.get_integer(c::TEXTURE_BINDING_2D) as u32
             } else {
                 0
             };
         }
-        if stale(Touch::MODELVIEW) && self.compatibility {
+        if stale(Touch::MODELVIEW) && self.has.compatibility {
             self.classification.modelview = gl.get_floats(c::MODELVIEW_MATRIX);
         }
         self.touched = self.touched.without(groups);
@@ -90,7 +92,7 @@ impl State {
 
     /// How much of the window the viewport covers.
     pub fn viewport_kind(&self) -> Viewport {
-        let [_, _, width, height] = self.viewport.map(i64::from);
+        let [_, _, width, height] = self.rectangles.viewport.map(i64::from);
         let small = |part: i64, whole: u32| part * 4 < i64::from(whole);
         if small(width, self.window.width) && small(height, self.window.height) {
             Viewport::Inset
@@ -101,7 +103,7 @@ impl State {
 
     /// What the projection matrix is.
     pub fn projection_kind(&self) -> Projection {
-        let p = &self.projection;
+        let p = &self.matrices.projection;
         if [p[3], p[7], p[11]] != [0.0; 3] {
             Projection::Perspective
         } else if *p == glam::Mat4::IDENTITY.to_cols_array() {

@@ -2,19 +2,32 @@
 
 use crate::gl::{Gl, consts as c};
 
+/// Which buffers a drawable has, and what they are called.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Buffers {
+    /// Of a context of OpenGL ES: the only buffer is called GL_BACK.
+    pub es: bool,
+    /// There is a back buffer.
+    pub double_buffered: bool,
+    /// There is a left and a right buffer.
+    pub stereo: bool,
+    /// Whether GL_BACK is a name of a buffer: of the front one where there is no other, which Mesa allows.
+    pub names_back: bool,
+    /// The buffer that a new context draws to. GL_BACK for some drawables without a back buffer too (EGL pbuffers).
+    pub default_draw: u32,
+    /// The buffer that a new context reads from.
+    pub default_read: u32,
+}
+
 /// The drawable behind framebuffer 0, as the driver describes the true one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Window {
-    /// Of a context of OpenGL ES: its only buffer is called GL_BACK.
-    pub es: bool,
+    /// Its buffers.
+    pub buffers: Buffers,
     /// Pixels.
     pub width: u32,
     /// Pixels.
     pub height: u32,
-    /// Has a back buffer.
-    pub double_buffered: bool,
-    /// Has a left and a right buffer.
-    pub stereo: bool,
     /// Bits of red, green, blue, alpha, depth, stencil.
     pub bits: [u32; 6],
     /// Samples per pixel, 0 for none.
@@ -27,19 +40,13 @@ pub struct Window {
     pub float: bool,
     /// Bits of red, green, blue, alpha of the accumulation buffer, 0 for none.
     pub accumulation: [u32; 4],
-    /// Whether GL_BACK is a name of a buffer: of the front one where there is no other, which Mesa allows.
-    pub names_back: bool,
-    /// The buffer that a new context draws to. GL_BACK for some drawables without a back buffer too (EGL pbuffers).
-    pub default_buffer: u32,
-    /// The buffer that a new context reads from.
-    pub default_read: u32,
 }
 
 impl Window {
     /// Whether front and back buffer are two images. Those of multisampled windows are taken for one: which of them a program
     /// resolves and when is the driver's choice.
     pub fn has_two_images(&self) -> bool {
-        self.double_buffered && self.samples == 0 && !self.es
+        self.buffers.double_buffered && self.samples == 0 && !self.buffers.es
     }
 
     /// Whether it has an accumulation buffer.
@@ -81,21 +88,23 @@ impl Window {
             && gl.attachment_parameter(color, c::FRAMEBUFFER_ATTACHMENT_COLOR_ENCODING) as u32
                 == c::SRGB;
         Window {
-            es,
+            buffers: Buffers {
+                es,
+                double_buffered,
+                stereo: !es && gl.get_integer(c::STEREO) != 0,
+                names_back,
+                default_draw: match es {
+                    true => c::BACK,
+                    false => gl.get_integer(c::DRAW_BUFFER) as u32,
+                },
+                default_read,
+            },
             width,
             height,
-            double_buffered,
-            stereo: !es && gl.get_integer(c::STEREO) != 0,
             accumulation: match compatibility {
                 true => [0, 1, 2, 3].map(|i| bit(c::ACCUM_RED_BITS + i)),
                 false => [0; 4],
             },
-            default_buffer: match es {
-                true => c::BACK,
-                false => gl.get_integer(c::DRAW_BUFFER) as u32,
-            },
-            names_back,
-            default_read,
             bits: names.map(bit),
             samples: bit(c::SAMPLES),
             srgb_capable,
@@ -123,25 +132,20 @@ pub struct Framebuffers {
     pub draw_buffers: Vec<u32>,
     /// glReadBuffer of framebuffer 0.
     pub read_buffer: u32,
-    default: u32,
-    names_back: bool,
+    buffers: Buffers,
     two: bool,
-    es: bool,
 }
 
 impl Framebuffers {
     /// As a new context has them.
     pub fn new(window: &Window) -> Self {
-        let (default, read) = (window.default_buffer, window.default_read);
         Framebuffers {
             draw: 0,
             read: 0,
-            draw_buffers: vec![default],
-            read_buffer: read,
-            default,
-            names_back: window.names_back,
+            draw_buffers: vec![window.buffers.default_draw],
+            read_buffer: window.buffers.default_read,
+            buffers: window.buffers,
             two: window.has_two_images(),
-            es: window.es,
         }
     }
 
@@ -155,18 +159,18 @@ impl Framebuffers {
         };
         match buffer {
             c::NONE => Some(&[]),
-            c::BACK if self.es => Some(&BOTH[1..]),
-            _ if self.es => None,
+            c::BACK if self.buffers.es => Some(&BOTH[1..]),
+            _ if self.buffers.es => None,
             c::FRONT | c::FRONT_LEFT => Some(front),
             c::LEFT | c::FRONT_AND_BACK => Some(both),
-            c::BACK | c::BACK_LEFT if self.names_back => Some(&BOTH[1..]),
+            c::BACK | c::BACK_LEFT if self.buffers.names_back => Some(&BOTH[1..]),
             _ => None,
         }
     }
 
     /// Whether glDrawBuffers takes one name for framebuffer 0.
     pub fn names_one(&self) -> bool {
-        self.es
+        self.buffers.es
     }
 
     /// The images that are drawn to, as glDrawBuffers takes them.
@@ -204,7 +208,11 @@ impl Framebuffers {
         let none = gl.get_integer(c::DRAW_BUFFER0) as u32 == c::NONE;
         let was_none = self.draw_buffers.first().is_none_or(|&b| b == c::NONE);
         if none != was_none {
-            self.draw_buffers = vec![if none { c::NONE } else { self.default }];
+            self.draw_buffers = vec![if none {
+                c::NONE
+            } else {
+                self.buffers.default_draw
+            }];
         }
     }
 }

@@ -11,7 +11,7 @@ mod shaders;
 
 pub use classification::ClassificationState;
 pub use effect::{Effect, Immediate};
-pub use framebuffer::{BACK, FRONT, Framebuffers, Window};
+pub use framebuffer::{BACK, Buffers, FRONT, Framebuffers, Window};
 pub use lists::{Body, Command, Compiling, Lists, Orphans, Run, Segment, Start};
 pub use neutral::Neutral;
 pub use shaders::{
@@ -91,22 +91,68 @@ pub enum Begin {
     Direct,
 }
 
-/// One context as the program sees it. Matrices are column-major; rectangles are x, y, width, height in the program's window
-/// space (origin at the lower left).
+/// The matrices of fixed function that every plan reads, column-major.
 #[derive(Debug)]
-pub struct State {
-    /// Groups that must be read again before use.
-    pub touched: Touch,
+pub struct FixedMatrices {
     /// glMatrixMode.
-    pub matrix_mode: u32,
+    pub mode: u32,
     /// GL_PROJECTION_MATRIX.
     pub projection: [f32; 16],
+}
+
+/// Where pictures are drawn. Rectangles are x, y, width, height in the program's window space (origin at the lower left).
+#[derive(Debug, Default)]
+pub struct Rectangles {
     /// GL_VIEWPORT (of index 0).
     pub viewport: [i32; 4],
     /// GL_SCISSOR_BOX (of index 0).
     pub scissor: [i32; 4],
     /// GL_SCISSOR_TEST.
     pub scissor_test: bool,
+}
+
+/// What primitives become.
+#[derive(Debug)]
+pub struct Primitives {
+    /// GL_RENDER, GL_SELECT or GL_FEEDBACK.
+    pub render_mode: u32,
+    /// Between glBeginTransformFeedback and its end.
+    pub transform_feedback: bool,
+}
+
+/// What runs the program's shaders.
+#[derive(Debug, Default)]
+pub struct InUse {
+    /// glUseProgram.
+    pub program: u32,
+    /// glBindProgramPipeline, which counts where no program is in use.
+    pub pipeline: u32,
+}
+
+/// What the context has.
+#[derive(Debug, Default)]
+pub struct Capabilities {
+    /// The fixed-function pipeline.
+    pub compatibility: bool,
+    /// Program pipelines.
+    pub pipelines: bool,
+    /// glClipControl.
+    pub clip_control: bool,
+    /// glPolygonOffsetClamp.
+    pub offset_clamp: bool,
+}
+
+/// One context as the program sees it.
+#[derive(Debug)]
+pub struct State {
+    /// Groups that must be read again before use.
+    pub touched: Touch,
+    /// What the context has.
+    pub has: Capabilities,
+    /// Matrices of fixed function.
+    pub matrices: FixedMatrices,
+    /// Viewport and scissor.
+    pub rectangles: Rectangles,
     /// What else tells what a draw is; read only where that is asked.
     pub classification: ClassificationState,
     /// Bound framebuffers, draw and read buffers.
@@ -117,24 +163,12 @@ pub struct State {
     pub list: Option<Compiling>,
     /// Immediate mode.
     pub begin: Begin,
-    /// GL_RENDER, GL_SELECT or GL_FEEDBACK.
-    pub render_mode: u32,
-    /// Between glBeginTransformFeedback and its end.
-    pub transform_feedback: bool,
-    /// glUseProgram.
-    pub program: u32,
-    /// glBindProgramPipeline, which counts where no program is in use.
-    pub pipeline: u32,
-    /// The context has such objects.
-    pub pipelines: bool,
+    /// What primitives become.
+    pub primitives: Primitives,
+    /// What runs the program's shaders.
+    pub in_use: InUse,
     /// Errors of the program that were taken out of the driver's queue before calls of ours, oldest first.
     pub errors: std::collections::VecDeque<u32>,
-    /// Whether the context has the fixed-function pipeline.
-    pub compatibility: bool,
-    /// Whether it has glClipControl.
-    pub clip_control: bool,
-    /// The driver has glPolygonOffsetClamp.
-    pub offset_clamp: bool,
 }
 
 impl State {
@@ -142,37 +176,38 @@ impl State {
     pub fn new(window: Window, compatibility: bool) -> Self {
         State {
             touched: Touch::ALL,
-            matrix_mode: c::MODELVIEW,
-            projection: glam::Mat4::IDENTITY.to_cols_array(),
-            viewport: [0; 4],
-            scissor: [0; 4],
-            scissor_test: false,
+            has: Capabilities {
+                compatibility,
+                ..Capabilities::default()
+            },
+            matrices: FixedMatrices {
+                mode: c::MODELVIEW,
+                projection: glam::Mat4::IDENTITY.to_cols_array(),
+            },
+            rectangles: Rectangles::default(),
             classification: ClassificationState::default(),
             framebuffers: Framebuffers::new(&window),
             window,
             list: None,
             begin: Begin::Outside,
-            render_mode: c::RENDER,
-            transform_feedback: false,
-            program: 0,
-            pipeline: 0,
-            pipelines: false,
+            primitives: Primitives {
+                render_mode: c::RENDER,
+                transform_feedback: false,
+            },
+            in_use: InUse::default(),
             errors: std::collections::VecDeque::new(),
-            compatibility,
-            clip_control: false,
-            offset_clamp: false,
         }
     }
 
     /// The same, with what the context has asked of the driver, and the program's errors kept.
     pub fn ask(gl: &Gl, window: Window, compatibility: bool) -> Self {
         let mut state = State::new(window, compatibility);
-        let has = |names: &[&str]| names.iter().any(|name| gl.has_extension(name));
-        state.clip_control =
-            gl.since((4, 5), None) || has(&["GL_ARB_clip_control", "GL_EXT_clip_control"]);
-        state.offset_clamp = gl.since((4, 6), None) || has(&["GL_ARB_polygon_offset_clamp"]);
-        state.pipelines =
-            gl.since((4, 1), Some((3, 1))) || has(&["GL_ARB_separate_shader_objects"]);
+        let any = |names: &[&str]| names.iter().any(|name| gl.has_extension(name));
+        state.has.clip_control =
+            gl.since((4, 5), None) || any(&["GL_ARB_clip_control", "GL_EXT_clip_control"]);
+        state.has.offset_clamp = gl.since((4, 6), None) || any(&["GL_ARB_polygon_offset_clamp"]);
+        state.has.pipelines =
+            gl.since((4, 1), Some((3, 1))) || any(&["GL_ARB_separate_shader_objects"]);
         state.keep_errors(gl);
         state
     }
@@ -183,7 +218,7 @@ impl State {
         let mut groups = groups;
         if groups.has(Touch::MATRIX) {
             groups = groups.without(Touch::MATRIX)
-                | match self.matrix_mode {
+                | match self.matrices.mode {
                     _ if self.touched.has(Touch::MODE) => Touch::DSA_MATRIX,
                     c::PROJECTION => Touch::PROJECTION,
                     c::MODELVIEW => Touch::MODELVIEW,
@@ -200,20 +235,20 @@ impl State {
     pub fn refresh(&mut self, gl: &Gl) {
         let touched = self.touched;
         if touched.has(Touch::RECTS) {
-            self.viewport = gl.get_integers(c::VIEWPORT);
-            self.scissor = gl.get_integers(c::SCISSOR_BOX);
-            self.scissor_test = gl.is_enabled(c::SCISSOR_TEST);
+            self.rectangles.viewport = gl.get_integers(c::VIEWPORT);
+            self.rectangles.scissor = gl.get_integers(c::SCISSOR_BOX);
+            self.rectangles.scissor_test = gl.is_enabled(c::SCISSOR_TEST);
         }
-        if touched.has(Touch::PROJECTION) && self.compatibility {
-            self.projection = gl.get_floats(c::PROJECTION_MATRIX);
+        if touched.has(Touch::PROJECTION) && self.has.compatibility {
+            self.matrices.projection = gl.get_floats(c::PROJECTION_MATRIX);
         }
-        if touched.has(Touch::MODE) && self.compatibility {
-            self.matrix_mode = gl.get_integer(c::MATRIX_MODE) as u32;
+        if touched.has(Touch::MODE) && self.has.compatibility {
+            self.matrices.mode = gl.get_integer(c::MATRIX_MODE) as u32;
         }
         if touched.has(Touch::OBJECTS) {
-            self.program = gl.get_integer(c::CURRENT_PROGRAM) as u32;
-            if self.pipelines {
-                self.pipeline = gl.get_integer(c::PROGRAM_PIPELINE_BINDING) as u32;
+            self.in_use.program = gl.get_integer(c::CURRENT_PROGRAM) as u32;
+            if self.has.pipelines {
+                self.in_use.pipeline = gl.get_integer(c::PROGRAM_PIPELINE_BINDING) as u32;
             }
             self.framebuffers.reread(gl);
         }
@@ -242,6 +277,8 @@ impl State {
 
     /// Whether a draw now makes a picture, wherever.
     pub fn makes_pictures(&self) -> bool {
-        self.list.is_none() && self.render_mode == c::RENDER && !self.transform_feedback
+        self.list.is_none()
+            && self.primitives.render_mode == c::RENDER
+            && !self.primitives.transform_feedback
     }
 }

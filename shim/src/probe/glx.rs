@@ -29,7 +29,7 @@ struct VisualInfo {
     bits_per_rgb: c_int,
 }
 
-/// XSetWindowAttributes
+/// XSetWindowAttributes. More than 12 fields: Xlib's.
 #[repr(C)]
 struct Attributes {
     background_pixmap: c_ulong,

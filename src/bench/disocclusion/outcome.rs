@@ -53,7 +53,7 @@ pub struct Made {
     pub left_percent: Option<f64>,
 }
 
-/// A frame of one image.
+/// A frame of one image. More than 12 fields: one for each member of the JSON.
 #[derive(Clone, Debug, Serialize)]
 pub struct View {
     /// Name of the model.

@@ -71,7 +71,7 @@ impl Stage {
     }
 
     fn shear(&self) -> Option<Shear> {
-        self.rig.shear(&self.state.projection)
+        self.rig.shear(&self.state.matrices.projection)
     }
 
     /// What the projection of a view moves the far distance by, in clip space over w.

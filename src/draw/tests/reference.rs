@@ -12,7 +12,7 @@ use crate::gl::Vertices;
 use crate::gl::consts as c;
 use crate::gl::fake::Scope;
 
-const UNIT: u32 = super::super::reference::UNIT;
+const UNIT: u32 = super::super::programs::DISTORTION_UNIT;
 
 fn stage() -> Stage {
     let mut stage = Stage::new(SideBySide, Grid::FULL);

@@ -70,7 +70,7 @@ fn an_offset_keeps_its_units_and_halves_its_factor() {
 #[test]
 fn a_clamped_offset_keeps_its_clamp() {
     let mut stage = Stage::new(SideBySide, half());
-    stage.state.offset_clamp = true;
+    stage.state.has.offset_clamp = true;
     stage.program(|gl| {
         gl.polygon_offset_clamp(4.0, 3.0, 0.5);
         gl.enable(c::POLYGON_OFFSET_FILL);

@@ -49,7 +49,7 @@ pub struct Drawn {
     pub state: Snapshot,
 }
 
-/// The state of the driver of a thread.
+/// The state of the driver of a thread. More than 12 fields: one for each kind of state. More than 25 methods: one for each family of commands.
 #[derive(Debug)]
 struct Driver {
     version: CString,
@@ -72,7 +72,7 @@ struct Driver {
     by_program: bool,
 }
 
-/// The driver of this thread, for as long as the value lives.
+/// The driver of this thread, for as long as the value lives. More than 25 methods: what tests set up and ask.
 #[derive(Debug)]
 pub struct Fake {
     real: &'static Real,

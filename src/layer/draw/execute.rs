@@ -71,11 +71,13 @@ impl Layer {
 
     /// The call once, in the program's own view only.
     fn once(&mut self, gl: &Gl, images: &Images, call: &mut dyn FnMut()) {
-        if self.has_copies() && (!images.bound.is_empty() || self.state.transform_feedback) {
+        if self.has_copies()
+            && (!images.bound.is_empty() || self.state.primitives.transform_feedback)
+        {
             self.write_back_textures(gl);
         }
         // What is fed back or hit is not drawn, and is told in the program's own viewport.
-        if self.state.draws_to_window() && self.state.render_mode == c::RENDER {
+        if self.state.draws_to_window() && self.state.primitives.render_mode == c::RENDER {
             // The tiles beside it are others' views.
             self.scissored(gl, self.targets.atlas.tiles.own(), 0, call);
         } else {
@@ -107,7 +109,7 @@ impl Layer {
     fn replay_aside(&mut self, gl: &Gl, draw: &mut Draw, mut target: Target) {
         let layered = target.layered();
         let clears = draw.hazard == ReplayHazard::Clear;
-        let chooses = draw.plan.variant && self.chooses_layers(self.state.program);
+        let chooses = draw.plan.variant && self.chooses_layers(self.state.in_use.program);
         let layered = layered.filter(|_| clears || chooses);
         if let Some(name) = layered {
             gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, name);
@@ -132,7 +134,7 @@ impl Layer {
         target: Option<&mut Target>,
         with: VariantUse,
     ) {
-        let (plan, program) = (draw.plan, self.state.program);
+        let (plan, program) = (draw.plan, self.state.in_use.program);
         let entered = match plan.variant {
             true => self.variants.own.enter(gl, program, with),
             false => None,
@@ -208,7 +210,7 @@ impl Layer {
 
     /// All views at once, by a variant that has an instance for each and chooses its layer.
     fn draw_instances(&mut self, gl: &Gl, draw: &mut Draw) {
-        let (plan, program, rig) = (draw.plan, self.state.program, self.known.rig);
+        let (plan, program, rig) = (draw.plan, self.state.in_use.program, self.known.rig);
         let framebuffer = self.state.framebuffers.draw;
         let shifts = (plan.shear, plan.flat);
         if self.diagnostics.proving.atlas().is_some()

@@ -229,7 +229,7 @@ impl Layer {
     /// glRasterPos, after the driver's own: the position stands for a point of the scene and moves with the view.
     pub fn placed_raster(&mut self, gl: &Gl) {
         self.state.refresh(gl);
-        self.cameras.raster = self.known.rig.shear(&self.state.projection);
+        self.cameras.raster = self.known.rig.shear(&self.state.matrices.projection);
         self.cameras.raster_placed = self.state.projection_kind();
     }
 

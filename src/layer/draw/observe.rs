@@ -72,7 +72,7 @@ impl Layer {
     fn observe_projections(&self, lens: Option<f64>) -> Projections {
         let [matrix, scene] = self.projections();
         Projections {
-            fixed: self.state.projection,
+            fixed: self.state.matrices.projection,
             matrix,
             scene,
             lens,
@@ -83,8 +83,11 @@ impl Layer {
     fn observe_rects(&self) -> Rects {
         let state = &self.state;
         Rects {
-            viewport: state.viewport,
-            scissor: state.scissor_test.then_some(state.scissor),
+            viewport: state.rectangles.viewport,
+            scissor: state
+                .rectangles
+                .scissor_test
+                .then_some(state.rectangles.scissor),
             window: [state.window.width, state.window.height],
         }
     }
@@ -109,7 +112,7 @@ impl Layer {
                 self.state.read_classification(gl, Touch::MODELVIEW);
             }
         }
-        let (program, shader) = match self.state.program {
+        let (program, shader) = match self.state.in_use.program {
             0 => (0, 0),
             program if classifier.needs_shader() => self.told_of(program),
             _ => (0, 0),
@@ -128,9 +131,9 @@ impl Layer {
     }
 
     fn observe_shaders(&mut self, gl: &Gl, whole: bool) -> Shaders {
-        let program = self.state.program;
+        let program = self.state.in_use.program;
         if program == 0 {
-            return match self.state.pipeline {
+            return match self.state.in_use.pipeline {
                 0 => Shaders::Fixed,
                 _ => Shaders::Pipeline,
             };
@@ -181,7 +184,7 @@ impl Layer {
         if grid.is_full() || self.targets.stuck || !self.state.draws_to_window() {
             return None;
         }
-        let fixed = self.state.program == 0 && self.state.pipeline == 0;
+        let fixed = self.state.in_use.program == 0 && self.state.in_use.pipeline == 0;
         let surfaces = fixed && !matches!(kind, Kind::Clear { .. } | Kind::Accum | Kind::Pixels);
         let stippled = surfaces && gl.is_enabled(c::POLYGON_STIPPLE);
         let aligned = grid.is_sample_aligned();
@@ -227,8 +230,8 @@ impl Layer {
     /// Whether the scissor leaves all of the window.
     fn clears_all(&self) -> bool {
         let window = [self.state.window.width, self.state.window.height].map(i64::from);
-        let [x, y, width, height] = self.state.scissor.map(i64::from);
-        !self.state.scissor_test
+        let [x, y, width, height] = self.state.rectangles.scissor.map(i64::from);
+        !self.state.rectangles.scissor_test
             || (x <= 0 && y <= 0 && x + width >= window[0] && y + height >= window[1])
     }
 
@@ -249,7 +252,7 @@ impl Layer {
             joins: clear && self.joins(),
             over_last: over && self.is_over_last(gl, request.primitives),
             reference: map.filter(|_| self.synthesis.reference.on),
-            fixed_function: self.state.compatibility,
+            fixed_function: self.state.has.compatibility,
         }
     }
 
@@ -272,7 +275,7 @@ impl Layer {
         // Depths of a view are of its own camera.
         let unprojections = match bound.is_empty() {
             true => Arc::default(),
-            false => self.unprojections_of(gl, self.state.program).into(),
+            false => self.unprojections_of(gl, self.state.in_use.program).into(),
         };
         Images {
             bound,

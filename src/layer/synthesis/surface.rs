@@ -42,7 +42,9 @@ impl Layer {
     fn surface(&mut self, gl: &Gl, next: Option<Primitives>) -> Option<Surface> {
         let next = next?;
         let (mode, count) = (next.mode(), next.count());
-        let fixed = self.state.compatibility && self.state.program == 0 && self.state.pipeline == 0;
+        let fixed = self.state.has.compatibility
+            && self.state.in_use.program == 0
+            && self.state.in_use.pipeline == 0;
         if !fixed || mode > c::POLYGON || !(1..=MOST).contains(&count) {
             return None;
         }
@@ -80,7 +82,7 @@ impl Layer {
 
     /// A draw with depths of its own goes to the scene.
     pub(in crate::layer) fn capture_surface(&mut self, gl: &Gl, next: Option<Primitives>) {
-        let whole = self.state.compatibility && !gl.is_enabled(c::ALPHA_TEST);
+        let whole = self.state.has.compatibility && !gl.is_enabled(c::ALPHA_TEST);
         self.synthesis.surfaces.last = if whole { self.surface(gl, next) } else { None };
     }
 }

@@ -20,7 +20,7 @@ type CreateProgram = unsafe extern "C" fn() -> c_uint;
 type GetActive =
     unsafe extern "C" fn(c_uint, c_uint, c_int, *mut c_int, *mut c_int, *mut c_uint, *mut c_char);
 
-/// Functions of the driver.
+/// Functions of the driver. More than 12 fields: one for each function.
 pub(super) struct Driver {
     create_shader: Create,
     shader_source: Source,
