@@ -16,8 +16,8 @@ use crate::state::State;
 /// A draw that an amplifier can make, decided.
 #[derive(Clone, Copy, Debug)]
 pub struct Amplified {
-    stages: Stages,
-    batch: u32,
+    pub(super) stages: Stages,
+    pub(super) batch: u32,
     modelview: [f32; 16],
     /// The mode to draw with instead of the program's.
     pub mode: u32,
@@ -251,7 +251,7 @@ impl Batch<'_> {
 }
 
 /// Whether primitives of a mode come out of the target as they should.
-fn allow_target(key: &FixedKey, mode: u32, geometry: bool) -> Result<(), Reason> {
+pub(super) fn allow_target(key: &FixedKey, mode: u32, geometry: bool) -> Result<(), Reason> {
     // Without clip distances other vertices of the draw are clipped than the program's own, and so the cut is another.
     if key.target.discards() && mode == c::QUADS && !key.flat {
         return Err(Reason::Kind(
@@ -274,7 +274,7 @@ fn allow_target(key: &FixedKey, mode: u32, geometry: bool) -> Result<(), Reason>
 
 /// Row 0 of P · M, both column-major, summed in single precision in the order of Mesa's `matmul4`: the driver makes its own
 /// product so, and equal bits here make equal pixels.
-fn first_row(p: &[f32; 16], m: &[f32; 16]) -> [f32; 4] {
+pub(super) fn first_row(p: &[f32; 16], m: &[f32; 16]) -> [f32; 4] {
     [0, 4, 8, 12].map(|column: usize| {
         p[0] * m[column] + p[4] * m[column + 1] + p[8] * m[column + 2] + p[12] * m[column + 3]
     })
@@ -285,7 +285,7 @@ fn first_row(p: &[f32; 16], m: &[f32; 16]) -> [f32; 4] {
 /// Smooth quads and quad strips are not among them: the driver cuts a quad in two along one diagonal or the other, and a smooth
 /// colour shows which. Measured on llvmpipe 22.3 (immediate mode and arrays alike): from 0 to 2 where no vertex of the draw is
 /// outside the frustum, from 1 to 3 where one is, and a geometry shader sees one quad only.
-fn primitive(mode: u32, flat: bool) -> Result<(Primitive, u32), Reason> {
+pub(super) fn primitive(mode: u32, flat: bool) -> Result<(Primitive, u32), Reason> {
     Ok(match mode {
         c::POINTS => (Primitive::Points, mode),
         c::LINES | c::LINE_STRIP | c::LINE_LOOP => (Primitive::Lines, mode),

@@ -79,7 +79,7 @@ impl Driver {
 }
 
 /// State that the vertex stage reads, kept until a command touches it.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FixedState {
     /// The key without target and without what depends on the primitives.
     pub key: FixedKey,

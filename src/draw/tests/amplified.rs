@@ -1,14 +1,17 @@
 //! All views by one draw, with generated shaders.
 
+use super::super::amplified::{allow_target, first_row, primitive};
 use super::super::{Amplified, Driver, FixedState, Programs, limits};
 use super::Stage;
 use crate::atlas::Grid;
 use crate::config::AtlasLayout::{Layers, SideBySide};
 use crate::config::{AtlasLayout, Clip};
-use crate::gl::Vertices;
-use crate::gl::consts as c;
+use crate::fixed::{Amplifier, FixedKey, Primitive, Target, Tiles, Unsupported};
 use crate::gl::fake::Fake;
+use crate::gl::{Gl, Vertices, consts as c};
 use crate::plan::{Method, Reason};
+use proptest::prelude::*;
+use proptest::test_runner::{RngAlgorithm, RngSeed};
 
 pub(super) struct Drawing {
     pub(super) stage: Stage,
@@ -18,8 +21,12 @@ pub(super) struct Drawing {
 
 impl Drawing {
     pub(super) fn new(stage: Stage, clip: Clip, resends: bool) -> Drawing {
+        Drawing::with(stage, clip, resends, 450)
+    }
+
+    fn with(stage: Stage, clip: Clip, resends: bool, glsl: u32) -> Drawing {
         let (gl, driver) = (stage.gl, Driver::ask(&stage.gl));
-        let limits = limits(&gl, 450);
+        let limits = limits(&gl, glsl);
         let programs = Programs::new(limits, driver, clip, resends);
         let fixed = FixedState::read(&gl, driver, 0);
         Drawing {
@@ -159,4 +166,300 @@ fn a_shader_that_the_driver_refuses_is_tried_once() {
     }
     assert_eq!(drawing.stage.fake.count("glCompileShader"), 1);
     assert_eq!(drawing.stage.fake.alive(["Programs"]), before);
+}
+
+const SIZE: [i32; 2] = [64, 48];
+
+/// What a draw without fill rules shows of a view: the pixels of the tile from left to right, by the program's viewport and scissor.
+fn shown(viewport: [i32; 4], scissor: Option<[i32; 4]>) -> [i32; 2] {
+    let [x, _, width, _] = viewport;
+    let (left, right) = (x.max(0), (x + width).min(SIZE[0]));
+    scissor.map_or([left, right], |[x, _, width, _]| {
+        [left.max(x), right.min(x + width)]
+    })
+}
+
+fn near(a: f64, b: f64) -> bool {
+    (a - b).abs() < 1e-3
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig {
+        cases: 200,
+        rng_seed: RngSeed::Fixed(26),
+        rng_algorithm: RngAlgorithm::ChaCha,
+        failure_persistence: None,
+        ..ProptestConfig::default()
+    })]
+
+    /// A vertex of a view lands where the program's viewport puts it, in the tile of the view, and is cut where the program's picture ends.
+    #[test]
+    fn vertices_land_in_their_tile(
+        x in -20..40i32, y in -20..40i32, width in 1..80i32, height in 1..80i32,
+        scissor in proptest::option::of([-5..60i32, -5..40i32, 0..70i32, 0..70i32]),
+        at in -1.0..1.0f64, layers in any::<bool>(), discard in any::<bool>(), rows in any::<bool>(),
+    ) {
+        let viewport = [x, y, width, height];
+        let fake = Fake::new().extensions(["GL_ARB_shader_viewport_layer_array"]);
+        let layout = if layers { Layers } else { SideBySide };
+        let side = if rows { 128 } else { 4096 };
+        let mut stage = Stage::within(fake, layout, Grid::FULL, side);
+        stage.program(|gl| {
+            let [x, y, width, height] = viewport;
+            gl.viewport(x, y, width, height);
+            if let Some([x, y, width, height]) = scissor {
+                gl.enable(c::SCISSOR_TEST);
+                gl.scissor(x, y, width, height);
+            }
+        });
+        let clip = if discard { Clip::Discard } else { Clip::Distances };
+        let mut drawing = Drawing::new(stage, clip, false);
+        let mut counts = Vec::new();
+        let mut wrong: Vec<String> = Vec::new();
+        let how = drawing.prepare(Method::Instanced).expect("a program");
+        let Drawing { stage, programs, fixed } = &mut drawing;
+        let (gl, tiles, before) = (stage.gl, stage.atlas.tiles, stage.fake.state());
+        let mut next = 0;
+        let per_row = if layers { 4 } else { tiles.columns };
+        // Rows from the last to the first.
+        let order: Vec<u32> = (0..4 / per_row).rev().flat_map(|row| per_row * row..per_row * (row + 1)).collect();
+        let fake = &stage.fake;
+        programs.draw(&gl, &mut stage.atlas, &stage.state, &stage.rig, None, fixed, &how, &mut |views| {
+            counts.push(views);
+            let program = fake.value(c::CURRENT_PROGRAM)[0] as u32;
+            let uniform = |name: &str| fake.uniform(program, name);
+            let texture = f64::from(tiles.texture_width());
+            // A layer has the program's own viewport: nothing is mapped.
+            let map = uniform("mv_map");
+            if map.is_empty() != layers {
+                wrong.push(format!("{map:?}"));
+            }
+            let [left, right] = shown(viewport, scissor);
+            for index in 0..views {
+                let view = tiles.slot(order[next]);
+                next += 1;
+                let (layer, tile) = tiles.place(view);
+                let place = uniform(&format!("mv_tile[{index}]"));
+                if let [scale, up, ..] = map[..] {
+                    let pixel = (scale * at + place[0] + 1.0) / 2.0 * texture;
+                    let wanted = f64::from(tile) + f64::from(x) + (at + 1.0) / 2.0 * f64::from(width);
+                    if !near(pixel, wanted) || up != 1.0 {
+                        wrong.push(format!("view {view}: {pixel} for {wanted}"));
+                    }
+                }
+                let rest = match (layers, discard) {
+                    (true, _) => [f64::from(layer), 0.0],
+                    (_, true) => [left, right].map(|end| f64::from(tile as i32 + end)),
+                    _ => [f64::from(layer), 0.0],
+                };
+                if place[2..] != rest {
+                    wrong.push(format!("view {view}: {place:?}, not {rest:?}"));
+                }
+            }
+            let after = uniform(&format!("mv_tile[{views}]"));
+            if after != [4.0, 0.0, 65535.0, 0.0] {
+                wrong.push(format!("{after:?}"));
+            }
+            let ends = uniform("mv_clip");
+            if ends.is_empty() != (layers || discard) {
+                wrong.push(format!("{ends:?}"));
+            }
+            if let [from, to, ..] = ends[..] {
+                let cut = [from, to].map(|end| f64::from(x) + (end + 1.0) / 2.0 * f64::from(width));
+                if !near(cut[0], left.into()) || !near(cut[1], right.into()) || ends[2..] != [-1.0, 1.0] {
+                    wrong.push(format!("cut at {cut:?}, not from {left} to {right}"));
+                }
+            }
+            let value = |name| fake.value(name);
+            let (area, cut) = match layers {
+                true => (viewport, scissor),
+                false => {
+                    let all = tiles.texture_width() as i32;
+                    ([0, y, all, height], scissor.map(|[_, y, _, height]| [0, y, all, height]))
+                }
+            };
+            if value(c::VIEWPORT) != area.map(f64::from) {
+                wrong.push(format!("viewport {:?} for {area:?}", value(c::VIEWPORT)));
+            }
+            if cut.is_some_and(|cut| value(c::SCISSOR_BOX) != cut.map(f64::from)) {
+                wrong.push(format!("scissor {:?} for {cut:?}", value(c::SCISSOR_BOX)));
+            }
+        });
+        prop_assert_eq!(wrong, Vec::<String>::new());
+        prop_assert_eq!(counts, vec![per_row; 4 / per_row as usize]);
+        stage.fake.assert_restored(&before);
+    }
+}
+
+#[test]
+fn a_batch_is_as_large_as_the_driver_allows() {
+    let driver = |limits: &[(u32, f64)], extension: &'static str| {
+        let fake = Fake::new().extensions(["GL_ARB_shader_viewport_layer_array", extension]);
+        limits
+            .iter()
+            .fold(fake, |fake, &(name, value)| fake.limit(name, &[value]))
+    };
+    let drawn = |fake: Fake, glsl: u32| {
+        let stage = Stage::on(fake, Layers, Grid::FULL);
+        let mut drawing = Drawing::with(stage, Clip::Distances, false, glsl);
+        let how = drawing.prepare(Method::Geometry).expect("a program");
+        let target = how.stages.0.target;
+        assert_eq!(u32::from(target.views), how.batch);
+        (target.amplifier, drawing.draw(Method::Geometry))
+    };
+    let (invocations, looped) = (Amplifier::GeometryInvocations, Amplifier::GeometryLoop);
+    let five = "GL_ARB_gpu_shader5";
+    assert_eq!(drawn(driver(&[], five), 450), (invocations, vec![4]));
+    let three = [(c::MAX_GEOMETRY_SHADER_INVOCATIONS, 3.0)];
+    assert_eq!(drawn(driver(&three, five), 450), (invocations, vec![3, 1]));
+    // Without invocations the shader makes all views in a loop: three vertices for each.
+    assert_eq!(drawn(driver(&[], ""), 330), (looped, vec![4]));
+    let six = [(c::MAX_GEOMETRY_OUTPUT_VERTICES, 6.0)];
+    assert_eq!(drawn(driver(&six, ""), 330), (looped, vec![2, 2]));
+}
+
+#[test]
+fn tiles_and_scissors_at_other_places_are_refused() {
+    let with = |step: [f64; 2], scissor: bool, layout, across: f64| {
+        let grid = Grid {
+            across,
+            step,
+            ..Grid::FULL
+        };
+        let mut stage = Stage::new(layout, grid);
+        stage.state.rectangles.scissor_test = scissor;
+        Programs::allow(&stage.state, &stage.atlas).is_ok()
+    };
+    assert!(with([0.0; 2], false, SideBySide, 1.0));
+    assert!(with([0.0; 2], true, SideBySide, 1.0));
+    assert!(with([0.25, 0.0], false, Layers, 0.5));
+    assert!(!with([0.25, 0.0], true, Layers, 0.5));
+    assert!(!with([0.0, 0.25], false, Layers, 0.5));
+    assert!(!with([0.0; 2], false, SideBySide, 0.5));
+    assert!(with([0.0; 2], false, Layers, 0.5));
+}
+
+#[test]
+fn geometry_shaders_are_fed_by_the_mode() {
+    for flat in [false, true] {
+        let feeds = [
+            (c::POINTS, Primitive::Points),
+            (c::LINES, Primitive::Lines),
+            (c::LINE_STRIP, Primitive::Lines),
+            (c::LINE_LOOP, Primitive::Lines),
+            (c::TRIANGLES, Primitive::Triangles),
+            (c::TRIANGLE_STRIP, Primitive::Triangles),
+            (c::TRIANGLE_FAN, Primitive::Triangles),
+        ];
+        for (mode, expected) in feeds {
+            assert!(matches!(primitive(mode, flat), Ok(found) if found == (expected, mode)));
+        }
+        let polygon = (Primitive::Polygon, c::TRIANGLE_FAN);
+        assert!(matches!(primitive(c::POLYGON, flat), Ok(found) if found == polygon));
+        let patches = primitive(c::PATCHES, flat);
+        assert!(matches!(patches, Err(Reason::Kind(why)) if why.contains("patches")));
+    }
+    let quads = (Primitive::Quads, c::LINES_ADJACENCY);
+    assert!(matches!(primitive(c::QUADS, true), Ok(found) if found == quads));
+    for mode in [c::QUADS, c::QUAD_STRIP] {
+        let smooth = primitive(mode, false);
+        assert!(matches!(smooth, Err(Reason::Kind(why)) if why.contains("smooth quads")));
+    }
+    let strip = primitive(c::QUAD_STRIP, true);
+    assert!(matches!(strip, Err(Reason::Kind(why)) if why.contains("flat quad strips")));
+}
+
+#[test]
+fn what_would_be_cut_otherwise_is_refused() {
+    let key = |tiles, clip, flat, primitive| FixedKey {
+        flat,
+        target: Target {
+            tiles,
+            clip,
+            primitive,
+            ..Target::default()
+        },
+        ..FixedKey::default()
+    };
+    let triangles = Primitive::Triangles;
+    for clip in [Clip::Discard, Clip::Both] {
+        let of = |tiles, flat, mode| {
+            allow_target(&key(tiles, clip, flat, triangles), mode, false).is_ok()
+        };
+        assert!(!of(Tiles::ClipLeftRight, false, c::QUADS));
+        assert!(of(Tiles::ClipLeftRight, true, c::QUADS));
+        assert!(of(Tiles::ClipLeftRight, false, c::TRIANGLES));
+        assert!(of(Tiles::Layer, false, c::QUADS));
+    }
+    let all = [
+        (Primitive::Points, [false, false]),
+        (Primitive::Lines, [false, false]),
+        (Primitive::Triangles, [true, false]),
+        (Primitive::Polygon, [true, true]),
+        (Primitive::Quads, [false, false]),
+    ];
+    for (primitive, allowed) in all {
+        for (flat, allowed) in [false, true].into_iter().zip(allowed) {
+            let of = |tiles, clip, geometry| {
+                let key = key(tiles, clip, flat, primitive);
+                allow_target(&key, c::TRIANGLES, geometry).is_ok()
+            };
+            assert_eq!(of(Tiles::ClipLeftRight, Clip::Cut, true), allowed);
+            assert!(of(Tiles::ClipLeftRight, Clip::Cut, false));
+            assert!(of(Tiles::ClipLeftRight, Clip::Distances, true));
+            assert!(of(Tiles::Layer, Clip::Cut, true));
+        }
+    }
+}
+
+#[test]
+fn the_first_row_is_that_of_the_product() {
+    let p: [f32; 16] = std::array::from_fn(|i| (i * i % 11) as f32 + 0.5);
+    let m: [f32; 16] = std::array::from_fn(|i| (i * 7 % 13) as f32 - 3.0);
+    let product = glam::Mat4::from_cols_array(&p) * glam::Mat4::from_cols_array(&m);
+    assert_eq!(first_row(&p, &m), product.row(0).to_array());
+}
+
+#[test]
+fn wide_lines_and_points_do_not_go_through_a_geometry_shader() {
+    type Case = (fn(&Gl), u32, bool);
+    let cases: [Case; 8] = [
+        (|gl| gl.line_width(2.0), c::LINES, false),
+        (|gl| gl.enable(c::LINE_SMOOTH), c::LINES, false),
+        (|gl| gl.point_size(2.0), c::POINTS, false),
+        (|gl| gl.enable(c::POINT_SMOOTH), c::POINTS, false),
+        (|gl| gl.line_width(2.0), c::TRIANGLES, true),
+        (|gl| gl.point_size(2.0), c::TRIANGLES, true),
+        (|gl| gl.point_size(2.0), c::LINES, true),
+        (|gl| gl.line_width(2.0), c::POINTS, true),
+    ];
+    for (program, mode, allowed) in cases {
+        let mut stage = drawing(Layers, Clip::Distances, false).stage;
+        stage.program(program);
+        let mut drawing = Drawing::new(stage, Clip::Distances, false);
+        let prepare = |drawing: &mut Drawing, method| {
+            let Drawing {
+                stage,
+                programs,
+                fixed,
+            } = drawing;
+            programs.prepare(&stage.gl, method, mode, fixed, false, &stage.atlas)
+        };
+        let refused = matches!(prepare(&mut drawing, Method::Geometry),
+            Err(Reason::Kind(why)) if why.contains("wide and smooth"));
+        assert_eq!(refused, !allowed);
+        assert!(prepare(&mut drawing, Method::Instanced).is_ok());
+    }
+}
+
+#[test]
+fn without_layers_there_is_nothing_to_choose() {
+    let fake = Fake::new().version(3, 1);
+    let mut drawing = Drawing::new(Stage::on(fake, Layers, Grid::FULL), Clip::Distances, false);
+    assert_eq!(drawing.stage.atlas.layered(), None);
+    let refused = drawing.prepare(Method::Instanced);
+    assert!(matches!(
+        refused,
+        Err(Reason::Fixed(Unsupported::VertexLayer))
+    ));
 }

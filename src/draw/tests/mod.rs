@@ -1,6 +1,9 @@
 //! Draws on the fake driver: which calls, in which order, and that the state is the program's again.
 
 mod amplified;
+mod current;
+mod fixed_state;
+mod fragment_state;
 mod reference;
 mod replayed;
 mod scaled;
@@ -33,12 +36,14 @@ impl Stage {
     }
 
     fn on(fake: Fake, layout: AtlasLayout, grid: Grid) -> Stage {
+        Stage::within(fake, layout, grid, 4096)
+    }
+
+    /// With textures of at most so many pixels a side.
+    fn within(fake: Fake, layout: AtlasLayout, grid: Grid, side: u32) -> Stage {
         let gl = fake.gl();
         let window = Window::ask(&gl, 64, 48, true);
-        let limits = Limits {
-            side: 4096,
-            layers: 64,
-        };
+        let limits = Limits { side, layers: 64 };
         let tiles = Tiles::new(4, [64, 48], grid, layout, limits).expect("fits");
         let atlas = Atlas::new(&gl, &mut Names::default(), &window, tiles, true);
         let atlas = atlas.expect("an atlas");

@@ -115,7 +115,8 @@ impl Driver {
             c::VERSION => self.version.as_c_str(),
             c::SHADING_LANGUAGE_VERSION => self.glsl.as_c_str(),
             c::EXTENSIONS => self.extension_list.as_c_str(),
-            c::VENDOR | c::RENDERER => c"fake",
+            c::VENDOR => c"fake",
+            c::RENDERER => self.renderer.as_c_str(),
             _ => return 0,
         };
         text.as_ptr() as i64

@@ -54,6 +54,7 @@ pub struct Drawn {
 struct Driver {
     version: CString,
     glsl: CString,
+    renderer: CString,
     extensions: Vec<CString>,
     extension_list: CString,
     missing: Vec<&'static str>,
@@ -122,6 +123,7 @@ impl Fake {
         let driver = Driver {
             version: CString::default(),
             glsl: CString::default(),
+            renderer: text("fake"),
             extensions: Vec::new(),
             extension_list: CString::default(),
             missing: Vec::new(),
@@ -168,6 +170,12 @@ impl Fake {
             driver.glsl = text(&format!("OpenGL ES GLSL ES {major}.{minor}0"));
         });
         self.limit(c::CONTEXT_PROFILE_MASK, &[0.0])
+    }
+
+    /// By another driver, as GL_RENDERER tells.
+    pub fn renderer(self, name: &str) -> Fake {
+        self.with(|driver| driver.renderer = text(name));
+        self
     }
 
     /// Disabled fixed function.
@@ -219,6 +227,11 @@ impl Fake {
         let result = calls(&self.gl());
         self.with(|driver| driver.by_program = before);
         result
+    }
+
+    /// Sets a value for which the layer has no command of its own, such as one of a light.
+    pub fn put(&self, scope: Scope, name: u32, values: &[f64]) {
+        self.with(|driver| driver.put(scope, name, values));
     }
 
     /// The next glGetError answers this.
