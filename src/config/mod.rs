@@ -10,6 +10,7 @@ mod field;
 mod file;
 mod live;
 mod options;
+mod output;
 pub mod panel;
 mod parse;
 pub mod profile;
@@ -20,6 +21,7 @@ mod status;
 mod strategy;
 #[cfg(test)]
 mod tests;
+mod words;
 
 pub use capture::{Capture, CaptureWhat};
 pub use class::{Class, DepthRange, DepthState, Projection, Viewport, Word};
@@ -28,10 +30,11 @@ pub use explain::Explain;
 pub use field::{Field, Origin, Renaming};
 pub use live::{Knob, Live};
 pub use options::{DISABLE, Former, LIBRARY, OPTIONS, OptionId, OptionSpec, PathKind, Scope};
+pub use output::{Anaglyph, Glasses, Interlace, Mixture, Output};
 pub use profile::{Profile, Rule};
 pub use settings::{Setting, Settings};
 pub use status::{Status, replace};
-pub use strategy::{DisocclusionSource, Strategy, TrueViews};
+pub use strategy::{DisocclusionSource, Repetition, Strategy, TrueViews};
 
 use crate::display::Display;
 use std::path::{Path, PathBuf};
@@ -123,47 +126,6 @@ pub fn disabled(lookup: impl Fn(&str) -> Option<String>) -> bool {
     lookup(DISABLE).is_some_and(|value| !value.is_empty() && value != "0")
 }
 
-/// The picture that is shown. Those for two eyes show the first view to the left and the last one to the right eye.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Output {
-    /// Interleaved through the mask of the display.
-    Panel,
-    /// All views in one row, view 0 on the left; `half`: in the width of one.
-    SideBySide {
-        /// Pictures squeezed to the size of one.
-        half: bool,
-    },
-    /// All views in one column, view 0 on top; `half`: in the height of one.
-    TopBottom {
-        /// Pictures squeezed to the size of one.
-        half: bool,
-    },
-    /// The Looking Glass order: view 0 bottom left, rows upwards.
-    Quilt,
-    /// Two eyes, interlaced by pixels of the screen.
-    Interlaced(Interlace),
-    /// Two eyes, through coloured glasses.
-    Anaglyph(Anaglyph),
-    /// Two eyes, each with its own buffer of a stereo window.
-    Quad,
-    /// The program's own view on the left, how near it is as grey on the right.
-    Rgbd,
-    /// One view.
-    View(u32),
-}
-
-impl Output {
-    /// It shows two eyes, whatever the display.
-    #[must_use]
-    pub fn is_stereo(self) -> bool {
-        match self {
-            Self::Interlaced(_) | Self::Anaglyph(_) | Self::Quad | Self::TopBottom { .. } => true,
-            Self::SideBySide { half } => half,
-            Self::Panel | Self::Quilt | Self::Rgbd | Self::View(_) => false,
-        }
-    }
-}
-
 /// How a subpixel of a lens sheet is coloured. As a rule its place lies between two views.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Filter {
@@ -173,60 +135,6 @@ pub enum Filter {
     Blend,
     /// Three views by a Gaussian: points that move too far from view to view are blurred, not seen twice.
     Gaussian,
-}
-
-/// Which pixels of the screen the left eye has; counted from the left top corner, the first one is its.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Interlace {
-    /// Every other row.
-    Rows,
-    /// Every other column.
-    Columns,
-    /// The dark fields.
-    Checkerboard,
-}
-
-impl Interlace {
-    /// The display that has this pattern.
-    #[must_use]
-    pub fn display(self) -> &'static str {
-        match self {
-            Self::Rows => "rows",
-            Self::Columns => "columns",
-            Self::Checkerboard => "checkerboard",
-        }
-    }
-}
-
-/// Coloured glasses, and how colours are given to them.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Anaglyph {
-    /// The glasses.
-    pub glasses: Glasses,
-    /// The mixture.
-    pub mixture: Mixture,
-}
-
-/// Colours of the left and the right glass.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Glasses {
-    /// Red, cyan.
-    RedCyan,
-    /// Green, magenta.
-    GreenMagenta,
-    /// Amber (red and green), blue.
-    AmberBlue,
-}
-
-/// How colours become those of an anaglyph.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Mixture {
-    /// Least squares (Dubois).
-    Dubois,
-    /// The glass of one colour gets the luminance of its view, the other one the colours of its view.
-    HalfColour,
-    /// Both get the luminance of their views.
-    Grey,
 }
 
 /// Where the cameras stand. Lengths are in the program's eye-space units.

@@ -1,6 +1,8 @@
 //! The one table of options: each is an option of the command, a key of the TOML file and a `MANYVIEW_*` variable.
 #![forbid(unsafe_code)]
 
+use super::{output, strategy};
+
 /// Turns the layer off when it is set to anything but nothing or `0`.
 pub const DISABLE: &str = "MANYVIEW_DISABLE";
 /// Path of the layer's library; read by the launcher only.
@@ -295,7 +297,7 @@ pub const OPTIONS: &[OptionSpec] = &[
         .default("the panel's own"),
     OptionSpec::new(OptionId::Output, "output", "MANYVIEW_OUTPUT", "OUTPUT",
         "What the window shows")
-        .choices(&["panel", "quilt", "sbs", "half-sbs", "tb", "half-tb", "rows", "columns", "checker", "quad", "rgbd", "anaglyph[:KIND]", "view:I"])
+        .choices(&output::WORDS)
         .default("panel").manual("See [Outputs](outputs.md)."),
     OptionSpec::new(OptionId::Filter, "filter", "MANYVIEW_FILTER", "FILTER",
         "How a subpixel that lies between two views is coloured")
@@ -315,7 +317,7 @@ pub const OPTIONS: &[OptionSpec] = &[
         .manual("See [Depth](depth.md)."),
     OptionSpec::new(OptionId::Strategy, "strategy", "MANYVIEW_STRATEGY", "",
         "How draws are repeated per view")
-        .choices(&["auto", "replay", "instanced", "geometry", "depth-image", "occlusion", "hybrid"])
+        .choices(&strategy::WORDS)
         .default("auto").manual("See [Strategies](strategies.md)."),
     OptionSpec::new(OptionId::Atlas, "atlas", "MANYVIEW_ATLAS", "",
         "Where the views lie in memory")

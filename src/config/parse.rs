@@ -5,14 +5,15 @@ use super::choice::{choice, choices};
 use super::error::ConfigError;
 use super::field::{Field, Origin};
 use super::options::OptionId;
+use super::output::{GLASSES, OUTPUTS};
 use super::settings::Settings;
+use super::strategy::STRATEGIES;
 use super::{
     Anaglyph, AtlasLayout, Camera, Capture, CaptureWhat, Clip, Config, Disabled, Explain, Filter,
-    Glasses, Interlace, Kept, MAX_VIEWS, Mixture, Optimisation, Output, Profile, ViewScale, panel,
-    profile, strategy,
+    Kept, MAX_VIEWS, Mixture, Optimisation, Output, Profile, Strategy, TrueViews, ViewScale, panel,
+    profile,
 };
 use crate::display::{Display, Kind, MAX_FINE_VIEWS, MaskError};
-use std::fmt;
 use std::path::{Path, PathBuf};
 
 const DEFAULT_FRAME: u64 = 30;
@@ -24,14 +25,14 @@ impl Config {
         let output = output(settings, &display)?;
         let views = views(settings, &display, output)?;
         check_output(settings, output, views)?;
-        let strategy = strategy::chosen(settings)?;
+        let strategy = strategy(settings)?;
         Ok(Self {
             views,
             output,
             filter: filter(settings, views)?,
             camera: camera(settings)?,
             strategy,
-            true_views: strategy::true_views(settings, strategy, views)?,
+            true_views: true_views(settings, strategy, views)?,
             atlas: choice(settings, OptionId::Atlas, ATLASES)?.unwrap_or(AtlasLayout::SideBySide),
             clip: choice(settings, OptionId::Clip, CLIPS)?,
             marks_holes: choice(settings, OptionId::Holes, HOLES)?.unwrap_or(false),
@@ -124,49 +125,6 @@ fn views(settings: &Settings, display: &Display, output: Output) -> Result<u32, 
             .map_err(|reason| ConfigError::Display { field, reason })?;
     }
     Ok(views)
-}
-
-const OUTPUTS: &[(&str, Output)] = &[
-    ("panel", Output::Panel),
-    ("quilt", Output::Quilt),
-    ("sbs", Output::SideBySide { half: false }),
-    ("half-sbs", Output::SideBySide { half: true }),
-    ("tb", Output::TopBottom { half: false }),
-    ("half-tb", Output::TopBottom { half: true }),
-    ("quad", Output::Quad),
-    ("rgbd", Output::Rgbd),
-    ("rows", Output::Interlaced(Interlace::Rows)),
-    ("columns", Output::Interlaced(Interlace::Columns)),
-    ("checker", Output::Interlaced(Interlace::Checkerboard)),
-];
-
-const GLASSES: [(&str, Glasses); 3] = [
-    ("red-cyan", Glasses::RedCyan),
-    ("green-magenta", Glasses::GreenMagenta),
-    ("amber-blue", Glasses::AmberBlue),
-];
-
-impl fmt::Display for Output {
-    /// As the option is written.
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::View(view) => write!(f, "view:{view}"),
-            Self::Anaglyph(Anaglyph { glasses, mixture }) => {
-                let named = GLASSES.iter().find(|(_, known)| known == glasses);
-                let mixture = match mixture {
-                    Mixture::Dubois => "",
-                    Mixture::HalfColour => "-half",
-                    Mixture::Grey => "-grey",
-                };
-                let glasses = named.map_or(GLASSES[0].0, |(name, _)| name);
-                write!(f, "anaglyph:{glasses}{mixture}")
-            }
-            other => {
-                let named = OUTPUTS.iter().find(|(_, known)| known == other);
-                f.write_str(named.map_or(OUTPUTS[0].0, |(name, _)| name))
-            }
-        }
-    }
 }
 
 /// An output for views that are there.
@@ -552,4 +510,47 @@ fn frame_range(text: &str) -> Option<(u64, u64)> {
     let (first, last) = text.split_once("..").unwrap_or((text, text));
     let (first, last) = (first.parse().ok()?, last.parse().ok()?);
     (1 <= first && first <= last).then_some((first, last))
+}
+
+/// Frames per second unless others are asked for: the rate of most screens.
+const RATE: f64 = 60.0;
+
+fn strategy(settings: &Settings) -> Result<Strategy, ConfigError> {
+    let given = choice(settings, OptionId::Strategy, STRATEGIES)?;
+    Ok(given.unwrap_or(Strategy::Auto))
+}
+
+fn true_views(
+    settings: &Settings,
+    strategy: Strategy,
+    views: u32,
+) -> Result<TrueViews, ConfigError> {
+    let count = settings.field(OptionId::TrueViews);
+    let rate = settings.field(OptionId::Fps);
+    let given = count.as_ref().or(rate.as_ref()).map(|(field, _)| field);
+    if let (Some(field), false) = (given, strategy == Strategy::Hybrid) {
+        return Err(ConfigError::NotHybrid {
+            field: field.clone(),
+            remedy: field.sibling(OptionId::Strategy),
+        });
+    }
+    match (count, rate) {
+        (Some((count, _)), Some((rate, _))) => Err(ConfigError::TrueViewsAndRate { count, rate }),
+        (Some((field, value)), None) => match value.parse() {
+            Ok(count) if (1..=views).contains(&count) => Ok(TrueViews::Fixed(count)),
+            _ => Err(ConfigError::TrueViews {
+                field,
+                value: value.to_owned(),
+                views,
+            }),
+        },
+        (None, Some((field, value))) => match value.parse() {
+            Ok(rate) if (1.0..=1000.0).contains(&rate) => Ok(TrueViews::Rate(rate)),
+            _ => Err(ConfigError::Rate {
+                field,
+                value: value.to_owned(),
+            }),
+        },
+        (None, None) => Ok(TrueViews::Rate(RATE)),
+    }
 }

@@ -1,10 +1,11 @@
 //! Strategies: which views are drawn, and which are synthesised.
 #![forbid(unsafe_code)]
 
-use super::choice::choice;
-use super::{Config, ConfigError, OptionId, Settings};
+use super::Config;
+use super::words::words;
 
-const STRATEGIES: &[(&str, Strategy)] = &[
+/// Strategies by their words.
+pub(super) const STRATEGIES: &[(&str, Strategy)] = &[
     ("auto", Strategy::Auto),
     ("replay", Strategy::Replay),
     ("instanced", Strategy::Instanced),
@@ -13,6 +14,9 @@ const STRATEGIES: &[(&str, Strategy)] = &[
     ("occlusion", Strategy::Occlusion),
     ("hybrid", Strategy::Hybrid),
 ];
+
+/// The words alone.
+pub(super) const WORDS: [&str; STRATEGIES.len()] = words(STRATEGIES, &[]);
 
 /// How the views are drawn or synthesised.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -69,10 +73,32 @@ pub enum TrueViews {
     Rate(f64),
 }
 
-/// Frames per second unless others are asked for: the rate of most screens.
-const RATE: f64 = 60.0;
+/// How a draw is repeated for the views that are drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Repetition {
+    /// The call once per view.
+    Calls,
+    /// Instances of one call.
+    Instances,
+    /// A geometry shader.
+    GeometryShader,
+}
 
 impl Strategy {
+    /// How the draws of a strategy are repeated. `auto` is in force as one of the others; views that are not synthesised are drawn by calls.
+    #[must_use]
+    pub fn repetition(self) -> Repetition {
+        match self {
+            Strategy::Instanced => Repetition::Instances,
+            Strategy::Geometry => Repetition::GeometryShader,
+            Strategy::Auto
+            | Strategy::Replay
+            | Strategy::DepthImage
+            | Strategy::Occlusion
+            | Strategy::Hybrid => Repetition::Calls,
+        }
+    }
+
     /// None where all views are drawn.
     #[must_use]
     pub fn disocclusion_source(self) -> Option<DisocclusionSource> {
@@ -92,45 +118,5 @@ impl Config {
         self.strategy
             .disocclusion_source()
             .filter(|_| self.views > 1)
-    }
-}
-
-pub(super) fn chosen(settings: &Settings) -> Result<Strategy, ConfigError> {
-    let given = choice(settings, OptionId::Strategy, STRATEGIES)?;
-    Ok(given.unwrap_or(Strategy::Auto))
-}
-
-pub(super) fn true_views(
-    settings: &Settings,
-    strategy: Strategy,
-    views: u32,
-) -> Result<TrueViews, ConfigError> {
-    let count = settings.field(OptionId::TrueViews);
-    let rate = settings.field(OptionId::Fps);
-    let given = count.as_ref().or(rate.as_ref()).map(|(field, _)| field);
-    if let (Some(field), false) = (given, strategy == Strategy::Hybrid) {
-        return Err(ConfigError::NotHybrid {
-            field: field.clone(),
-            remedy: field.sibling(OptionId::Strategy),
-        });
-    }
-    match (count, rate) {
-        (Some((count, _)), Some((rate, _))) => Err(ConfigError::TrueViewsAndRate { count, rate }),
-        (Some((field, value)), None) => match value.parse() {
-            Ok(count) if (1..=views).contains(&count) => Ok(TrueViews::Fixed(count)),
-            _ => Err(ConfigError::TrueViews {
-                field,
-                value: value.to_owned(),
-                views,
-            }),
-        },
-        (None, Some((field, value))) => match value.parse() {
-            Ok(rate) if (1.0..=1000.0).contains(&rate) => Ok(TrueViews::Rate(rate)),
-            _ => Err(ConfigError::Rate {
-                field,
-                value: value.to_owned(),
-            }),
-        },
-        (None, None) => Ok(TrueViews::Rate(RATE)),
     }
 }

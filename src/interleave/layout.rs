@@ -1,6 +1,8 @@
 //! Where a view lies in a picture of whole views.
 #![forbid(unsafe_code)]
 
+use crate::config::{Config, Output};
+
 /// A picture of whole views beside each other.
 ///
 /// Cells are numbered from the bottom left, to the right, then upwards (a column of views: from the top); cells past the last view
@@ -29,6 +31,19 @@ pub enum Layout {
 }
 
 impl Layout {
+    /// That of an output of whole views; none for the others.
+    pub fn of(config: &Config, output: Output) -> Option<Self> {
+        match output {
+            Output::SideBySide { half } => Some(Self::SideBySide { half }),
+            Output::TopBottom { half } => Some(Self::TopBottom { half }),
+            Output::Quilt => Some(Self::quilt(config.views, config.display.facts.quilt)),
+            Output::View(view) => Some(Self::View(view)),
+            // The left eye's; the right one's is shown beside it, in another buffer.
+            Output::Quad => Some(Self::View(0)),
+            Output::Panel | Output::Interlaced(_) | Output::Anaglyph(_) | Output::Rgbd => None,
+        }
+    }
+
     /// The quilt of N views that wastes no cell and is at most twice as wide as high, counted in cells, such as 4x2, 8x6
     /// and 9x5 for 8, 48 and 45 views; else the smallest near-square one that holds them. Where columns and rows are `known` and
     /// hold the views, they are taken.

@@ -52,17 +52,14 @@ pub enum Form<'a> {
 impl<'a> Form<'a> {
     /// What an output is made by.
     pub fn of(config: &'a Config, display: &'a Display, output: Output) -> Self {
+        if let Some(layout) = Layout::of(config, output) {
+            return Self::Layout(layout);
+        }
         match output {
-            Output::Panel => Self::Panel(display, config.filter),
             Output::Interlaced(interlace) => Self::Interlaced(interlace),
-            Output::SideBySide { half } => Self::Layout(Layout::SideBySide { half }),
-            Output::TopBottom { half } => Self::Layout(Layout::TopBottom { half }),
-            Output::Quilt => Self::Layout(Layout::quilt(config.views, config.display.facts.quilt)),
-            Output::View(view) => Self::Layout(Layout::View(view)),
             Output::Anaglyph(anaglyph) => Self::Anaglyph(anaglyph),
-            // The left eye's; the right one's is shown beside it, in another buffer.
-            Output::Quad => Self::Layout(Layout::View(0)),
             Output::Rgbd => Self::Rgbd,
+            _ => Self::Panel(display, config.filter),
         }
     }
 

@@ -31,7 +31,7 @@ pub use synthesis::is_over_candidate;
 
 use super::Kind;
 use super::class::Classed;
-use crate::config::{Class, Projection, Strategy};
+use crate::config::{Class, Projection, Repetition, Strategy};
 use crate::state::Touch;
 
 /// One command, decided.
@@ -129,14 +129,10 @@ fn watch_equal_depths(facts: &Facts, known: &mut Known, settings: &Settings) {
 /// Whether a strategy draws with the depths of replay: `layers`, the driver chooses layers in a vertex shader; `distances`, views beside
 /// each other were asked for by name.
 pub fn has_depths_of_replay(strategy: Strategy, layers: bool, distances: bool) -> bool {
-    match strategy {
-        Strategy::Replay
-        | Strategy::Auto
-        | Strategy::DepthImage
-        | Strategy::Occlusion
-        | Strategy::Hybrid => true,
-        Strategy::Instanced => layers && !distances,
-        Strategy::Geometry => false,
+    match strategy.repetition() {
+        Repetition::Calls => true,
+        Repetition::Instances => layers && !distances,
+        Repetition::GeometryShader => false,
     }
 }
 

@@ -1,7 +1,7 @@
 //! How a draw goes: which views, which parallax, which strategy.
 
 use super::{Facts, Known, Rects, Settings};
-use crate::config::{Class, Strategy, Viewport};
+use crate::config::{Class, Repetition, Viewport};
 use crate::gl::TextureName;
 use crate::plan::{Kind, Shear};
 
@@ -154,17 +154,10 @@ fn magnified(viewport: Viewport, rects: &Rects) -> f64 {
 /// The strategy that was asked for. The error is the reason to replay, where it is worth a word.
 fn method(facts: &Facts, known: &Known, settings: &Settings) -> Result<Method, Option<Reason>> {
     let kind = facts.traits.kind;
-    let wish = match settings.strategy {
-        // `auto` is in force as one of the others, and what no view is made of is drawn in each.
-        Strategy::Replay
-        | Strategy::Auto
-        | Strategy::DepthImage
-        | Strategy::Occlusion
-        | Strategy::Hybrid => {
-            return Err(None);
-        }
-        Strategy::Geometry => Method::Geometry,
-        Strategy::Instanced => Method::Instanced,
+    let wish = match settings.strategy.repetition() {
+        Repetition::Calls => return Err(None),
+        Repetition::Instances => Method::Instanced,
+        Repetition::GeometryShader => Method::Geometry,
     };
     match kind {
         Kind::Clear { .. } | Kind::Pixels | Kind::Accum => return Err(None),
