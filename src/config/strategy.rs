@@ -13,6 +13,7 @@ pub(super) const STRATEGIES: &[(&str, Strategy)] = &[
     ("depth-image", Strategy::DepthImage),
     ("occlusion", Strategy::Occlusion),
     ("hybrid", Strategy::Hybrid),
+    ("tint", Strategy::Tint),
 ];
 
 /// The words alone.
@@ -35,6 +36,8 @@ pub enum Strategy {
     Occlusion,
     /// The scene in some views; the others are synthesised from those beside them.
     Hybrid,
+    /// As replay; the first view keeps red alone, the last one green and blue.
+    Tint,
 }
 
 impl Strategy {
@@ -95,7 +98,8 @@ impl Strategy {
             | Strategy::Replay
             | Strategy::DepthImage
             | Strategy::Occlusion
-            | Strategy::Hybrid => Repetition::Calls,
+            | Strategy::Hybrid
+            | Strategy::Tint => Repetition::Calls,
         }
     }
 
@@ -106,7 +110,11 @@ impl Strategy {
             Strategy::DepthImage => Some(DisocclusionSource::Nothing),
             Strategy::Occlusion => Some(DisocclusionSource::Reference),
             Strategy::Hybrid => Some(DisocclusionSource::Views),
-            Strategy::Auto | Strategy::Replay | Strategy::Instanced | Strategy::Geometry => None,
+            Strategy::Auto
+            | Strategy::Replay
+            | Strategy::Instanced
+            | Strategy::Geometry
+            | Strategy::Tint => None,
         }
     }
 }
