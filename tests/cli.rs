@@ -35,7 +35,7 @@ fn bad_options_are_one_line_and_status_2() {
         (&["--output", "view:8"], "the last is view:7"),
         (
             &["--output", "chequer"],
-            "this version knows panel, quilt, sbs, ",
+            "this version knows panel, quilt, sheet, sbs, ",
         ),
         (&["--strategy", "magic"], "replay"),
         (
