@@ -383,6 +383,12 @@ fn capture_brings_its_own_screen_and_ends_it() {
 }
 
 #[test]
+fn the_budget_follows_from_the_number_of_views() {
+    let (code, stdout, _) = run(manyview().args(["budget", "--views", "12"]));
+    assert_eq!((code, stdout.as_str()), (0, "2.000\n"));
+}
+
+#[test]
 fn displays_lists_the_default_panel() {
     let (code, stdout, _) = run(manyview().arg("displays"));
     assert!(code == 0 && stdout.contains("huebner8"), "{stdout}");
