@@ -35,7 +35,7 @@ fn bad_options_are_one_line_and_status_2() {
         (&["--output", "view:8"], "the last is view:7"),
         (
             &["--output", "chequer"],
-            "this version knows panel, quilt, sheet, sbs, ",
+            "this version knows panel, quilt, sbs, ",
         ),
         (&["--strategy", "magic"], "replay"),
         (
@@ -380,12 +380,6 @@ fn capture_brings_its_own_screen_and_ends_it() {
         !Path::new(&format!("/tmp/.X{number}-lock")).exists(),
         "the server is gone"
     );
-}
-
-#[test]
-fn the_budget_follows_from_the_number_of_views() {
-    let (code, stdout, _) = run(manyview().args(["budget", "--views", "12"]));
-    assert_eq!((code, stdout.as_str()), (0, "2.000\n"));
 }
 
 #[test]

@@ -325,7 +325,6 @@ fn quilts_rows_and_single_views() {
         ("glx", "quilt", Layout::quilt(8, None), 8),
         ("egl", "quilt", Layout::quilt(9, None), 9),
         ("osmesa", "quilt", Layout::quilt(5, None), 5),
-        ("glx", "sheet", Layout::Sheet { columns: 2 }, 5),
         ("glx", "sbs", Layout::SideBySide { half: false }, 8),
         ("glx", "sbs", Layout::SideBySide { half: false }, 2),
         ("egl", "sbs", Layout::SideBySide { half: false }, 3),

@@ -4,7 +4,6 @@
 #![forbid(unsafe_code)]
 
 mod bench;
-mod budget;
 mod calibrate;
 mod capture;
 mod ctl;
@@ -71,8 +70,6 @@ enum Action {
     Bench(bench::Arguments),
     /// Say which OpenGL a program would get here and which strategies the layer has with it.
     Doctor(doctor::Arguments),
-    /// Print the largest disparity between neighbouring views that a panel shows sharply, in pixels.
-    Budget(budget::Arguments),
     /// List the built-in panels.
     Displays(displays::Arguments),
     /// Write the manual pages.
@@ -95,7 +92,6 @@ pub(crate) fn main() -> ExitCode {
         Action::Calibrate(arguments) => calibrate::run(&arguments),
         Action::Bench(arguments) => bench::run(&arguments),
         Action::Doctor(arguments) => doctor::run(&arguments),
-        Action::Budget(arguments) => budget::run(&arguments),
         Action::Displays(arguments) => displays::run(&arguments),
         Action::Man(arguments) => man::run(&arguments),
     };

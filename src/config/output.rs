@@ -21,8 +21,6 @@ pub enum Output {
     },
     /// The Looking Glass order: view 0 bottom left, rows upwards.
     Quilt,
-    /// The reading order: view 0 top left, rows downwards.
-    Sheet,
     /// Two eyes, interlaced by pixels of the screen.
     Interlaced(Interlace),
     /// Two eyes, through coloured glasses.
@@ -42,7 +40,7 @@ impl Output {
         match self {
             Self::Interlaced(_) | Self::Anaglyph(_) | Self::Quad | Self::TopBottom { .. } => true,
             Self::SideBySide { half } => half,
-            Self::Panel | Self::Quilt | Self::Sheet | Self::Rgbd | Self::View(_) => false,
+            Self::Panel | Self::Quilt | Self::Rgbd | Self::View(_) => false,
         }
     }
 }
@@ -105,7 +103,6 @@ pub enum Mixture {
 pub(super) const OUTPUTS: &[(&str, Output)] = &[
     ("panel", Output::Panel),
     ("quilt", Output::Quilt),
-    ("sheet", Output::Sheet),
     ("sbs", Output::SideBySide { half: false }),
     ("half-sbs", Output::SideBySide { half: true }),
     ("tb", Output::TopBottom { half: false }),

@@ -13,7 +13,6 @@ pub(super) const STRATEGIES: &[(&str, Strategy)] = &[
     ("depth-image", Strategy::DepthImage),
     ("occlusion", Strategy::Occlusion),
     ("hybrid", Strategy::Hybrid),
-    ("tint", Strategy::Tint),
 ];
 
 /// The words alone.
@@ -36,8 +35,6 @@ pub enum Strategy {
     Occlusion,
     /// The scene in some views; the others are synthesised from those beside them.
     Hybrid,
-    /// As replay; the first view keeps red alone, the last one green and blue.
-    Tint,
 }
 
 impl Strategy {
@@ -98,8 +95,7 @@ impl Strategy {
             | Strategy::Replay
             | Strategy::DepthImage
             | Strategy::Occlusion
-            | Strategy::Hybrid
-            | Strategy::Tint => Repetition::Calls,
+            | Strategy::Hybrid => Repetition::Calls,
         }
     }
 
@@ -110,11 +106,7 @@ impl Strategy {
             Strategy::DepthImage => Some(DisocclusionSource::Nothing),
             Strategy::Occlusion => Some(DisocclusionSource::Reference),
             Strategy::Hybrid => Some(DisocclusionSource::Views),
-            Strategy::Auto
-            | Strategy::Replay
-            | Strategy::Instanced
-            | Strategy::Geometry
-            | Strategy::Tint => None,
+            Strategy::Auto | Strategy::Replay | Strategy::Instanced | Strategy::Geometry => None,
         }
     }
 }

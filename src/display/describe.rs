@@ -104,7 +104,7 @@ impl Display {
                 lines.push(("mask", path.display().to_string()));
                 lines.push(("views shown", mask.views_shown().len().to_string()));
             }
-            Kind::Lenticular | Kind::Diagonal | Kind::Pattern(_) | Kind::Uncalibrated => {}
+            Kind::Lenticular | Kind::Pattern(_) | Kind::Uncalibrated => {}
         }
     }
 
@@ -140,7 +140,6 @@ impl Kind {
     pub fn about(&self) -> &'static str {
         match self {
             Self::Lenticular => "upright lenses, a pixel per view",
-            Self::Diagonal => "stepped barrier, a pixel per view",
             Self::Huebner(_) => "wavelength-selective filter",
             Self::Slanted(_) => "slanted lenses",
             Self::Integer(_) => "phases in whole steps",

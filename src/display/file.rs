@@ -13,7 +13,7 @@ use std::sync::Arc;
 use toml::Value;
 
 const KIND: &str = "give the optics, for example kind = \"slanted\"";
-const KINDS: &str = "\"lenticular\", \"diagonal\", \"huebner\", \"slanted\", \"integer\", \"looking-glass\", \"leia\", \"pattern\" or \"mask\"";
+const KINDS: &str = "\"lenticular\", \"huebner\", \"slanted\", \"integer\", \"looking-glass\", \"leia\", \"pattern\" or \"mask\"";
 const NAME: &str = "give a name, for example name = \"My panel\"";
 const VIEWS: &str = "give the number of views, for example views = 8";
 const PITCH: &str = "give the lens pitch in subpixels, for example pitch = \"16/3\"";
@@ -217,10 +217,6 @@ impl Reader<'_> {
             "lenticular" => {
                 only(&[])?;
                 Display::new(name, need_views()?, Kind::Lenticular)
-            }
-            "diagonal" => {
-                only(&[])?;
-                Display::new(name, need_views()?, Kind::Diagonal)
             }
             "huebner" => {
                 only(&["order"])?;

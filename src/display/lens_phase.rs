@@ -64,12 +64,6 @@ impl Display {
                 down: 0.0,
                 colour: 0.0,
             }),
-            Kind::Diagonal => Some(Phase {
-                start: 0.0,
-                right: 1.0 / f64::from(views),
-                down: 1.0 / f64::from(views),
-                colour: 0.0,
-            }),
             Kind::Huebner(_) => Slanted {
                 pitch: Number::whole(views.into()),
                 ..Slanted::HUEBNER

@@ -105,8 +105,6 @@ pub struct Facts {
 pub enum Kind {
     /// Whole pixels, view = x mod N (Hübner and Pajarola, section 3.3).
     Lenticular,
-    /// Whole pixels, view = (x + row) mod N: a barrier whose slits go down in steps of a pixel.
-    Diagonal,
     /// Wavelength-selective filter, Hübner and Pajarola, equations 7 to 9.
     Huebner(SubpixelOrder),
     /// A lens sheet of any pitch and slant.
@@ -280,11 +278,6 @@ impl Display {
             Kind::Lenticular => Mask::by_rows(placement, |first, _, row| {
                 for (x, out) in (first..).zip(row) {
                     *out = [x.rem_euclid(i64::from(views)) as u16; 3];
-                }
-            }),
-            Kind::Diagonal => Mask::by_rows(placement, |first, row, out| {
-                for (x, out) in (first..).zip(out) {
-                    *out = [(x + row).rem_euclid(i64::from(views)) as u16; 3];
                 }
             }),
             Kind::Huebner(order) => huebner::mask(placement, views, *order),

@@ -26,11 +26,6 @@ pub enum Layout {
         /// At least 1.
         rows: u32,
     },
-    /// The reading order: view 0 top left, rows downwards.
-    Sheet {
-        /// At least 1.
-        columns: u32,
-    },
     /// One view.
     View(u32),
 }
@@ -42,9 +37,6 @@ impl Layout {
             Output::SideBySide { half } => Some(Self::SideBySide { half }),
             Output::TopBottom { half } => Some(Self::TopBottom { half }),
             Output::Quilt => Some(Self::quilt(config.views, config.display.facts.quilt)),
-            Output::Sheet => Some(Self::Sheet {
-                columns: config.views.isqrt().max(1),
-            }),
             Output::View(view) => Some(Self::View(view)),
             // The left eye's; the right one's is shown beside it, in another buffer.
             Output::Quad => Some(Self::View(0)),
@@ -81,7 +73,6 @@ impl Layout {
             Self::SideBySide { .. } => (views.max(1), 1),
             Self::TopBottom { .. } => (1, views.max(1)),
             Self::Quilt { columns, rows } => (columns.max(1), rows.max(1)),
-            Self::Sheet { columns } => (columns.max(1), views.max(1).div_ceil(columns.max(1))),
             Self::View(_) => (1, 1),
         }
     }
@@ -90,16 +81,13 @@ impl Layout {
     pub fn first(self) -> u32 {
         match self {
             Self::View(view) => view,
-            Self::SideBySide { .. }
-            | Self::TopBottom { .. }
-            | Self::Quilt { .. }
-            | Self::Sheet { .. } => 0,
+            Self::SideBySide { .. } | Self::TopBottom { .. } | Self::Quilt { .. } => 0,
         }
     }
 
     /// Whether the rows of cells are numbered from the top.
     pub fn from_top(self) -> bool {
-        matches!(self, Self::TopBottom { .. } | Self::Sheet { .. })
+        matches!(self, Self::TopBottom { .. })
     }
 
     /// Size in pixels where each tile keeps its own size, or all share the size of one.

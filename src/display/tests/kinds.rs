@@ -110,7 +110,6 @@ fn cases() -> Vec<Case> {
         ((1 + t + t / 3) / 2 + 3 * x + c as i128, 8)
     };
     let lenticular = |x: i128, _: i128, _: usize| (x, 5);
-    let diagonal = |x: i128, row: i128, _: usize| (x + row, 5);
     let integer = |x: i128, row: i128, c: usize| (7 * x + 2 * c as i128 + 5 * row + 3, 96);
     let leia = |x: i128, row: i128, c: usize| {
         // p_over_du 3, p_over_dv 4/5, slant 1/10, offset 1/4; in twentieths of a view.
@@ -130,11 +129,6 @@ fn cases() -> Vec<Case> {
     vec![
         named("huebner8", "huebner8", Box::new(huebner)),
         named("lenticular-5", "lenticular-5", Box::new(lenticular)),
-        named(
-            "diagonal",
-            "kind = \"diagonal\"\nviews = 5",
-            Box::new(diagonal),
-        ),
         lens("a third of a subpixel, 9 views", 9, size, 3, 9, 1, 0),
         lens(
             "just above a third",
@@ -217,7 +211,7 @@ fn wrong(case: &Case, at: &Placement) -> u64 {
 #[test]
 fn parts_of_8k_masks_are_exact() {
     let cases = cases();
-    assert_eq!(cases.len(), 13);
+    assert_eq!(cases.len(), 12);
     for case in cases {
         for (x, y) in [(0, 0), (3811, 2160), (7560, 4200)] {
             let (screen_width, screen_height) = case.size;
@@ -330,10 +324,7 @@ fn fine_masks_have_the_places_between_views() {
             .iter()
             .map(|step| step % FINE)
             .collect();
-        let flat = matches!(
-            case.display.kind,
-            Kind::Huebner(_) | Kind::Lenticular | Kind::Diagonal
-        );
+        let flat = matches!(case.display.kind, Kind::Huebner(_) | Kind::Lenticular);
         assert_eq!(steps == [FINE / 2].into(), flat, "{}", case.name);
     }
     let table = load(

@@ -5,7 +5,6 @@ use super::super::programs::{Entered, VariantUse};
 use super::super::targets::Targets;
 use super::{Draw, Images, Send};
 use crate::atlas::{Surface, Tiles};
-use crate::config::Strategy;
 use crate::draw::{
     Amplified, Current, Drawing, FixedState, Programs, ReplayHazard, Variant, replay,
 };
@@ -181,9 +180,6 @@ impl Layer {
         images: &Images,
         call: &mut dyn FnMut(u32),
     ) -> bool {
-        let tints = self.session.strategy == Strategy::Tint && target.is_none();
-        let tint = (tints && hazard != ReplayHazard::Clear)
-            .then(|| Tint::of(gl, self.session.config.views));
         let Layer {
             targets,
             state,
@@ -205,15 +201,9 @@ impl Layer {
                 queries.resume(gl);
             }
             offscreen.bind(gl, &images.bound, view);
-            if let Some(tint) = &tint {
-                tint.enter(gl, view);
-            }
             call(view);
         };
         let sent = replay(gl, surface, state, &known.rig, shear, hazard, true, each);
-        if let Some(tint) = tint {
-            tint.leave(gl);
-        }
         offscreen.unbind(gl, &images.bound);
         sent
     }
@@ -335,39 +325,6 @@ impl Layer {
             how,
             &mut call,
         );
-    }
-}
-
-/// The colours that each view keeps, by the colour mask.
-struct Tint {
-    /// GL_COLOR_WRITEMASK, as the program has it.
-    program: [u8; 4],
-    last: u32,
-}
-
-impl Tint {
-    fn of(gl: &Gl, views: u32) -> Tint {
-        Tint {
-            program: gl
-                .get_integers(c::COLOR_WRITEMASK)
-                .map(|on| u8::from(on != 0)),
-            last: views - 1,
-        }
-    }
-
-    /// Before the draw of a view.
-    fn enter(&self, gl: &Gl, view: u32) {
-        let [red, green, blue, alpha] = self.program;
-        match view {
-            0 => gl.color_maski(0, red, 0, 0, alpha),
-            _ if view == self.last => gl.color_maski(0, 0, green, blue, alpha),
-            _ => gl.color_maski(0, red, green, blue, alpha),
-        }
-    }
-
-    fn leave(&self, gl: &Gl) {
-        let [red, green, blue, alpha] = self.program;
-        gl.color_maski(0, red, green, blue, alpha);
     }
 }
 
