@@ -122,7 +122,6 @@ impl FixedState {
                 _ => NormalScaling::None,
             },
             fog: fog(gl, driver),
-            point: PointSize::Unused,
             clip_planes: (0..driver.clip_planes)
                 .filter(|i| on(c::CLIP_PLANE0 + i))
                 .fold(0, |m, i| m | 1 << i),

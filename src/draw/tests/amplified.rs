@@ -7,7 +7,7 @@ use crate::atlas::Grid;
 use crate::config::AtlasLayout::{Layers, SideBySide};
 use crate::config::{AtlasLayout, Clip};
 use crate::fixed::{Amplifier, FixedKey, Primitive, Target, Tiles, Unsupported};
-use crate::gl::fake::Fake;
+use crate::gl::fake::{Fake, Scope};
 use crate::gl::{Gl, Vertices, consts as c};
 use crate::plan::{Method, Reason};
 use proptest::prelude::*;
@@ -37,17 +37,25 @@ impl Drawing {
     }
 
     fn prepare(&mut self, method: Method) -> Result<Amplified, Reason> {
+        self.prepare_mode(method, c::TRIANGLES)
+    }
+
+    fn prepare_mode(&mut self, method: Method, mode: u32) -> Result<Amplified, Reason> {
         let Drawing {
             stage,
             programs,
             fixed,
         } = self;
-        programs.prepare(&stage.gl, method, c::TRIANGLES, fixed, false, &stage.atlas)
+        programs.prepare(&stage.gl, method, mode, fixed, false, &stage.atlas)
     }
 
     /// The views that each call is for.
     fn draw(&mut self, method: Method) -> Vec<u32> {
         let how = self.prepare(method).expect("a program");
+        self.send(&how)
+    }
+
+    fn send(&mut self, how: &Amplified) -> Vec<u32> {
         let shear = self.stage.shear();
         let Drawing {
             stage,
@@ -63,7 +71,7 @@ impl Drawing {
             rig,
             shear,
             fixed,
-            &how,
+            how,
             &mut |views| {
                 counts.push(views);
                 gl.draw_arrays_instanced(how.mode, Vertices::without_arrays(0, 3), views as i32);
@@ -462,4 +470,42 @@ fn without_layers_there_is_nothing_to_choose() {
         refused,
         Err(Reason::Fixed(Unsupported::VertexLayer))
     ));
+}
+
+#[test]
+fn a_flat_polygon_has_its_first_vertex_where_the_shader_looks() {
+    for (mode, convention, during) in [
+        (
+            c::POLYGON,
+            c::FIRST_VERTEX_CONVENTION,
+            c::LAST_VERTEX_CONVENTION,
+        ),
+        (
+            c::POLYGON,
+            c::LAST_VERTEX_CONVENTION,
+            c::LAST_VERTEX_CONVENTION,
+        ),
+        (
+            c::TRIANGLES,
+            c::FIRST_VERTEX_CONVENTION,
+            c::FIRST_VERTEX_CONVENTION,
+        ),
+    ] {
+        let mut stage = drawing(SideBySide, Clip::Distances, false).stage;
+        let flat = f64::from(c::FLAT);
+        stage.fake.put(Scope::Context, c::SHADE_MODEL, &[flat]);
+        stage.program(|gl| gl.provoking_vertex(convention));
+        let mut drawing = Drawing::new(stage, Clip::Distances, false);
+        let before = drawing.stage.fake.state();
+        let how = drawing
+            .prepare_mode(Method::Geometry, mode)
+            .expect("a program");
+        drawing.send(&how);
+        drawing.stage.fake.assert_restored(&before);
+        let drawn = drawing.stage.fake.draws();
+        assert_eq!(
+            drawn[0].state.value(c::PROVOKING_VERTEX),
+            [f64::from(during)]
+        );
+    }
 }

@@ -1,6 +1,6 @@
 //! Draws to the reference image of an occlusion camera.
 
-use super::super::{Rays, ReplayHazard, draw_to_reference};
+use super::super::{Driver, Rays, ReplayHazard, draw_to_reference};
 use super::Stage;
 use super::amplified::Drawing;
 use super::variant;
@@ -10,12 +10,14 @@ use crate::config::Clip;
 use crate::draw::Drawing as Surfaces;
 use crate::gl::Vertices;
 use crate::gl::consts as c;
-use crate::gl::fake::Scope;
+use crate::gl::fake::{Fake, Scope};
 
 const UNIT: u32 = super::super::programs::DISTORTION_UNIT;
 
 fn stage() -> Stage {
-    let mut stage = Stage::new(SideBySide, Grid::FULL);
+    // The driver with a limit for the corners of patches that a few draws reach.
+    let fake = Fake::new().renderer("llvmpipe (LLVM 15.0.6, 256 bits)");
+    let mut stage = Stage::on(fake, SideBySide, Grid::FULL);
     let (gl, window) = (stage.gl, stage.state.window);
     assert!(
         stage
@@ -38,6 +40,9 @@ fn surfaces_are_drawn_once_as_patches_and_leave_no_trace() {
     let mut drawn_at_all = 0;
     for seed in 0..40 {
         let mut stage = stage();
+        stage.atlas.flipped = seed % 2 == 1;
+        // So many that each is small: they are not cut.
+        let many = seed % 4 == 3;
         stage.fake.scramble(seed, true);
         stage.program(|gl| gl.use_program(0));
         let rays = rays(&stage);
@@ -51,7 +56,7 @@ fn surfaces_are_drawn_once_as_patches_and_leave_no_trace() {
         fixed.polygon_mode = [c::FILL; 2];
         let surfaces = Surfaces {
             mode: Some(c::TRIANGLES),
-            vertices: 30,
+            vertices: if many { 30_000 } else { 30 },
             cuts: true,
             material: false,
         };
@@ -79,14 +84,33 @@ fn surfaces_are_drawn_once_as_patches_and_leave_no_trace() {
             continue;
         }
         drawn_at_all += 1;
-        assert_eq!(modes, [c::PATCHES]);
+        assert_eq!(modes, [if many { c::TRIANGLES } else { c::PATCHES }]);
         let state = &stage.fake.draws()[0].state;
         let image = stage.atlas.reference_framebuffer().expect("made");
         assert_eq!(
             state.int(Scope::Context, c::DRAW_FRAMEBUFFER_BINDING),
             image
         );
-        assert_eq!(state.value(c::PATCH_VERTICES), [3.0]);
+        let program = state.value(c::CURRENT_PROGRAM)[0] as u32;
+        let uniform = |name| stage.fake.uniform(program, name);
+        if !many {
+            assert_eq!(state.value(c::PATCH_VERTICES), [3.0]);
+            let level = Driver::ask(&gl).level(10);
+            assert_ne!(level, Driver::ask(&gl).level(90));
+            assert_eq!(uniform("mv_levels"), [f64::from(level)]);
+        }
+        assert_eq!(uniform("mv_distortion_map"), [f64::from(UNIT)]);
+        let [x, y, width, height] = stage.state.rectangles.viewport.map(|n| n as f32);
+        let (middle, up) = (y + height / 2.0, height / 2.0);
+        let rows = match stage.atlas.flipped {
+            true => [-up, 48.0 - middle],
+            false => [up, middle],
+        };
+        let window = [width / 2.0, rows[0], x + width / 2.0, rows[1]];
+        assert_eq!(uniform("mv_window"), window.map(f64::from));
+        let kept_apart = if many { 1.0 } else { 0.0 };
+        let disparity = [2.0, 0.5, 2.0 / width, kept_apart];
+        assert_eq!(uniform("mv_disparity"), disparity.map(f64::from));
         let map = state.int(Scope::Unit(UNIT), c::TEXTURE_BINDING_2D_ARRAY);
         assert_eq!(map, rays.map);
     }

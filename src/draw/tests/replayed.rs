@@ -359,3 +359,35 @@ fn further_viewports_are_lost() {
     stage.replay(ReplayHazard::None, &mut |_| ());
     stage.fake.assert_restored(&before);
 }
+
+#[test]
+fn attributes_are_pushed_where_their_changes_are_not_known() {
+    for (effect, pushes, asks) in [
+        (Effect::UNKNOWN, true, true),
+        (Effect::ATTRIB, true, true),
+        (Effect::COLOR, false, true),
+        (Effect::NORMAL, false, false),
+    ] {
+        let mut stage = Stage::new(SideBySide, Grid::FULL);
+        stage.replay(ReplayHazard::Current(effect), &mut |_| {});
+        let pushed = stage.fake.count("glPushAttrib");
+        assert_eq!(pushed, if pushes { 3 } else { 0 }, "{effect:?}");
+        assert_eq!(stage.fake.count("glPopAttrib"), pushed);
+        let asked = stage.fake.asked();
+        let colour = asked.iter().any(|(what, _)| what.contains("CURRENT_COLOR"));
+        assert_eq!(colour, asks, "{effect:?}: {asked:?}");
+    }
+}
+
+#[test]
+fn materials_that_follow_the_colour_are_asked_for_where_attributes_are_pushed() {
+    for (effect, asks) in [
+        (Effect::COLOR, false),
+        (Effect::COLOR | Effect::ATTRIB, true),
+    ] {
+        let mut stage = Stage::new(SideBySide, Grid::FULL);
+        stage.replay(ReplayHazard::Current(effect), &mut |_| {});
+        let follows = stage.fake.lines("glIsEnabled*");
+        assert_eq!(!follows.is_empty(), asks, "{effect:?}: {follows:?}");
+    }
+}

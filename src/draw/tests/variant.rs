@@ -4,7 +4,7 @@ use super::super::{Drawn, NoVariant, Variant, VariantKind, drawn};
 use super::Stage;
 use crate::atlas::Grid;
 use crate::config::AtlasLayout::SideBySide;
-use crate::gl::consts as c;
+use crate::gl::{Gl, consts as c};
 use crate::plan::Flat;
 use crate::rewrite::{Stage as Shader, VertexLayer};
 use crate::state::Text;
@@ -145,4 +145,115 @@ fn programs_without_a_variant_say_why() {
     };
     assert!(refusal(&[vertex, compute]).contains("computes"));
     assert_eq!(stage.fake.count("gl*"), 0, "nothing is asked for that");
+}
+
+/// A program of the context with these texts.
+fn linked(stage: &mut Stage, texts: &[Text]) -> u32 {
+    let compile = |gl: &Gl, text: &Text| gl.compile(text.kind, &text.source).expect("compiles");
+    let mut name = 0;
+    stage.program(|gl| {
+        let shaders: Vec<u32> = texts.iter().map(|text| compile(gl, text)).collect();
+        name = gl.link(&shaders).expect("links");
+    });
+    name
+}
+
+#[test]
+fn rays_are_distorted_for_one_colour_of_a_vertex_shader() {
+    let two = FRAGMENT.replace("out vec4 colour;", "out vec4 colour;\nout vec4 more;");
+    let built_in = "#version 120\nvoid main() { gl_FragColor = vec4(1.0); }\n";
+    let stores = "#version 420\nlayout(rgba8) uniform image2D im;\nout vec4 colour;\nvoid main() { imageStore(im, ivec2(0), vec4(1.0)); colour = vec4(1.0); }\n";
+    let old = VERTEX
+        .replace("150", "120")
+        .replace("in vec4", "attribute vec4");
+    let [vertex, fragment] = texts();
+    let text = |like: &Text, source: &str| Text {
+        source: source.into(),
+        ..like.clone()
+    };
+    let pair = |source: &str| [vertex.clone(), text(&fragment, source)];
+    let cases = [
+        (pair(FRAGMENT), None),
+        (pair(&two), Some("several")),
+        ([text(&vertex, &old), text(&fragment, built_in)], None),
+        (pair(stores), Some("writes to images")),
+    ];
+    for (texts, reason) in cases {
+        let mut stage = Stage::new(SideBySide, Grid::FULL);
+        let program = linked(&mut stage, &texts);
+        let made = |kind| drawn(&stage.gl, program, &texts, kind);
+        assert!(matches!(made(VariantKind::Alone), Ok(Drawn::ByVariant(_))));
+        let distorted = made(VariantKind::DistortedRays);
+        match reason {
+            None => assert!(
+                matches!(distorted, Ok(Drawn::ByVariant(_))),
+                "{distorted:?}"
+            ),
+            Some(words) => {
+                let refusal = distorted.expect_err(words).to_string();
+                assert!(refusal.contains(words), "{refusal}");
+            }
+        }
+    }
+}
+
+#[test]
+fn the_last_stage_before_the_fragments_moves_the_vertices() {
+    let evaluation = "#version 400\nlayout(quads) in;\nuniform mat4 camera;\nvoid main() { gl_Position = camera * vec4(gl_TessCoord, 1.0); }\n";
+    let vertex = "#version 400\nin vec4 at;\nvoid main() { gl_Position = at; }\n";
+    let texts = [
+        (c::VERTEX_SHADER, Shader::Vertex, vertex),
+        (
+            c::TESS_EVALUATION_SHADER,
+            Shader::TessEvaluation,
+            evaluation,
+        ),
+    ]
+    .map(|(kind, stage, source)| Text {
+        kind,
+        stage,
+        source: source.into(),
+    });
+    let mut stage = Stage::new(SideBySide, Grid::FULL);
+    let program = linked(&mut stage, &texts);
+    let made = |kind| drawn(&stage.gl, program, &texts, kind);
+    let refused = made(VariantKind::DistortedRays);
+    assert!(matches!(refused, Err(NoVariant::Stages)), "{refused:?}");
+    stage.fake.forget();
+    assert!(matches!(made(VariantKind::Alone), Ok(Drawn::ByVariant(_))));
+    let sources = stage.fake.calls();
+    let sources: Vec<String> = sources
+        .iter()
+        .filter(|call| call.name == "glShaderSource")
+        .map(|call| format!("{call:?}"))
+        .collect();
+    assert_eq!(sources.len(), 2);
+    assert!(
+        !sources[0].contains("mv_") && sources[1].contains("mv_"),
+        "{sources:?}"
+    );
+}
+
+#[test]
+fn places_in_the_window_are_sent_to_those_who_ask() {
+    let asks = FRAGMENT.replace("vec2(0.5)", "gl_FragCoord.xy");
+    let [vertex, fragment] = texts();
+    let asking = Text {
+        source: asks.into(),
+        ..fragment.clone()
+    };
+    for (fragment, sent) in [(fragment, 1), (asking, 3)] {
+        let texts = [vertex.clone(), fragment];
+        let mut stage = Stage::new(SideBySide, Grid::FULL);
+        let program = linked(&mut stage, &texts);
+        let variant = match drawn(&stage.gl, program, &texts, VariantKind::Alone) {
+            Ok(Drawn::ByVariant(variant)) => variant,
+            other => panic!("{other:?}"),
+        };
+        let gl = stage.gl;
+        gl.use_program(variant.name());
+        stage.fake.forget();
+        variant.set_views(&gl, (stage.shear(), Flat::Still), &[0.5], 64);
+        assert_eq!(stage.fake.count("glUniform4fv"), sent);
+    }
 }

@@ -1,4 +1,4 @@
-//! Shaders and programs: they compile and link, and their uniforms are those that their texts declare.
+//! Shaders and programs: they compile and link, and their uniforms, inputs and outputs are those that their texts declare.
 
 use super::memory::{Kind, address, put_string, read, string, strings, write};
 use super::{Arg, Call, Driver, Scope};
@@ -20,6 +20,8 @@ struct Program {
     attached: Vec<u32>,
     uniforms: Vec<Declared>,
     attributes: Vec<Declared>,
+    /// What the fragment shader writes under names of its own; each has the location after that of the one before.
+    outputs: Vec<Declared>,
     blocks: Vec<String>,
     linked: bool,
 }
@@ -99,9 +101,19 @@ fn declared(text: &str, by: &[&str]) -> Vec<(String, String, Option<u32>)> {
             found.push((String::new(), at(next).to_owned(), None));
             continue;
         }
-        let array = (at(next + 2) == "[").then(|| at(next + 3).parse().unwrap_or(1));
-        if [";", "[", "="].contains(&at(next + 2)) {
-            found.push((at(next).to_owned(), at(next + 1).to_owned(), array));
+        let word = at(next);
+        // `uniform vec4 a, b;` declares two; a comma after `in` is one between parameters.
+        let lists = at(start) == "uniform";
+        loop {
+            let array = (at(next + 2) == "[").then(|| at(next + 3).parse().unwrap_or(1));
+            let more = lists && at(next + 2) == ",";
+            if more || [";", "[", "="].contains(&at(next + 2)) {
+                found.push((word.to_owned(), at(next + 1).to_owned(), array));
+            }
+            if !more {
+                break;
+            }
+            next += 2;
         }
     }
     found
@@ -123,6 +135,7 @@ impl Shaders {
         };
         program.uniforms.clear();
         program.attributes.clear();
+        program.outputs.clear();
         program.blocks.clear();
         let shaders: Vec<&Shader> = program
             .attached
@@ -158,6 +171,12 @@ impl Shaders {
                     .into_iter()
                     .for_each(|input| add(&mut program.attributes, input));
             }
+            if shader.kind == c::FRAGMENT_SHADER {
+                let outputs = declared(&shader.text, &["out"]);
+                outputs
+                    .into_iter()
+                    .for_each(|output| add(&mut program.outputs, output));
+            }
         }
         program.linked = shaders.iter().all(|shader| shader.compiled);
         self.programs.insert(name, program);
@@ -168,6 +187,12 @@ impl Shaders {
         let uniforms = self.programs.get(&program).map(|p| &p.uniforms);
         place(uniforms.map_or(&[], Vec::as_slice), name)
     }
+}
+
+/// The length of the longest name, with its final 0.
+fn longest(list: &[Declared]) -> f64 {
+    let lengths = list.iter().map(|known| known.name.len() + 1);
+    lengths.max().unwrap_or(0) as f64
 }
 
 fn place(all: &[Declared], name: &str) -> i32 {
@@ -243,7 +268,10 @@ impl Driver {
                 let program = self.shaders.programs.get(&name)?;
                 return Some(place(&program.attributes, &string(place_of(1))).into());
             }
-            "glGetFragDataLocation" => return Some(-1),
+            "glGetFragDataLocation" => {
+                let program = self.shaders.programs.get(&name)?;
+                return Some(place(&program.outputs, &string(place_of(1))).into());
+            }
             "glGetProgramiv" => {
                 let value = self.program_parameter(name, call.int(1) as u32);
                 write(place_of(2), Kind::I32, &[value]);
@@ -281,7 +309,20 @@ impl Driver {
                 put_string(block, call.int(2), place_of(3), place_of(4));
             }
             "glGetActiveUniformBlockiv" => write(place_of(3), Kind::I32, &[0.0]),
-            "glGetProgramInterfaceiv" => write(place_of(3), Kind::I32, &[0.0]),
+            // Of outputs alone.
+            "glGetProgramInterfaceiv" => {
+                let outputs = &self.shaders.programs.get(&name)?.outputs;
+                let value = match call.int(2) as u32 {
+                    c::MAX_NAME_LENGTH => longest(outputs),
+                    _ => outputs.len() as f64,
+                };
+                write(place_of(3), Kind::I32, &[value]);
+            }
+            "glGetProgramResourceName" => {
+                let outputs = &self.shaders.programs.get(&name)?.outputs;
+                let known = outputs.get(call.int(2) as usize)?;
+                put_string(&known.name, call.int(3), place_of(4), place_of(5));
+            }
             get if get.starts_with("glGetUniform") && get.ends_with('v') => {
                 let key = (Scope::Program(name), call.int(1) as u32);
                 let values = self.state.values.get(&key).cloned();
@@ -299,10 +340,6 @@ impl Driver {
     fn program_parameter(&self, name: u32, parameter: u32) -> f64 {
         let Some(program) = self.shaders.programs.get(&name) else {
             return 0.0;
-        };
-        let longest = |list: &[Declared]| {
-            let lengths = list.iter().map(|known| known.name.len() + 1);
-            lengths.max().unwrap_or(0) as f64
         };
         match parameter {
             c::LINK_STATUS => program.linked.into(),
