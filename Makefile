@@ -78,6 +78,7 @@ test: packages build demos ## run the tests
 	@if $(CARGO) nextest --version >/dev/null 2>&1; \
 	then $(CARGO) nextest run --release --no-fail-fast --no-tests=warn --workspace; \
 	else $(CARGO) test --release --no-fail-fast --workspace --lib --bins --tests; fi
+	$(CARGO) test --release -p manyview-shim --features fake-driver --lib
 	$(CARGO) test --release -p manyview --doc
 
 test-long: packages build demos ## run the tests that take long as well
@@ -85,6 +86,7 @@ test-long: packages build demos ## run the tests that take long as well
 	@if $(CARGO) nextest --version >/dev/null 2>&1; \
 	then $(CARGO) nextest run --release --no-tests=warn --workspace --run-ignored all -E 'not test(/^(full|programs|soak)_/)'; \
 	else $(CARGO) test --release --workspace --lib --bins --tests -- --include-ignored --skip full_ --skip programs_ --skip soak_; fi
+	$(CARGO) test --release -p manyview-shim --features fake-driver --lib
 	$(CARGO) test --release -p manyview --doc
 
 test-full: packages build demos ## run all tests but those of programs, also all of piglit's and valgrind (an hour)
@@ -93,6 +95,7 @@ test-full: packages build demos ## run all tests but those of programs, also all
 	@if $(CARGO) nextest --version >/dev/null 2>&1; \
 	then $(CARGO) nextest run --release --no-fail-fast --no-tests=warn --workspace --run-ignored all -E 'not test(/^(programs|soak)_/)'; \
 	else $(CARGO) test --release --no-fail-fast --workspace --lib --bins --tests -- --include-ignored --skip programs_ --skip soak_; fi
+	$(CARGO) test --release -p manyview-shim --features fake-driver --lib
 	$(CARGO) test --release -p manyview --doc
 
 programs: packages build ## run real programs with and without the layer; writes docs/compatibility.md (two hours)
@@ -134,7 +137,7 @@ book: ## build the manual as HTML in target/book (needs mdbook)
 
 lint: rust ## check format, clippy and documentation
 	$(CARGO) fmt --all --check
-	$(CARGO) clippy --workspace --all-targets -- -D warnings
+	$(CARGO) clippy --workspace --all-targets --features manyview-shim/fake-driver -- -D warnings
 	RUSTDOCFLAGS="-D warnings" $(CARGO) doc --no-deps -p manyview
 
 packages: ## install the Debian packages that are missing

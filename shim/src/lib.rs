@@ -23,6 +23,8 @@ mod shares;
 mod socket;
 mod special;
 mod switch;
+#[cfg(all(test, feature = "fake-driver"))]
+mod tests;
 mod viewports;
 mod windows;
 mod xcb;

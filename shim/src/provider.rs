@@ -20,6 +20,10 @@ static OSMESA: Real = Real::new(load_osmesa);
 impl Provider {
     /// The table of real functions.
     pub(crate) fn real(self) -> &'static Real {
+        #[cfg(all(test, feature = "fake-driver"))]
+        if let Some(fake) = crate::tests::driver() {
+            return fake;
+        }
         match self {
             Provider::Gl => &GL,
             Provider::OsMesa => &OSMESA,

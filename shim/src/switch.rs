@@ -47,6 +47,13 @@ pub(crate) fn config() -> Option<&'static Config> {
         .as_ref()
 }
 
+/// The configuration of tests, if it is the first that the process has.
+#[cfg(all(test, feature = "fake-driver"))]
+pub(crate) fn configure(config: Config) {
+    // Tests in one process share it.
+    let _ = CONFIG.set(Some(config));
+}
+
 /// Mode of this process.
 pub(crate) fn mode() -> Mode {
     match config() {

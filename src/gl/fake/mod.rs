@@ -221,6 +221,11 @@ impl Fake {
         gl
     }
 
+    /// Its functions, for whoever is the layer's way to the driver.
+    pub fn real(&self) -> &'static Real {
+        self.real
+    }
+
     /// Calls of the program: what they make is the program's, and they are not among the calls of the layer.
     pub fn program<R>(&self, calls: impl FnOnce(&Gl) -> R) -> R {
         let before = self.with(|driver| std::mem::replace(&mut driver.by_program, true));

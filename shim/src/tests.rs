@@ -1,0 +1,300 @@
+//! Hooks on the driver that records calls: which of them reach it, in which order, what they ask, and that the program reads what it
+//! would read without us.
+
+use crate::context::{self, guarded};
+use crate::drawable::Drawable;
+use crate::entry::*;
+use crate::provider::Provider;
+use crate::switch;
+use core::cell::Cell;
+use core::ptr::null_mut;
+use manyview_core::config::Config;
+use manyview_core::gl::fake::{Fake, Snapshot};
+use manyview_core::gl::{Ptr, Real, consts as c};
+
+thread_local! {
+    static DRIVER: Cell<Option<&'static Real>> = const { Cell::new(None) };
+}
+
+/// The functions of the driver that this thread's test has.
+pub(crate) fn driver() -> Option<&'static Real> {
+    DRIVER.get()
+}
+
+const VIEWS: usize = 4;
+const SIZE: (u32, u32) = (64, 48);
+
+/// A program with one context, whose calls go through the exported functions.
+struct Program {
+    fake: Fake,
+}
+
+impl Program {
+    fn new() -> Program {
+        let fake = Fake::new().extensions(["GL_ARB_shader_viewport_layer_array"]);
+        Program::on(fake)
+    }
+
+    fn on(fake: Fake) -> Program {
+        let options = [("MANYVIEW_VIEWS", "4"), ("MANYVIEW_STRATEGY", "replay")];
+        let config = Config::from_env(|variable| {
+            let found = options.iter().find(|(name, _)| *name == variable);
+            found.map(|(_, value)| (*value).to_owned())
+        });
+        switch::configure(config.expect("options"));
+        DRIVER.set(Some(fake.real()));
+        let drawable = Some(Drawable::Memory(SIZE.0, SIZE.1));
+        context::made_current(Provider::Gl, handle(), drawable);
+        assert!(context::enter(|_, _| ()).is_some(), "a layer");
+        let program = Program { fake };
+        program.look();
+        program.fake.forget();
+        program
+    }
+
+    /// It looks into a scene.
+    fn look(&self) {
+        // SAFETY: constants, and matrices of 16 values.
+        unsafe {
+            glMatrixMode(c::PROJECTION);
+            let mut matrix = [0.0f32; 16];
+            (matrix[0], matrix[5]) = (1.0, 1.0);
+            (matrix[10], matrix[11], matrix[14]) = (-1.02, -1.0, -2.02);
+            glLoadMatrixf(matrix.as_mut_ptr().cast());
+            glMatrixMode(c::MODELVIEW);
+            glEnable(c::DEPTH_TEST);
+        }
+    }
+
+    fn integer(&self, name: u32) -> i32 {
+        let mut value = -1i32;
+        // SAFETY: one integer.
+        unsafe { glGetIntegerv(name, (&raw mut value).cast()) };
+        value
+    }
+}
+
+impl Drop for Program {
+    fn drop(&mut self) {
+        context::destroyed(Provider::Gl, handle());
+        context::made_current(Provider::Gl, null_mut(), None);
+        DRIVER.set(None);
+    }
+}
+
+/// Of this thread's context.
+fn handle() -> Ptr {
+    thread_local! { static PLACE: u8 = const { 0 } };
+    PLACE.with(|place| (&raw const *place).cast_mut().cast())
+}
+
+fn draw() {
+    // SAFETY: three vertices without arrays.
+    unsafe { glDrawArrays(c::TRIANGLES, 0, 3) };
+}
+
+/// A frame of a program without windows.
+fn frame() {
+    // SAFETY: no arguments.
+    unsafe { glFinish() };
+}
+
+#[test]
+fn a_draw_is_sent_once_for_each_view_and_asks_nothing() {
+    let program = Program::new();
+    draw();
+    let before = program.fake.state();
+    program.fake.forget();
+    draw();
+    assert_eq!(program.fake.count("glDrawArrays"), VIEWS);
+    assert!(
+        program.fake.asked().is_empty(),
+        "{:?}",
+        program.fake.asked()
+    );
+    program.fake.assert_restored(&before);
+    let places: Vec<f64> = program
+        .fake
+        .draws()
+        .iter()
+        .map(|drawn| drawn.state.value(c::VIEWPORT)[0])
+        .collect();
+    assert_eq!(places, [64.0, 128.0, 192.0, 0.0]);
+}
+
+#[test]
+fn state_reaches_the_layer_before_the_driver_draws() {
+    let program = Program::new();
+    draw();
+    program.fake.forget();
+    // SAFETY: a rectangle.
+    unsafe { glViewport(8, 4, 32, 16) };
+    draw();
+    let sent = program.fake.calls();
+    assert_eq!(sent[0].name, "glViewport", "{sent:?}");
+    let drawn = program.fake.draws();
+    let boxes: Vec<_> = drawn.iter().map(|d| d.state.value(c::VIEWPORT)).collect();
+    assert_eq!(boxes[3], [8.0, 4.0, 32.0, 16.0]);
+    assert_eq!(boxes[0], [72.0, 4.0, 32.0, 16.0]);
+}
+
+#[test]
+fn what_the_layer_made_is_hidden() {
+    let program = Program::new();
+    draw();
+    frame();
+    draw();
+    assert_eq!(program.integer(c::DRAW_FRAMEBUFFER_BINDING), 0);
+    assert_ne!(program.fake.value(c::DRAW_FRAMEBUFFER_BINDING), [0.0]);
+    let atlas = program.fake.value(c::DRAW_FRAMEBUFFER_BINDING)[0] as u32;
+    // SAFETY: names.
+    unsafe {
+        assert_eq!(glIsFramebuffer(atlas), 0);
+        let textures = (1..200).filter(|&name| glIsTexture(name) != 0).count();
+        assert_eq!(textures, 0);
+        assert_eq!(glGetError(), c::NO_ERROR);
+    }
+}
+
+#[test]
+fn immediate_mode_is_recorded_and_sent_at_its_end() {
+    let program = Program::new();
+    draw();
+    program.fake.forget();
+    // SAFETY: values.
+    unsafe {
+        glBegin(c::TRIANGLES);
+        for x in [0.0, 1.0, 2.0] {
+            glVertex3f(x, 0.0, -5.0);
+        }
+        assert_eq!(program.fake.count("glVertex*"), 0, "not before glEnd");
+        glEnd();
+    }
+    let sent = program.fake.count("glVertex3f");
+    assert_eq!(sent, 3 * VIEWS);
+    // The driver has the program's own glBegin and glEnd as well, which are empty.
+    assert_eq!(program.fake.count("glBegin"), 1 + VIEWS);
+    assert_eq!(program.fake.count("glEnd"), 1 + VIEWS);
+}
+
+#[test]
+fn a_list_is_compiled_once_and_called_for_each_view() {
+    let program = Program::new();
+    draw();
+    program.fake.forget();
+    // SAFETY: names and values.
+    unsafe {
+        glNewList(7, 0x1300);
+        draw();
+        glEndList();
+        assert_eq!(program.fake.count("glDrawArrays"), 1, "GL_COMPILE");
+        program.fake.forget();
+        glCallList(7);
+    }
+    assert_eq!(program.fake.count("glCallList"), VIEWS);
+}
+
+#[test]
+fn calls_of_the_layer_and_of_the_driver_pass() {
+    let program = Program::new();
+    draw();
+    program.fake.forget();
+    guarded(draw);
+    assert_eq!(program.fake.count("gl*"), 1);
+}
+
+#[test]
+fn a_thread_without_a_context_reaches_the_driver_alone() {
+    let program = Program::new();
+    context::made_current(Provider::Gl, null_mut(), None);
+    program.fake.forget();
+    draw();
+    // SAFETY: a rectangle.
+    unsafe { glViewport(0, 0, 5, 5) };
+    assert_eq!(program.fake.count("gl*"), 2);
+}
+
+/// A random number from 0 to below a limit; xorshift, so that a seed gives the same calls everywhere.
+struct Dice(u64);
+
+impl Dice {
+    fn below(&mut self, limit: u32) -> u32 {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        (self.0 >> 33) as u32 % limit
+    }
+}
+
+/// Calls as a seed chooses them; each pushes and pops what it has to.
+fn calls(seed: u64) {
+    let mut dice = Dice(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1);
+    const CAPABILITIES: [u32; 5] = [
+        c::DEPTH_TEST,
+        c::SCISSOR_TEST,
+        c::BLEND,
+        c::TEXTURE_2D,
+        c::LIGHTING,
+    ];
+    for _ in 0..60 {
+        let n = dice.below(60) as i32;
+        // SAFETY: constants, values, and vertices without arrays.
+        unsafe {
+            match dice.below(12) {
+                0 => glEnable(CAPABILITIES[dice.below(5) as usize]),
+                1 => glDisable(CAPABILITIES[dice.below(5) as usize]),
+                2 => glViewport(n, n / 2, 20 + n, 30),
+                3 => glScissor(n, n / 3, 10 + n, 40),
+                4 => {
+                    glMatrixMode([c::MODELVIEW, c::PROJECTION][dice.below(2) as usize]);
+                    glPushMatrix();
+                    glTranslatef(n as f32, 0.0, -1.0);
+                    draw();
+                    glPopMatrix();
+                }
+                5 => glBindTexture(c::TEXTURE_2D, 300 + n as u32),
+                6 => glColor4f(n as f32 / 60.0, 0.5, 0.25, 1.0),
+                7 => {
+                    glPushAttrib(c::ALL_ATTRIB_BITS);
+                    glViewport(1, 2, 3, 4);
+                    draw();
+                    glPopAttrib();
+                }
+                8 => {
+                    glBegin(c::TRIANGLES);
+                    glColor4f(0.0, 1.0, n as f32 / 60.0, 1.0);
+                    (0..3).for_each(|x| glVertex3f(x as f32, n as f32, -2.0));
+                    glEnd();
+                }
+                9 => glClear(c::COLOR_BUFFER_BIT | c::DEPTH_BUFFER_BIT),
+                10 => glDepthFunc([c::LEQUAL, c::ALWAYS][dice.below(2) as usize]),
+                _ => draw(),
+            }
+        }
+    }
+}
+
+/// What differs of the state, but for the framebuffers, of which the program's 0 is the atlas.
+fn differences(alone: &Snapshot, hooked: &Snapshot) -> Vec<String> {
+    let all = alone.differences(hooked).into_iter();
+    all.filter(|line| !line.contains("FRAMEBUFFER_BINDING"))
+        .collect()
+}
+
+#[test]
+fn random_calls_leave_the_state_that_they_leave_without_the_layer() {
+    let after = |calls: &dyn Fn()| {
+        let program = Program::new();
+        calls();
+        (program.fake.state(), program.fake.draws().len())
+    };
+    for seed in 0..60 {
+        let (hooked, drawn) = after(&|| calls(seed));
+        let (alone, once) = after(&|| guarded(|| calls(seed)));
+        assert_eq!(differences(&alone, &hooked), [""; 0], "seed {seed}");
+        assert!(
+            drawn > 2 * once,
+            "seed {seed}: {drawn} draws in place of {once}"
+        );
+    }
+}
