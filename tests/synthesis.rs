@@ -248,7 +248,7 @@ fn what_depths_do_not_tell_of_is_drawn_in_each_view() {
                 "{scene:?}: the own view is another"
             );
             let found = reasons(&report);
-            let told = format!("views are made before {reason}");
+            let told = format!("views are synthesised before {reason}");
             match reason {
                 "" => assert!(found.is_empty(), "{scene:?}: {found:?}"),
                 _ => assert!(found.contains(&told), "{scene:?}: {found:?}"),
@@ -435,7 +435,7 @@ fn another_pass_over_a_surface_has_its_depths() {
             let (filled, report) = picture(strategy, "fill");
             let (marked, _) = picture(strategy, "mark");
             assert!(made(&report)[1] > 0, "{report}");
-            let told = reason.map(|reason| format!("views are made before {reason}"));
+            let told = reason.map(|reason| format!("views are synthesised before {reason}"));
             let found = reasons(&report);
             let ends: Vec<_> = found.iter().filter(|r| r.contains("before")).collect();
             assert_eq!(ends, told.iter().collect::<Vec<_>>(), "{strategy}");

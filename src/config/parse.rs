@@ -473,12 +473,12 @@ fn capture(settings: &Settings, views: u32) -> Result<Option<Capture>, ConfigErr
             value: value.to_owned(),
         })?,
     };
-    let bent = settings
+    let occlusion = settings
         .get(OptionId::Strategy)
         .is_some_and(|s| s.value == "occlusion");
     let held = capture_what(settings, views)?;
     if let (CaptureWhat::Reference | CaptureWhat::Samples, Some((field, value))) = (held, what)
-        && (first < 2 || !bent)
+        && (first < 2 || !occlusion)
     {
         return Err(ConfigError::NoReference {
             field,

@@ -42,7 +42,7 @@ pub struct Cleared {
     pub sky: bool,
 }
 
-/// Where the pictures lie that views are made of.
+/// Where the pictures lie that views are synthesised from.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Places {
     /// In their tiles.

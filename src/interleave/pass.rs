@@ -10,7 +10,7 @@ pub enum Pass {
     Interleave,
     /// The same for views of the picture's size.
     Texels(Texels),
-    /// The same for views that have fewer texels, lens by lens or evenly.
+    /// The same for views that have fewer texels, aligned with the panel's samples or evenly spread.
     SampleAligned(SampleAligned),
     /// Quilt, side by side or a single view.
     Layout,

@@ -16,7 +16,7 @@ impl Layer {
         let f = &self.state.framebuffers;
         let (draw, read) = (f.draw, f.read);
         if read == 0 && draw != 0 {
-            self.make_views(gl);
+            self.synthesise_views(gl);
         }
         let split = self.targets.offscreen.is_split(gl, read);
         if draw != 0 {

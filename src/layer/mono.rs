@@ -24,7 +24,7 @@ impl Layer {
 
     /// The other views get what the program's own one has, and are drawn again.
     pub(super) fn leave_mono(&mut self, gl: &Gl) {
-        self.make_views(gl);
+        self.synthesise_views(gl);
         self.draw_all_views(gl);
     }
 

@@ -1,9 +1,9 @@
-//! `--strategy depth-image`: the scene goes to the program's own view alone, and the others are made of it and its depths. `hybrid`: it goes
-//! to some views, and the others are made of those beside them.
+//! `--strategy depth-image`: the scene goes to the program's own view alone, and the others are synthesised from it and its depths. `hybrid`: it
+//! goes to some views, and the others are synthesised from those beside them.
 //!
 //! From a clear of the depths on, what is drawn in perspective, opaque, by one projection, is in these views only. Before anything else (the
-//! HUD, glass, another clear, a copy of the frame) the views are made into their tiles, depths as well, and all that follows is drawn in each of
-//! them. Where nothing else follows, the panel's picture is made straight from the views that are drawn.
+//! HUD, glass, another clear, a copy of the frame) the views are synthesised into their tiles, with their depths, and all that follows is drawn in
+//! each of them. Where nothing else follows, the panel's picture is synthesised straight from the views that are drawn.
 
 mod samples;
 mod surface;
@@ -156,7 +156,7 @@ impl Layer {
     }
 
     /// The views that are shown get what the own one shows, from where they stand; all of them are drawn from now on.
-    pub(super) fn make_views(&mut self, gl: &Gl) {
+    pub(super) fn synthesise_views(&mut self, gl: &Gl) {
         let Some(scene) = self.known.scene.take() else {
             return;
         };
@@ -241,7 +241,7 @@ impl Layer {
         made
     }
 
-    /// Only with what views are made of, colours and depths.
+    /// Resolves only the views that others are synthesised from, colours and depths.
     fn resolve_sources(&mut self, gl: &Gl) {
         let sources = self.synthesis.sources;
         let views = match sources {
@@ -333,7 +333,7 @@ impl Layer {
                     self.diagnostics.report.synthesised(true);
                 }
             }
-            _ => self.make_views(gl),
+            _ => self.synthesise_views(gl),
         }
     }
 

@@ -52,7 +52,7 @@ impl Layer {
                 Effect::ForgetDepths => self.cameras.comfort.mappings.clear(),
                 Effect::BeginScene { depth } => self.begin_scene(gl, depth),
                 Effect::CaptureSurface => self.capture_surface(gl, request.primitives),
-                Effect::SynthesiseViews => self.make_views(gl),
+                Effect::SynthesiseViews => self.synthesise_views(gl),
                 Effect::LeaveMono => self.draw_all_views(gl),
                 Effect::Fallback(reason) => self.diagnostics.fallbacks.add(reason),
                 Effect::Note(sentence) => self.diagnostics.report.note(sentence.into()),
@@ -65,7 +65,7 @@ impl Layer {
         self.targets.detail = detail;
         let now = match self.grid() {
             grid if grid.is_full() => "at the size of the window",
-            _ => "with fewer pixels, but not lens by lens",
+            _ => "with fewer pixels, but not aligned with the panel's samples",
         };
         self.diagnostics
             .report

@@ -1,6 +1,6 @@
 //! `--what samples`: what slices for a volumetric display are made of (see [`crate::volume::Samples`]).
 //!
-//! They are taken where the views are made, before anything flat is drawn over them.
+//! They are taken where the views are synthesised, before anything flat is drawn over them.
 
 use super::super::Layer;
 use super::super::frame::tile;

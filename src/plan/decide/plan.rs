@@ -20,8 +20,8 @@ pub enum Reason {
     Compile,
     /// A draw that an occlusion camera's rays do not meet.
     NoReference(String),
-    /// Views were made of the scene before something that has to be drawn in each.
-    Parted(&'static str),
+    /// Views were synthesised from the scene before something that has to be drawn in each.
+    SynthesisedBefore(&'static str),
 }
 
 impl core::fmt::Display for Reason {
@@ -35,7 +35,7 @@ impl core::fmt::Display for Reason {
             Reason::NoReference(why) => {
                 write!(f, "a program draws nothing to the reference image: {why}")
             }
-            Reason::Parted(what) => write!(f, "views are made before {what}"),
+            Reason::SynthesisedBefore(what) => write!(f, "views are synthesised before {what}"),
         }
     }
 }

@@ -36,7 +36,7 @@ pub(super) fn watch(
             plan.reference = rays.and_then(|(mapping, map)| reference(facts, &mapping, map));
         }
         Err(NotOfScene(what)) => {
-            effects.push(Effect::Fallback(Reason::Parted(what)));
+            effects.push(Effect::Fallback(Reason::SynthesisedBefore(what)));
             synthesise(known, effects);
         }
     }
@@ -63,7 +63,7 @@ fn clear(facts: &Facts, known: &mut Known, whole: u32, effects: &mut Vec<Effect>
         && scene.begun
         && !((all || colours) && scene.shown)
     {
-        effects.push(Effect::Fallback(Reason::Parted("another clear")));
+        effects.push(Effect::Fallback(Reason::SynthesisedBefore("another clear")));
         return synthesise(known, effects);
     }
     if !all || known.synthesised {

@@ -42,7 +42,7 @@ fn drawn() -> Known {
 fn parted(facts: &Facts, known: &Known) -> Option<&'static str> {
     let decision = next(facts, known);
     let why = decision.effects.iter().find_map(|effect| match effect {
-        Effect::Fallback(Reason::Parted(why)) => Some(*why),
+        Effect::Fallback(Reason::SynthesisedBefore(why)) => Some(*why),
         _ => None,
     });
     let synthesised = decision.effects.contains(&Effect::SynthesiseViews);
