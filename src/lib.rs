@@ -5,6 +5,8 @@
 
 // Blank lines between them: rustfmt would put them in the order of the alphabet.
 
+pub mod view;
+
 pub mod display;
 
 #[cfg(feature = "cli")]

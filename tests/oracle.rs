@@ -20,6 +20,7 @@ use image::{Rgb, RgbImage, imageops};
 use manyview::atlas::{Grid, Limits, Tiles};
 use manyview::config::AtlasLayout;
 use manyview::metric::{Comparison, Gate, triptych};
+use manyview::view::ViewIndex;
 use scenes::{Scene, scene};
 use std::collections::{BTreeMap, HashMap};
 use std::fmt::Write as _;
@@ -350,7 +351,7 @@ fn check_in(
                 let mut split = 0;
                 for (frame, pictures) in frames.iter().enumerate() {
                     for (view, actual) in (0..views).zip(pictures) {
-                        let (_, x) = tiles.place(view);
+                        let (_, x) = tiles.place(ViewIndex(view));
                         let expected = &oracle.view(view, views, tiles.texture_width(), x)[frame];
                         let compared = compare(expected, actual);
                         row.asserted.add(&compared);

@@ -1,6 +1,7 @@
 //! Which points of the window the texels of a tile show.
 
 use crate::display::LensPhase;
+use crate::view::ViewIndex;
 
 /// From the window to the tile of view i, both in pixels from the lower left corner:
 /// `x = across · X + shear · Y + origin + i · step`, and `y` likewise without a shear.
@@ -106,8 +107,8 @@ impl Grid {
     }
 
     /// Where the window's corner lies in the tile of a view.
-    pub fn corner(&self, view: u32) -> [f64; 2] {
-        [0, 1].map(|i| self.origin[i] + f64::from(view) * self.step[i])
+    pub fn corner(&self, view: ViewIndex) -> [f64; 2] {
+        [0, 1].map(|i| self.origin[i] + f64::from(view.0) * self.step[i])
     }
 
     /// Moved by whole texels so that the window lies inside all tiles; their width and height.
@@ -139,7 +140,7 @@ impl Grid {
 
     /// What a viewport of the window becomes in the tile of a view that begins at `offset`: x, y, width, height. Its projection has to
     /// be [`Grid::lean`]ed.
-    pub fn viewport(&self, view: u32, offset: i32, viewport: [i32; 4]) -> [f32; 4] {
+    pub fn viewport(&self, view: ViewIndex, offset: i32, viewport: [i32; 4]) -> [f32; 4] {
         let [x, y, width, height] = viewport.map(f64::from);
         let [corner_x, corner_y] = self.corner(view);
         let middle = self.across * (x + width / 2.0) + self.shear * (y + height / 2.0) + corner_x;
@@ -170,7 +171,13 @@ impl Grid {
     }
 
     /// As [`Grid::lean`], for the viewport of another view, `by`.
-    pub fn lean_beside(&self, viewport: [i32; 4], p: &[f32; 16], view: u32, by: u32) -> [f32; 16] {
+    pub fn lean_beside(
+        &self,
+        viewport: [i32; 4],
+        p: &[f32; 16],
+        view: ViewIndex,
+        by: ViewIndex,
+    ) -> [f32; 16] {
         let mut leant = self.lean(viewport, p);
         let wide = self.across * f64::from(viewport[2]) * (1.0 + self.slope(viewport).abs());
         let aside = self.corner(view)[0] - self.corner(by)[0];
@@ -183,7 +190,7 @@ impl Grid {
 
     /// The texels of a view's tile, from the first to before the last, whose middles lie in a range of the window's pixels, along x
     /// (without a shear) or y.
-    pub fn texels(&self, view: u32, axis: usize, from: i32, to: i32) -> [i32; 2] {
+    pub fn texels(&self, view: ViewIndex, axis: usize, from: i32, to: i32) -> [i32; 2] {
         let scale = [self.across, self.up][axis];
         let corner = self.corner(view)[axis];
         [from, to].map(|edge| (scale * f64::from(edge) + corner - 0.5).ceil() as i32)

@@ -16,6 +16,7 @@ mod tests;
 mod tiles;
 mod view_set;
 
+use crate::view::ViewIndex;
 use depths::Depths;
 use front::Front;
 pub use grid::Grid;
@@ -393,7 +394,7 @@ impl Atlas {
     }
 
     /// Binds the layer of a view for drawing and answers the x offset of its tile in pixels.
-    pub fn enter(&mut self, gl: &Gl, view: u32) -> i32 {
+    pub fn enter(&mut self, gl: &Gl, view: ViewIndex) -> i32 {
         let (row, x) = self.tiles.place(view);
         self.bind_row(gl, row);
         x as i32
@@ -415,7 +416,7 @@ impl Atlas {
     }
 
     /// The framebuffer that a view is drawn to, and the x offset of its tile.
-    pub fn target(&self, view: u32) -> (u32, i32) {
+    pub fn target(&self, view: ViewIndex) -> (u32, i32) {
         let (row, x) = self.tiles.place(view);
         (self.rows.get(row as usize).copied().unwrap_or(0), x as i32)
     }
@@ -434,7 +435,7 @@ impl Atlas {
     }
 
     /// The framebuffer to read a view's pixels from, single-sampled, and the x offset of its tile.
-    pub fn readable(&self, view: u32) -> (u32, i32) {
+    pub fn readable(&self, view: ViewIndex) -> (u32, i32) {
         let (row, x) = self.tiles.place(view);
         let f = self
             .resolve
@@ -462,7 +463,7 @@ impl Atlas {
 
     /// Binds a copy of a view's tile for reading from a buffer, single-sampled and with nothing beside it. Changes the draw
     /// framebuffer too; the scissor test must be off.
-    pub fn take_single(&mut self, gl: &Gl, view: u32, read: u32) {
+    pub fn take_single(&mut self, gl: &Gl, view: ViewIndex, read: u32) {
         let (from, x) = self.target(view);
         if let Some(single) = self.singles.first() {
             if self.tiles.grid.is_full() {
@@ -479,7 +480,7 @@ impl Atlas {
 
     /// Binds another copy of a view's tile for drawing and answers its framebuffer; [`Atlas::unstage`] puts it back. `image` is
     /// what is drawn to, `read` what is read from. Changes the read framebuffer too; the scissor test must be off.
-    pub fn stage(&mut self, gl: &Gl, view: u32, image: u32, read: u32) -> u32 {
+    pub fn stage(&mut self, gl: &Gl, view: ViewIndex, image: u32, read: u32) -> u32 {
         let (from, x) = self.target(view);
         let Some(single) = self.singles.get(1) else {
             return from;
@@ -493,7 +494,7 @@ impl Atlas {
     }
 
     /// After [`Atlas::stage`]. Changes the framebuffer bindings; the scissor test must be off.
-    pub fn unstage(&mut self, gl: &Gl, view: u32) {
+    pub fn unstage(&mut self, gl: &Gl, view: ViewIndex) {
         let (to, x) = self.target(view);
         if let Some(single) = self.singles.get(1) {
             single.give(gl, to, x);
@@ -513,11 +514,11 @@ impl Atlas {
             let [x0, x1, h] = [left, left + width, t.height].map(|n| n as i32);
             gl.blit_framebuffer(x0, 0, x1, h, x0, 0, x1, h, mask, c::NEAREST);
         };
-        if (0..t.views).all(|view| views.has(view)) {
+        if ViewIndex::all(t.views).all(|view| views.has(view)) {
             (0..self.rows.len()).for_each(|row| blit(row, 0, t.texture_width()));
             return;
         }
-        for view in (0..t.views).filter(|&view| views.has(view)) {
+        for view in ViewIndex::all(t.views).filter(|&view| views.has(view)) {
             let (row, left) = t.place(view);
             blit(row as usize, left, t.width);
         }

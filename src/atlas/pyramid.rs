@@ -5,6 +5,7 @@ use super::{Atlas, Names, ReferenceTextures, Single};
 use crate::config::DisocclusionSource;
 use crate::gl::{Gl, consts as c};
 use crate::state::Window;
+use crate::view::ViewIndex;
 
 /// Samples of a row in one texel of the block_bounds.
 const BLOCK: u32 = 16;
@@ -132,7 +133,7 @@ impl Atlas {
     }
 
     /// Copies some views, each to a layer of its own, so that all tiles can be drawn to. Changes the framebuffer bindings; the scissor test must be off.
-    pub fn copy_to_pyramid(&mut self, gl: &Gl, views: impl Iterator<Item = u32>) {
+    pub fn copy_to_pyramid(&mut self, gl: &Gl, views: impl Iterator<Item = ViewIndex>) {
         for (layer, view) in (0..).zip(views) {
             let (from, x) = self.target(view);
             if let Some(copy) = self

@@ -3,6 +3,7 @@
 use super::{Atlas, Names, Single, Surface, Tiles, fetched};
 use crate::gl::{Gl, consts as c};
 use crate::state::Window;
+use crate::view::ViewIndex;
 
 /// Samples of a row in one texel of the steps.
 const BLOCK: u32 = 16;
@@ -155,7 +156,7 @@ impl Surface for ReferenceSurface<'_> {
         }
     }
 
-    fn enter(&mut self, gl: &Gl, _: u32) -> i32 {
+    fn enter(&mut self, gl: &Gl, _: ViewIndex) -> i32 {
         self.bind_row(gl, 0);
         0
     }

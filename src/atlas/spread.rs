@@ -3,13 +3,14 @@
 use super::{Atlas, Names, ViewSet};
 use crate::gl::{Gl, consts as c};
 use crate::state::Window;
+use crate::view::ViewIndex;
 
 const ALL: u32 = c::COLOR_BUFFER_BIT | c::DEPTH_BUFFER_BIT | c::STENCIL_BUFFER_BIT;
 
 impl Atlas {
     /// Draws a view's tile over a framebuffer of the window's size, each pixel from the nearest texel, give or take one. Binds the
     /// single-sampled tile for reading and that framebuffer for drawing; the scissor test must be off.
-    pub(super) fn spread(&self, gl: &Gl, view: u32, to: u32) {
+    pub(super) fn spread(&self, gl: &Gl, view: ViewIndex, to: u32) {
         self.resolve(gl, &ViewSet::ALL, ALL);
         let (from, x) = self.readable(view);
         let (tiles, grid) = (&self.tiles, &self.tiles.grid);

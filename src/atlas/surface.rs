@@ -2,6 +2,7 @@
 
 use super::{Atlas, Tiles};
 use crate::gl::Gl;
+use crate::view::ViewIndex;
 
 /// Where each view is drawn.
 pub trait Surface {
@@ -9,7 +10,7 @@ pub trait Surface {
     fn tiles(&self) -> Tiles;
 
     /// Binds what a view is drawn to and answers the x offset of its tile in pixels.
-    fn enter(&mut self, gl: &Gl, view: u32) -> i32;
+    fn enter(&mut self, gl: &Gl, view: ViewIndex) -> i32;
 
     /// Binds a layer for drawing.
     fn bind_row(&mut self, gl: &Gl, row: u32);
@@ -20,7 +21,7 @@ impl Surface for Atlas {
         self.tiles
     }
 
-    fn enter(&mut self, gl: &Gl, view: u32) -> i32 {
+    fn enter(&mut self, gl: &Gl, view: ViewIndex) -> i32 {
         Atlas::enter(self, gl, view)
     }
 

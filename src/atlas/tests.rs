@@ -5,6 +5,7 @@ use crate::config::AtlasLayout::{self, Layers, SideBySide};
 use crate::gl::fake::{Fake, Scope, Snapshot};
 use crate::gl::{Gl, consts as c};
 use crate::state::{BACK, FRONT, Window};
+use crate::view::ViewIndex;
 
 const KINDS: [&str; 3] = ["Textures", "Framebuffers", "Buffers"];
 
@@ -43,7 +44,7 @@ fn layers_have_a_framebuffer_each_and_one_for_all() {
         let atlas = atlas(&gl, layout, 0);
         let state = fake.state();
         for row in 0..rows {
-            let view = atlas.tiles.slot(row);
+            let view = atlas.tiles.view_in(row);
             let (framebuffer, _) = atlas.target(view);
             let color = attached(&state, framebuffer, c::COLOR_ATTACHMENT0);
             let depth = attached(&state, framebuffer, c::DEPTH_ATTACHMENT);
@@ -107,15 +108,15 @@ fn a_layer_is_bound_when_another_one_is() {
     let own = atlas.tiles.own();
     assert_eq!(atlas.enter(&gl, own), 0);
     assert_eq!(fake.count("gl*"), 0, "it is bound already");
-    atlas.enter(&gl, 3);
-    atlas.enter(&gl, 3);
+    atlas.enter(&gl, ViewIndex(3));
+    atlas.enter(&gl, ViewIndex(3));
     let [other] = &fake.calls()[..] else {
         panic!("{:?}", fake.calls())
     };
-    assert_eq!(other.int(1), i64::from(atlas.target(3).0));
+    assert_eq!(other.int(1), i64::from(atlas.target(ViewIndex(3)).0));
     atlas.bind_layered(&gl);
     fake.forget();
-    atlas.enter(&gl, 3);
+    atlas.enter(&gl, ViewIndex(3));
     assert_eq!(fake.count("glBindFramebuffer"), 1, "after all layers");
     atlas.bind_row(&gl, 0);
     atlas.forget_row();
@@ -131,8 +132,8 @@ fn the_reference_image_stands_for_the_own_view() {
     assert!(atlas.make_reference(&gl, &mut Names::default(), &window(&gl, 0)));
     let image = atlas.reference_framebuffer().expect("made");
     let mut surface = ReferenceSurface(&mut atlas);
-    assert_eq!(surface.tiles().order().collect::<Vec<_>>(), [1]);
-    surface.enter(&gl, 1);
+    assert_eq!(surface.tiles().order().collect::<Vec<_>>(), [ViewIndex(1)]);
+    surface.enter(&gl, ViewIndex(1));
     assert_eq!(fake.value(c::DRAW_FRAMEBUFFER_BINDING), [f64::from(image)]);
     let textures = atlas.reference().expect("made");
     let moved = attached(&fake.state(), image, c::COLOR_ATTACHMENT1);
@@ -163,7 +164,10 @@ fn the_other_views_get_what_the_own_one_has() {
     let layers = atlas(&gl, Layers, 0);
     layers.share_own(&gl);
     let drawn: Vec<u32> = blits(&fake).iter().map(|blit| blit.2[1]).collect();
-    assert_eq!(drawn, [0, 2, 3].map(|view| layers.target(view).0));
+    assert_eq!(
+        drawn,
+        [0, 2, 3].map(|view| layers.target(ViewIndex(view)).0)
+    );
     // OpenGL ES does not blit within one framebuffer.
     let fake = fake.es(3, 2);
     fake.forget();
@@ -181,14 +185,18 @@ fn samples_are_resolved_where_they_are_read() {
     let single = atlas(&gl, SideBySide, 0);
     single.resolve(&gl, &ViewSet::ALL, c::COLOR_BUFFER_BIT);
     assert!(fake.draws().is_empty(), "nothing to resolve");
-    assert_eq!(single.readable(1), (single.framebuffer(), 0));
+    assert_eq!(single.readable(ViewIndex(1)), (single.framebuffer(), 0));
     let many = atlas(&gl, SideBySide, 4);
-    let (to, _) = many.readable(1);
+    let (to, _) = many.readable(ViewIndex(1));
     let bound = [many.framebuffer(), to];
     many.resolve(&gl, &ViewSet::ALL, c::COLOR_BUFFER_BIT);
     assert_eq!(blits(&fake), [([0, 256], [0, 256], bound)]);
     fake.forget();
-    many.resolve(&gl, &[3].into_iter().collect(), c::COLOR_BUFFER_BIT);
+    many.resolve(
+        &gl,
+        &[ViewIndex(3)].into_iter().collect(),
+        c::COLOR_BUFFER_BIT,
+    );
     assert_eq!(blits(&fake), [([192, 256], [192, 256], bound)]);
 }
 
@@ -199,16 +207,16 @@ fn a_copy_of_a_tile_has_nothing_beside_it() {
     let mut atlas = atlas(&gl, SideBySide, 0);
     atlas.make_singles(&gl, &mut Names::default(), &window(&gl, 0), true);
     fake.forget();
-    atlas.take_single(&gl, 2, BACK);
+    atlas.take_single(&gl, ViewIndex(2), BACK);
     let single = fake.value(c::READ_FRAMEBUFFER_BINDING)[0] as u32;
     assert_eq!(
         blits(&fake),
         [([128, 192], [0, 64], [atlas.framebuffer(), single])]
     );
     fake.forget();
-    let staged = atlas.stage(&gl, 2, BACK, BACK);
+    let staged = atlas.stage(&gl, ViewIndex(2), BACK, BACK);
     assert_ne!(staged, single);
-    atlas.unstage(&gl, 2);
+    atlas.unstage(&gl, ViewIndex(2));
     let tile = atlas.framebuffer();
     let there_and_back = [
         ([128, 192], [0, 64], [tile, staged]),
@@ -231,7 +239,7 @@ fn the_front_buffer_goes_when_nobody_asks_for_it() {
     assert_eq!(blits(&fake).len(), 4, "with what the back buffer holds");
     let front = atlas.sampled(FRONT);
     assert_ne!(front, atlas.sampled(BACK));
-    let point = |fake: &Fake| attached(&fake.state(), atlas.target(0).0, FRONT)[0];
+    let point = |fake: &Fake| attached(&fake.state(), atlas.target(ViewIndex(0)).0, FRONT)[0];
     assert_eq!(point(&fake), front);
     for _ in 0..30 {
         assert!(atlas.swapped(&gl, false) && atlas.has_front());
@@ -242,7 +250,10 @@ fn the_front_buffer_goes_when_nobody_asks_for_it() {
     );
     let last = (0..31).map(|_| atlas.swapped(&gl, false)).last();
     assert!(last == Some(true) && !atlas.has_front());
-    assert_eq!(attached(&fake.state(), atlas.target(0).0, FRONT), [0, 0]);
+    assert_eq!(
+        attached(&fake.state(), atlas.target(ViewIndex(0)).0, FRONT),
+        [0, 0]
+    );
     assert_eq!((fake.alive(KINDS), atlas.owns(front)), (before, false));
 }
 

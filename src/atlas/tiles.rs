@@ -2,6 +2,7 @@
 
 use super::{Grid, ViewSet};
 use crate::config::AtlasLayout;
+use crate::view::ViewIndex;
 
 /// Places of N tiles in an array texture: `columns` beside each other in each of `rows` layers. Side by side is one row (several
 /// where a row would pass the driver's limits), layers are one column.
@@ -107,21 +108,26 @@ impl Tiles {
     }
 
     /// The program's own view, of an odd N exactly the middle one.
-    pub fn own(&self) -> u32 {
-        (self.views - 1) / 2
+    pub fn own(&self) -> ViewIndex {
+        ViewIndex((self.views - 1) / 2)
     }
 
-    /// Slot of a view; its own inverse.
-    pub fn slot(&self, view: u32) -> u32 {
+    /// Slot of a view.
+    pub fn slot(&self, view: ViewIndex) -> u32 {
         match view {
             v if v == self.own() => 0,
-            0 => self.own(),
-            v => v,
+            ViewIndex(0) => self.own().0,
+            ViewIndex(v) => v,
         }
     }
 
+    /// The view in a slot. Two views have changed places, so it is found as a slot is.
+    pub fn view_in(&self, slot: u32) -> ViewIndex {
+        ViewIndex(self.slot(ViewIndex(slot)))
+    }
+
     /// Layer and x offset in pixels of a view's tile.
-    pub fn place(&self, view: u32) -> (u32, u32) {
+    pub fn place(&self, view: ViewIndex) -> (u32, u32) {
         let slot = self.slot(view);
         (slot / self.columns, slot % self.columns * self.stride)
     }
@@ -137,9 +143,9 @@ impl Tiles {
     }
 
     /// The views that are drawn, the program's own last, so that the state of its tile is what remains.
-    pub fn order(&self) -> impl Iterator<Item = u32> + use<> {
+    pub fn order(&self) -> impl Iterator<Item = ViewIndex> + use<> {
         let tiles = *self;
-        let others = (1..tiles.views).map(move |slot| tiles.slot(slot));
+        let others = (1..tiles.views).map(move |slot| tiles.view_in(slot));
         others
             .filter(move |&view| tiles.shown.has(view))
             .chain([tiles.own()])
@@ -153,11 +159,11 @@ impl Tiles {
     /// Whether a layer has a view that is drawn.
     pub fn draws_row(&self, row: u32) -> bool {
         let slots = row * self.columns..((row + 1) * self.columns).min(self.views);
-        slots.into_iter().any(|slot| self.draws(self.slot(slot)))
+        slots.into_iter().any(|slot| self.draws(self.view_in(slot)))
     }
 
     /// Whether a view is drawn.
-    pub fn draws(&self, view: u32) -> bool {
+    pub fn draws(&self, view: ViewIndex) -> bool {
         view == self.own() || self.shown.has(view)
     }
 }
@@ -188,14 +194,14 @@ mod tests {
                 )
                 .expect("fits");
                 assert_eq!(t.place(t.own()), (0, 0));
-                let mut places: Vec<_> = (0..views).map(|v| t.place(v)).collect();
+                let mut places: Vec<_> = ViewIndex::all(views).map(|v| t.place(v)).collect();
                 places.sort_unstable();
                 places.dedup();
                 assert_eq!(places.len(), views as usize);
                 assert!(places.iter().all(|&(row, x)| row < t.rows
                     && x + t.width <= t.texture_width()
                     && t.texture_width() <= side));
-                assert!((0..views).all(|v| t.slot(t.slot(v)) == v));
+                assert!(ViewIndex::all(views).all(|v| t.view_in(t.slot(v)) == v));
                 let order: Vec<_> = t.order().collect();
                 assert_eq!(
                     (order.len(), order.last()),
@@ -215,7 +221,10 @@ mod tests {
             (8, vec![3, 1, 2, 0, 4, 5, 6, 7]),
         ] {
             let t = Tiles::new(views, [8, 8], Grid::FULL, AtlasLayout::Layers, BIG).expect("fits");
-            assert_eq!((0..views).map(|v| t.slot(v)).collect::<Vec<_>>(), slots);
+            assert_eq!(
+                ViewIndex::all(views).map(|v| t.slot(v)).collect::<Vec<_>>(),
+                slots
+            );
         }
     }
 
@@ -223,9 +232,9 @@ mod tests {
     fn what_nobody_sees_is_not_drawn_but_for_the_own_view() {
         let all = Tiles::new(8, [8, 8], Grid::FULL, AtlasLayout::Layers, BIG).expect("fits");
         let drawn = |views: &[u32]| {
-            let shown = views.iter().copied().collect();
-            let mut drawn: Vec<u32> = Tiles { shown, ..all }.order().collect();
-            assert_eq!(drawn.last(), Some(&all.own()));
+            let shown = views.iter().copied().map(ViewIndex).collect();
+            let mut drawn: Vec<u32> = Tiles { shown, ..all }.order().map(|v| v.0).collect();
+            assert_eq!(drawn.last(), Some(&all.own().0));
             drawn.sort_unstable();
             drawn
         };

@@ -1,5 +1,7 @@
 //! The views that anybody sees.
 
+use crate::view::ViewIndex;
+
 /// A set of views; at most 256, as many as there may be.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ViewSet([u64; 4]);
@@ -9,16 +11,16 @@ impl ViewSet {
     pub const ALL: ViewSet = ViewSet([u64::MAX; 4]);
 
     /// Whether a view is among them.
-    pub fn has(&self, view: u32) -> bool {
-        let word = self.0.get(view as usize / 64).copied().unwrap_or(0);
-        word >> (view % 64) & 1 != 0
+    pub fn has(&self, view: ViewIndex) -> bool {
+        let word = self.0.get(view.0 as usize / 64).copied().unwrap_or(0);
+        word >> (view.0 % 64) & 1 != 0
     }
 }
 
-impl FromIterator<u32> for ViewSet {
-    fn from_iter<I: IntoIterator<Item = u32>>(views: I) -> Self {
+impl FromIterator<ViewIndex> for ViewSet {
+    fn from_iter<I: IntoIterator<Item = ViewIndex>>(views: I) -> Self {
         let mut words = [0u64; 4];
-        for view in views {
+        for ViewIndex(view) in views {
             if let Some(word) = words.get_mut(view as usize / 64) {
                 *word |= 1 << (view % 64);
             }

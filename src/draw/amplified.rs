@@ -12,6 +12,7 @@ use crate::fixed::{self, Amplifier, FixedKey, Primitive, Tiles, Unsupported};
 use crate::gl::{Gl, consts as c};
 use crate::plan::{Method, Reason, Rig, Shear};
 use crate::state::State;
+use crate::view::ViewIndex;
 
 /// A draw that an amplifier can make, decided.
 #[derive(Clone, Copy, Debug)]
@@ -183,8 +184,8 @@ impl Programs {
                 atlas.bind_row(gl, row);
             }
             let end = (per_row * (row + 1)).min(tiles.views);
-            let views = (per_row * row..end).map(|slot| tiles.slot(slot));
-            let drawn: Vec<u32> = views.filter(|&view| tiles.draws(view)).collect();
+            let views = (per_row * row..end).map(|slot| tiles.view_in(slot));
+            let drawn: Vec<ViewIndex> = views.filter(|&view| tiles.draws(view)).collect();
             for views in drawn.chunks(how.batch as usize) {
                 if self.resends {
                     program.uploaded = Uniforms::default();
@@ -211,7 +212,7 @@ struct Batch<'a> {
 
 impl Batch<'_> {
     /// Row 0 of the product of projection and modelview matrix for a view.
-    fn first_row(&self, view: u32) -> [f32; 4] {
+    fn first_row(&self, view: ViewIndex) -> [f32; 4] {
         let (state, tiles) = (self.state, &self.tiles);
         let p = self.shear.map_or(state.matrices.projection, |s| {
             s.projection(&state.matrices.projection, self.rig.position(view))
@@ -225,10 +226,10 @@ impl Batch<'_> {
         first_row(&p, &self.modelview)
     }
 
-    fn uniforms(&self, views: &[u32], guard: &StateGuard) -> Uniforms {
+    fn uniforms(&self, views: &[ViewIndex], guard: &StateGuard) -> Uniforms {
         let grid = &self.tiles.grid;
         let mut rows: Vec<[f32; 4]> = views.iter().map(|&v| self.first_row(v)).collect();
-        let place = |&view: &u32| {
+        let place = |&view: &ViewIndex| {
             let (layer, x) = self.tiles.place(view);
             if self.discards {
                 let [left, right] = guard.limits.map(|limit| x as f32 + limit as f32);

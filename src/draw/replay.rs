@@ -6,6 +6,7 @@ use crate::atlas::{Grid, Surface, Tiles};
 use crate::gl::{Gl, consts as c};
 use crate::plan::{Rig, Shear};
 use crate::state::{Effect, State};
+use crate::view::ViewIndex;
 
 /// What the draw does to the state that its second sending would start from.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -49,7 +50,7 @@ pub fn replay(
     shear: Option<Shear>,
     hazard: ReplayHazard,
     leaves: bool,
-    call: &mut dyn FnMut(u32),
+    call: &mut dyn FnMut(ViewIndex),
 ) -> bool {
     let tiles = surface.tiles();
     let own = tiles.own();
@@ -173,7 +174,7 @@ impl<'a> Sending<'a> {
     }
 
     /// Whether a view's viewport is the program's to change.
-    fn is_free(&self, view: u32) -> bool {
+    fn is_free(&self, view: ViewIndex) -> bool {
         let rects = matches!(self.hazard, ReplayHazard::Anything { rects: true, .. });
         view == self.tiles.own() && rects
     }
@@ -189,7 +190,7 @@ impl<'a> Sending<'a> {
         )
     }
 
-    fn enter_tile(&self, view: u32, x: i32) {
+    fn enter_tile(&self, view: ViewIndex, x: i32) {
         if self.beside() && !self.is_free(view) {
             set_tile_viewport(self.gl, self.state, &self.tiles, view, x);
         } else if self.beside() {
@@ -197,7 +198,7 @@ impl<'a> Sending<'a> {
         }
     }
 
-    fn load_projection(&self, view: u32) {
+    fn load_projection(&self, view: ViewIndex) {
         if self.keeps_projection() || view != self.tiles.own() {
             self.projection.load(self.rig.position(view));
         } else {
@@ -206,7 +207,7 @@ impl<'a> Sending<'a> {
     }
 
     /// The program's own view, whose changes of the state are the program's.
-    fn own(&self, call: &mut dyn FnMut(u32)) {
+    fn own(&self, call: &mut dyn FnMut(ViewIndex)) {
         let own = self.tiles.own();
         let place = self.rig.position(own);
         self.load_projection(own);
@@ -218,7 +219,7 @@ impl<'a> Sending<'a> {
     }
 
     /// A view whose changes of the state are undone.
-    fn aside(&self, view: u32, x: i32, call: &mut dyn FnMut(u32)) {
+    fn aside(&self, view: ViewIndex, x: i32, call: &mut dyn FnMut(ViewIndex)) {
         let gl = self.gl;
         if self.saves != 0 {
             gl.push_attrib(self.saves);
@@ -245,7 +246,7 @@ impl<'a> Sending<'a> {
     }
 
     /// A list that may leave matrices and attributes on the stacks.
-    fn anything(&self, view: u32, call: &mut dyn FnMut(u32)) {
+    fn anything(&self, view: ViewIndex, call: &mut dyn FnMut(ViewIndex)) {
         let gl = self.gl;
         let stack = Stack::take(gl, self.state.matrices.mode);
         let attribs = gl.get_integer(c::ATTRIB_STACK_DEPTH);
@@ -307,7 +308,7 @@ pub fn others(
     rig: &Rig,
     shear: Option<Shear>,
     wanted: bool,
-    call: &mut dyn FnMut(u32),
+    call: &mut dyn FnMut(ViewIndex),
 ) {
     let tiles = surface.tiles();
     let (own, beside) = (tiles.own(), tiles.columns > 1 || !tiles.grid.is_full());
@@ -333,7 +334,7 @@ pub fn others(
 }
 
 /// Viewport and scissor of the program in the tile of a view, which begins at an offset in pixels, cut to the tile.
-pub fn set_tile_viewport(gl: &Gl, state: &State, tiles: &Tiles, view: u32, offset: i32) {
+pub fn set_tile_viewport(gl: &Gl, state: &State, tiles: &Tiles, view: ViewIndex, offset: i32) {
     if tiles.grid.is_full() {
         let [x, y, w, h] = state.rectangles.viewport;
         gl.viewport(x + offset, y, w, h);
@@ -348,7 +349,7 @@ pub fn set_tile_viewport(gl: &Gl, state: &State, tiles: &Tiles, view: u32, offse
 }
 
 /// What may be drawn in a tile: all of it, or what the program's scissor leaves.
-pub fn cut(state: &State, tiles: &Tiles, view: u32, offset: i32) -> [i32; 4] {
+pub fn cut(state: &State, tiles: &Tiles, view: ViewIndex, offset: i32) -> [i32; 4] {
     let size = [tiles.width as i32, tiles.height as i32];
     if !state.rectangles.scissor_test {
         return [offset, 0, size[0], size[1]];

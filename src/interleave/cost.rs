@@ -8,6 +8,7 @@ use crate::config::{Config, Output};
 use crate::display::Placement;
 use crate::gl::{Gl, consts as c};
 use crate::state::{Buffers, Neutral, Window};
+use crate::view::ViewIndex;
 use serde::{Deserialize, Serialize};
 use std::time::Instant;
 
@@ -72,7 +73,7 @@ pub fn measure(gl: &Gl, glsl: u32, limits: Limits, case: &Case) -> Result<Cost, 
     gl.bind_framebuffer(c::READ_FRAMEBUFFER, shown.framebuffer());
     gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, source.framebuffer);
     gl.blit_framebuffer(0, 0, w, h, 0, 0, w, h, c::COLOR_BUFFER_BIT, c::NEAREST);
-    for view in 0..tiles.views {
+    for view in ViewIndex::all(tiles.views) {
         let (to, x) = atlas.target(view);
         gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, to);
         gl.blit_framebuffer(0, 0, w, h, x, 0, x + w, h, c::COLOR_BUFFER_BIT, c::NEAREST);

@@ -11,6 +11,7 @@ use crate::config::{Config, DisocclusionSource, Filter, Output};
 use crate::display::{Display, GUARD, Lens, Mask, Placement};
 use crate::gl::{Gl, consts as c};
 use crate::state::Neutral;
+use crate::view::ViewIndex;
 use image::RgbImage;
 
 /// The atlas as the passes see it.
@@ -89,7 +90,7 @@ fn tile_address(tiles: &Tiles, view: u32) -> u32 {
     if view >= tiles.views {
         return u32::from(GUARD);
     }
-    let slot = tiles.slot(view);
+    let slot = tiles.slot(ViewIndex(view));
     (slot / tiles.columns) << column_bits(tiles) | (slot % tiles.columns)
 }
 
@@ -217,7 +218,7 @@ impl Interleaver {
         neutral: &Neutral,
         config: &Config,
         source: &Source,
-        tile: &mut dyn FnMut(u32) -> RgbImage,
+        tile: &mut dyn FnMut(ViewIndex) -> RgbImage,
         output: Output,
         panel: &PanelPlacement,
     ) -> Result<(), String> {
@@ -228,7 +229,8 @@ impl Interleaver {
             && let Some(mask) = form.mask(placement, config.views)
         {
             let mask = mask.map_err(|e| e.to_string())?;
-            self.shown = mask.views_shown().into_iter().map(u32::from).collect();
+            let shown = mask.views_shown().into_iter();
+            self.shown = shown.map(|view| ViewIndex(view.into())).collect();
             self.lit = !mask.data().as_flattened().contains(&GUARD);
             self.mask = Some((of, mask));
         }
@@ -236,7 +238,7 @@ impl Interleaver {
         let pass = self.pass(gl, of, &form, source, size);
         let Some((_, program)) = self.programs.iter().find(|(known, _)| *known == pass) else {
             let depth = source.depth.map(|(_, depth)| depth);
-            let tiles: Vec<RgbImage> = (0..config.views).map(tile).collect();
+            let tiles: Vec<RgbImage> = ViewIndex::all(config.views).map(tile).collect();
             if let Some(picture) = self.picture_by_cpu(tiles, depth, &form, placement)? {
                 draw_picture(gl, neutral, picture);
             }

@@ -1,10 +1,12 @@
 //! The views that are drawn while others are made of them.
 #![forbid(unsafe_code)]
 
+use crate::view::ViewIndex;
+
 /// Some views, from left to right.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Sources {
-    views: [u32; Sources::MOST as usize],
+    views: [ViewIndex; Sources::MOST as usize],
     count: u32,
 }
 
@@ -15,16 +17,16 @@ impl Sources {
     /// `count` of `views`, at least 1 and at most [`Sources::MOST`]: the own one, and each time the one that is farthest from all
     /// before, the rightmost of them. So those of a smaller count are among those of a larger one.
     #[must_use]
-    pub fn spread(own: u32, views: u32, count: u32) -> Sources {
+    pub fn spread(own: ViewIndex, views: u32, count: u32) -> Sources {
         let count = count.clamp(1, views.min(Self::MOST));
         let mut chosen = vec![own];
         while (chosen.len() as u32) < count {
-            let away = |view: u32| chosen.iter().map(|&c| c.abs_diff(view)).min();
-            let next = (0..views).max_by_key(|&view| away(view));
+            let away = |view: ViewIndex| chosen.iter().map(|c| c.0.abs_diff(view.0)).min();
+            let next = ViewIndex::all(views).max_by_key(|&view| away(view));
             chosen.extend(next);
         }
         chosen.sort_unstable();
-        let mut views = [0; Self::MOST as usize];
+        let mut views = [ViewIndex(0); Self::MOST as usize];
         for (place, view) in views.iter_mut().zip(&chosen) {
             *place = *view;
         }
@@ -32,13 +34,13 @@ impl Sources {
     }
 
     /// From left to right.
-    pub fn iter(&self) -> impl Iterator<Item = u32> + use<> {
+    pub fn iter(&self) -> impl Iterator<Item = ViewIndex> + use<> {
         self.views.into_iter().take(self.count as usize)
     }
 
     /// Whether a view is among them.
     #[must_use]
-    pub fn has(&self, view: u32) -> bool {
+    pub fn has(&self, view: ViewIndex) -> bool {
         self.iter().any(|source| source == view)
     }
 
@@ -51,7 +53,7 @@ impl Sources {
     /// Which of them a view is made of: the nearest, the left one of two that are equally near, and the nearest on the other side of the
     /// view, or beyond the first where there is none.
     #[must_use]
-    pub fn pair(&self, view: u32) -> [u32; 2] {
+    pub fn pair(&self, view: ViewIndex) -> [u32; 2] {
         let right = self.iter().filter(|&source| source <= view).count() as u32;
         let last = self.count - 1;
         if right == 0 {
@@ -60,7 +62,7 @@ impl Sources {
         if right > last {
             return [last, last.saturating_sub(1)];
         }
-        let away = |i: u32| self.view(i).abs_diff(view);
+        let away = |i: u32| self.view(i).0.abs_diff(view.0);
         match away(right) < away(right - 1) {
             true => [right, right - 1],
             false => [right - 1, right],
@@ -69,16 +71,16 @@ impl Sources {
 
     /// One of them.
     #[must_use]
-    pub fn view(&self, i: u32) -> u32 {
-        self.views.get(i as usize).copied().unwrap_or(0)
+    pub fn view(&self, i: u32) -> ViewIndex {
+        self.views.get(i as usize).copied().unwrap_or(ViewIndex(0))
     }
 
     /// How many places away the farthest of `views` is that one of them is needed for.
     #[must_use]
     pub fn farthest(&self, i: u32, views: u32) -> u32 {
-        let made = (0..views).filter(|&view| !self.has(view));
+        let made = ViewIndex::all(views).filter(|&view| !self.has(view));
         let needed = made.filter(|&view| self.pair(view).contains(&i));
-        let away = needed.map(|view| self.view(i).abs_diff(view));
+        let away = needed.map(|view| self.view(i).0.abs_diff(view.0));
         away.max().unwrap_or(0)
     }
 
@@ -87,7 +89,7 @@ impl Sources {
         const NO_VIEW: f32 = 1.0e9;
         let mut rows = [[NO_VIEW; 4]; 2];
         for (place, view) in rows.as_flattened_mut().iter_mut().zip(self.iter()) {
-            *place = view as f32;
+            *place = view.0 as f32;
         }
         rows
     }
@@ -99,7 +101,12 @@ mod tests {
 
     #[test]
     fn they_are_spread_and_fewer_are_among_more() {
-        let of = |count| Sources::spread(3, 8, count).iter().collect::<Vec<_>>();
+        let of = |count| {
+            Sources::spread(ViewIndex(3), 8, count)
+                .iter()
+                .map(|view| view.0)
+                .collect::<Vec<_>>()
+        };
         assert_eq!(of(0), [3]);
         assert_eq!(of(1), [3]);
         assert_eq!(of(2), [3, 7]);
@@ -109,13 +116,16 @@ mod tests {
         for count in 1..8 {
             assert!(of(count).iter().all(|view| of(count + 1).contains(view)));
         }
-        assert_eq!(Sources::spread(23, 48, 99).count(), Sources::MOST);
+        assert_eq!(
+            Sources::spread(ViewIndex(23), 48, 99).count(),
+            Sources::MOST
+        );
     }
 
     #[test]
     fn a_view_is_made_of_those_beside_it() {
-        let sources = Sources::spread(3, 8, 3);
-        let pairs: Vec<_> = (0..8).map(|view| sources.pair(view)).collect();
+        let sources = Sources::spread(ViewIndex(3), 8, 3);
+        let pairs: Vec<_> = ViewIndex::all(8).map(|view| sources.pair(view)).collect();
         let expected = [
             [0, 1],
             [0, 1],
@@ -127,9 +137,12 @@ mod tests {
             [2, 1],
         ];
         assert_eq!(pairs, expected);
-        let two = Sources::spread(3, 8, 2);
-        assert_eq!(two.pair(0), [0, 1], "no other lies to the left");
-        assert_eq!(Sources::spread(3, 8, 1).pair(5), [0, 0]);
+        let two = Sources::spread(ViewIndex(3), 8, 2);
+        assert_eq!(two.pair(ViewIndex(0)), [0, 1], "no other lies to the left");
+        assert_eq!(
+            Sources::spread(ViewIndex(3), 8, 1).pair(ViewIndex(5)),
+            [0, 0]
+        );
         assert_eq!([0, 1].map(|i| two.farthest(i, 8)), [3, 7]);
     }
 }

@@ -7,6 +7,7 @@ use super::*;
 use crate::atlas::{Grid, Tiles, ViewSet};
 use crate::config::{DisocclusionSource, Filter, Glasses, Mixture};
 use crate::display::{Display, GUARD, Mask, Placement};
+use crate::view::ViewIndex;
 use image::{GrayImage, Rgb, RgbImage, Rgba, RgbaImage};
 use proptest::prelude::*;
 use proptest::test_runner::{RngAlgorithm, RngSeed};
@@ -287,7 +288,7 @@ fn uniforms_are_found_by_name() {
             aim: (2, 28),
             marked: true,
             before: [33.0, 34.0, 35.0, -1.0],
-            sources: Some(Sources::spread(1, 3, 2)),
+            sources: Some(Sources::spread(ViewIndex(1), 3, 2)),
             places: Places::One([31, 32, 0]),
             reach: 30.0,
         },

@@ -4,6 +4,7 @@ use super::Layer;
 use crate::atlas::Tiles;
 use crate::gl::{Gl, consts as c};
 use crate::state::{Command, Run, Touch};
+use crate::view::ViewIndex;
 
 impl Layer {
     /// glBlitFramebuffer: into every view's tile where it draws to framebuffer 0, or into each view's framebuffer; from the same view's
@@ -100,7 +101,7 @@ impl Layer {
     fn scaled_blit(
         &mut self,
         gl: &Gl,
-        view: u32,
+        view: ViewIndex,
         (image, read): (u32, bool),
         blit: &mut dyn FnMut(i32, i32),
     ) {

@@ -8,6 +8,7 @@ use crate::gl::{Gl, consts as c};
 use crate::interleave::{Form, Layout, Source, reference, rgbd};
 use crate::present::capture;
 use crate::state::Neutral;
+use crate::view::ViewIndex;
 use std::path::{Path, PathBuf};
 
 impl Layer {
@@ -72,7 +73,7 @@ impl Layer {
             },
             CaptureWhat::Atlas => self.arranged(gl, neutral, &all, row, &path),
             CaptureWhat::View(v) => {
-                capture::write(&tile(gl, neutral, &self.targets.atlas, v), &path)
+                capture::write(&tile(gl, neutral, &self.targets.atlas, ViewIndex(v)), &path)
             }
             CaptureWhat::Reference => self
                 .reference_image(gl, neutral)
@@ -106,7 +107,10 @@ impl Layer {
         let atlas = &self.targets.atlas;
         let tile_size = (atlas.tiles.width, atlas.tiles.height);
         let size = layout.native_size(views.len() as u32, tile_size);
-        let views: Vec<_> = views.iter().map(|&v| tile(gl, neutral, atlas, v)).collect();
+        let views: Vec<_> = views
+            .iter()
+            .map(|&v| tile(gl, neutral, atlas, ViewIndex(v)))
+            .collect();
         reference::arrange(&views, layout, size)
             .map_err(|e| e.to_string())
             .and_then(|i| capture::write(&i, path))

@@ -49,7 +49,7 @@ impl Layer {
             self.targets.offscreen.bind(gl, &sampled, view);
             for image in &images {
                 let views = self.targets.offscreen.views(image.texture);
-                if let Some(&name) = views.get(view as usize) {
+                if let Some(&name) = views.get(view.0 as usize) {
                     gl.bind_image(image, name);
                 }
             }

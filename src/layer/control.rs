@@ -58,7 +58,7 @@ impl Layer {
     /// What the window shows.
     pub(super) fn output(&self) -> Output {
         if self.session.live.flat {
-            Output::View(self.targets.atlas.tiles.own())
+            Output::View(self.targets.atlas.tiles.own().0)
         } else {
             self.session.live.output
         }

@@ -5,6 +5,7 @@
 
 use super::{Layer, keep_bindings};
 use crate::gl::{Gl, Object, consts as c};
+use crate::view::ViewIndex;
 
 impl Layer {
     /// glCopyTexImage* and glCopyTexSubImage*: from each view into its own texture. Columns in pixels.
@@ -45,7 +46,8 @@ impl Layer {
         }
         let own = self.targets.atlas.tiles.own();
         let shown = self.wanted_views();
-        for (view, name) in (0..).zip(self.targets.offscreen.views(texture)) {
+        let views = ViewIndex::all(self.session.config.views);
+        for (view, name) in views.zip(self.targets.offscreen.views(texture)) {
             if name != texture && (view == own || shown.has(view)) {
                 match from {
                     0 => self.take_single(gl, view),

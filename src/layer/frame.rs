@@ -8,6 +8,7 @@ use crate::gl::{Gl, consts as c};
 use crate::interleave::{Depth, PanelPlacement, Source};
 use crate::present::capture;
 use crate::state::{BACK, FRONT, Neutral};
+use crate::view::ViewIndex;
 use image::RgbImage;
 
 /// What has happened in the frame so far.
@@ -124,7 +125,7 @@ impl Layer {
         let output = self.output();
         let source = self.source(image, depth);
         let pictures = match self.is_mono() {
-            true => vec![(None, Output::View(self.targets.atlas.tiles.own()))],
+            true => vec![(None, Output::View(self.targets.atlas.tiles.own().0))],
             false => self.pictures(output, image),
         };
         let panel = PanelPlacement {
@@ -253,7 +254,12 @@ impl Layer {
 }
 
 /// One view's picture, row 0 on top. Changes the read framebuffer.
-pub(super) fn tile(gl: &Gl, neutral: &Neutral, atlas: &crate::atlas::Atlas, view: u32) -> RgbImage {
+pub(super) fn tile(
+    gl: &Gl,
+    neutral: &Neutral,
+    atlas: &crate::atlas::Atlas,
+    view: ViewIndex,
+) -> RgbImage {
     let (from, x) = atlas.readable(view);
     gl.bind_framebuffer(c::READ_FRAMEBUFFER, from);
     capture::read_rgb(gl, neutral, x, 0, atlas.tiles.width, atlas.tiles.height)

@@ -6,6 +6,7 @@ use crate::atlas::Atlas;
 use crate::gl::{Gl, consts as c};
 use crate::plan::Kind;
 use crate::state::{BACK, Command, Run, Segment, Touch};
+use crate::view::ViewIndex;
 
 /// What glPushAttrib saved of framebuffer 0.
 #[derive(Debug)]
@@ -389,7 +390,7 @@ impl Layer {
     }
 
     /// Binds a copy of a view's tile for reading. Changes the draw framebuffer; the state is refreshed.
-    pub(super) fn take_single(&mut self, gl: &Gl, view: u32) {
+    pub(super) fn take_single(&mut self, gl: &Gl, view: ViewIndex) {
         self.make_singles(gl, false);
         let read = match self.state.framebuffers.read_image() {
             c::NONE => c::NONE,
@@ -463,7 +464,7 @@ impl Layer {
     }
 
     /// Runs a call with the scissor cut to a tile, where tiles lie beside each other.
-    pub(super) fn scissored(&self, gl: &Gl, view: u32, x: i32, call: &mut dyn FnMut()) {
+    pub(super) fn scissored(&self, gl: &Gl, view: ViewIndex, x: i32, call: &mut dyn FnMut()) {
         if self.targets.atlas.tiles.columns == 1 && self.targets.atlas.tiles.grid.is_full() {
             return call();
         }

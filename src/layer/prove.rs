@@ -16,6 +16,7 @@ use crate::plan::{Kind, Method, Plan, Shear, Traits};
 use crate::present::capture;
 use crate::report::{Culprit, Difference, Proof, Worst};
 use crate::state::{BACK, Neutral};
+use crate::view::ViewIndex;
 use image::RgbImage;
 use std::time::{Duration, Instant};
 
@@ -65,7 +66,7 @@ pub(super) struct Proving {
     search: Option<Search>,
     searches: u32,
     /// The view with a pixel whose draw is to be found.
-    suspect: Option<u32>,
+    suspect: Option<ViewIndex>,
 }
 
 /// A draw to the window.
@@ -79,7 +80,7 @@ struct Drawn {
 /// A view of which is known what draw made each pixel differ.
 #[derive(Debug)]
 struct Search {
-    view: u32,
+    view: ViewIndex,
     draws: Vec<Drawn>,
     /// For each pixel that differs the number of draws when it first did, else 0.
     since: Vec<usize>,
@@ -114,7 +115,7 @@ impl Search {
                 y,
                 frame,
             },
-            view: self.view,
+            view: self.view.0,
             draw: drawn.facts.draw,
             kind: explain::kind(drawn.facts.kind),
             class: drawn.class.to_owned(),
@@ -210,7 +211,7 @@ impl Layer {
         shear: Option<Shear>,
         hazard: ReplayHazard,
         images: &Images,
-        call: &mut dyn FnMut(u32),
+        call: &mut dyn FnMut(ViewIndex),
     ) {
         if !self.diagnostics.proving.proves() {
             return;
@@ -336,7 +337,7 @@ impl Layer {
             .as_ref()
             .map_or(0.0, Proof::psnr);
         let mut worst_pair = None;
-        for view in 0..self.session.config.views {
+        for view in ViewIndex::all(self.session.config.views) {
             let pair = self.pair(gl, neutral, view);
             let Some(difference) = Difference::new(&pair[0], &pair[1]) else {
                 return;
@@ -370,7 +371,7 @@ impl Layer {
         let worst = (0..).zip(&views).max_by_key(|(_, d)| d.worst());
         self.diagnostics.proving.suspect = worst
             .filter(|(_, d)| d.worst() > explained)
-            .map(|(view, _)| view);
+            .map(|(view, _)| ViewIndex(view));
     }
 
     /// What replay has drawn, the difference and what is shown, beside the report.
@@ -403,7 +404,7 @@ impl Layer {
 
     /// A view by replay, and as it is shown, stretched to the window where it has fewer pixels. State is as [`Neutral`] leaves
     /// it; changes the framebuffers that are bound.
-    fn pair(&mut self, gl: &Gl, neutral: &Neutral, view: u32) -> [RgbImage; 2] {
+    fn pair(&mut self, gl: &Gl, neutral: &Neutral, view: ViewIndex) -> [RgbImage; 2] {
         let exact = self.diagnostics.proving.atlas.as_ref();
         let exact = exact.map_or_else(RgbImage::default, |atlas| tile(gl, neutral, atlas, view));
         if self.targets.atlas.tiles.grid.is_full() {

@@ -8,6 +8,7 @@ use crate::display::{Display, Placement};
 use crate::gl::Gl;
 use crate::interleave::Form;
 use crate::plan::decide::{Demand, Detail};
+use crate::view::ViewIndex;
 
 /// The texels of the views. `shader`: the output is made on the GPU, which can look tiles up by lenses.
 pub(super) fn grid(
@@ -121,9 +122,9 @@ impl Layer {
                 self.targets.interleaver.shown()
             }
             Output::Interlaced(_) | Output::Anaglyph(_) | Output::Quad => {
-                [0, last].into_iter().collect()
+                [0, last].map(ViewIndex).into_iter().collect()
             }
-            Output::View(view) => [view].into_iter().collect(),
+            Output::View(view) => [ViewIndex(view)].into_iter().collect(),
             Output::Rgbd => [].into_iter().collect(),
             _ => ViewSet::ALL,
         }
@@ -136,11 +137,12 @@ impl Layer {
             CaptureWhat::Depth | CaptureWhat::Reference | CaptureWhat::Samples => {
                 [].into_iter().collect()
             }
-            CaptureWhat::View(view) => [view].into_iter().collect(),
+            CaptureWhat::View(view) => [ViewIndex(view)].into_iter().collect(),
             CaptureWhat::Atlas => ViewSet::ALL,
         };
         let tiles = &self.targets.atlas.tiles;
-        self.targets.undrawn = (0..tiles.views).any(|view| needed.has(view) && !tiles.draws(view));
+        self.targets.undrawn =
+            ViewIndex::all(tiles.views).any(|view| needed.has(view) && !tiles.draws(view));
         self.targets.undrawn
     }
 

@@ -18,6 +18,7 @@ use crate::plan::Governor;
 use crate::plan::decide::{DisparityMapping, Scene};
 use crate::state::{BACK, Neutral};
 use crate::synthesis::Passes;
+use crate::view::ViewIndex;
 use crate::volume::Samples;
 use surface::Surfaces;
 
@@ -105,7 +106,7 @@ impl Synthesis {
     }
 
     /// A scene begins.
-    pub(super) fn begin(&mut self, own: u32, views: u32) {
+    pub(super) fn begin(&mut self, own: ViewIndex, views: u32) {
         self.surfaces.forget();
         let count = self.number();
         self.sources = count.map(|count| Sources::spread(own, views, count));
@@ -139,7 +140,8 @@ impl Layer {
     /// Views that are drawn where none is made.
     fn needed(&self) -> u32 {
         let (wanted, own) = (self.wanted_views(), self.targets.atlas.tiles.own());
-        let needed = (0..self.session.config.views).filter(|&view| view == own || wanted.has(view));
+        let needed = ViewIndex::all(self.session.config.views)
+            .filter(|&view| view == own || wanted.has(view));
         needed.count() as u32
     }
 
@@ -278,7 +280,8 @@ impl Layer {
         let [scale, offset] = mapping.line();
         let tiles = &self.targets.atlas.tiles;
         let own = self.known.rig.position(tiles.own());
-        let baselines = [self.known.rig.position(0) - own, 1.0].map(|place| place * far.signum());
+        let baselines =
+            [self.known.rig.position(ViewIndex(0)) - own, 1.0].map(|place| place * far.signum());
         let step = 0.5f64.powi(self.state.window.bits[4].min(24) as i32);
         let before = scene.before.map(|(mapping, to)| {
             let [scale, offset] = mapping.line();

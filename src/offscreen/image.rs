@@ -7,6 +7,7 @@
 use super::fill::fill;
 use crate::atlas::{Names, Tiles};
 use crate::gl::{Gl, Level, Object, consts as c, is_multisampled};
+use crate::view::ViewIndex;
 
 /// One image per view.
 #[derive(Debug)]
@@ -184,9 +185,9 @@ impl Image {
         gl: &Gl,
         support: &ImageSupport,
         looks: u64,
-        (own, view): (u32, u32),
+        (own, view): (u32, ViewIndex),
     ) {
-        let at = view as usize;
+        let at = view.0 as usize;
         let (Some(&name), Some(look)) = (self.views.get(at), self.looks.get_mut(at)) else {
             return;
         };
@@ -274,7 +275,7 @@ impl ImageSupport {
             gl.bind_texture(target, texture);
             name
         };
-        let views = (0..tiles.views).map(|view| match view == tiles.own() {
+        let views = ViewIndex::all(tiles.views).map(|view| match view == tiles.own() {
             true => texture,
             false => like(),
         });
@@ -349,7 +350,7 @@ impl ImageSupport {
             gl.tex_parameteri(layered, c::TEXTURE_MIN_FILTER, c::NEAREST as i32);
         }
         gl.bind_texture(layered, before);
-        let views: Vec<u32> = (0..tiles.views)
+        let views: Vec<u32> = ViewIndex::all(tiles.views)
             .map(|view| gl.texture_view(plane, array, internal, count, tiles.slot(view)))
             .collect();
         let own = match own {
@@ -389,7 +390,7 @@ impl ImageSupport {
         gl.bind_renderbuffer(name);
         let storage = gl.renderbuffer_storage();
         let level = Level::of_renderbuffer(storage);
-        let views = (0..tiles.views).map(|view| {
+        let views = ViewIndex::all(tiles.views).map(|view| {
             if view == tiles.own() {
                 return name;
             }

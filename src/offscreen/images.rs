@@ -3,6 +3,7 @@
 use super::image::{Image, ImageSupport};
 use crate::atlas::{Names, Tiles};
 use crate::gl::{Gl, Object};
+use crate::view::ViewIndex;
 use std::collections::{HashMap, HashSet};
 
 /// What of a share group's objects has an image per view.
@@ -95,7 +96,7 @@ impl Images {
     }
 
     /// Binds a view's texture at the active unit, where the program's own is bound or another view's.
-    pub(super) fn bind(&mut self, gl: &Gl, support: &ImageSupport, texture: u32, view: u32) {
+    pub(super) fn bind(&mut self, gl: &Gl, support: &ImageSupport, texture: u32, view: ViewIndex) {
         let looks = self.looks;
         if let Some(image) = self.all.get_mut(&Object::Texture(texture)) {
             image.bind(gl, support, looks, (texture, view));

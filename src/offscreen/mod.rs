@@ -19,6 +19,7 @@ pub use target::Target;
 
 use crate::atlas::{Grid, Names, Tiles, ViewSet};
 use crate::gl::{Gl, Object, consts as c};
+use crate::view::ViewIndex;
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
@@ -249,7 +250,7 @@ impl Offscreen {
     }
 
     /// The framebuffer of a view; the program's own where it is the only one.
-    pub fn view(&mut self, gl: &Gl, framebuffer: u32, view: u32) -> u32 {
+    pub fn view(&mut self, gl: &Gl, framebuffer: u32, view: ViewIndex) -> u32 {
         match self.is_split(gl, framebuffer) {
             true => self.target(gl, framebuffer).view(view),
             false => framebuffer,
@@ -313,7 +314,7 @@ impl Offscreen {
     }
 
     /// Binds a view's textures.
-    pub fn bind(&self, gl: &Gl, bound: &[Bound], view: u32) {
+    pub fn bind(&self, gl: &Gl, bound: &[Bound], view: ViewIndex) {
         if bound.is_empty() {
             return;
         }

@@ -4,6 +4,7 @@ use super::image::Image;
 use super::images::Images;
 use crate::atlas::{Surface, Tiles, ViewSet};
 use crate::gl::{Attachment, Gl, Object, consts as c};
+use crate::view::ViewIndex;
 
 /// One framebuffer of the program's.
 #[derive(Debug)]
@@ -70,8 +71,8 @@ impl Target {
     }
 
     /// The framebuffer of a view.
-    pub fn view(&self, view: u32) -> u32 {
-        self.views.get(view as usize).copied().unwrap_or(self.own)
+    pub fn view(&self, view: ViewIndex) -> u32 {
+        self.views.get(view.0 as usize).copied().unwrap_or(self.own)
     }
 
     /// Whether the views have framebuffers of their own.
@@ -167,12 +168,12 @@ impl Target {
             complete &= gl.check_framebuffer_status(c::DRAW_FRAMEBUFFER) == c::FRAMEBUFFER_COMPLETE;
             name
         };
-        let views = (0..self.tiles.views).map(|view| {
+        let views = ViewIndex::all(self.tiles.views).map(|view| {
             if view == own && !self.attachments.iter().any(arrays) {
                 return self.own;
             }
             framebuffer(&|attachment, image| {
-                let Some(&new) = image.views.get(view as usize) else {
+                let Some(&new) = image.views.get(view.0 as usize) else {
                     return;
                 };
                 let (object, target, layer) = match (&image.array, image.target) {
@@ -225,7 +226,7 @@ impl Surface for Target {
         self.tiles
     }
 
-    fn enter(&mut self, gl: &Gl, view: u32) -> i32 {
+    fn enter(&mut self, gl: &Gl, view: ViewIndex) -> i32 {
         if !self.in_layers {
             gl.bind_framebuffer(c::DRAW_FRAMEBUFFER, self.view(view));
         }
@@ -234,6 +235,6 @@ impl Surface for Target {
 
     fn bind_row(&mut self, gl: &Gl, row: u32) {
         // One view in each.
-        self.enter(gl, self.tiles.slot(row));
+        self.enter(gl, self.tiles.view_in(row));
     }
 }

@@ -105,7 +105,7 @@ fn each_view_gets_a_framebuffer_and_all_names_are_given_back() {
         assert_eq!(differences, [""; 0], "{version}");
         let (gl, framebuffer) = (stage.gl, stage.framebuffer);
         let mut views: Vec<u32> = (0..4)
-            .map(|view| stage.offscreen.view(&gl, framebuffer, view))
+            .map(|view| stage.offscreen.view(&gl, framebuffer, ViewIndex(view)))
             .collect();
         let target = stage
             .offscreen
@@ -140,11 +140,15 @@ fn layers_lie_in_the_slots_of_the_views() {
     let (gl, framebuffer) = (stage.gl, stage.framebuffer);
     let tiles = stage.offscreen.tiles;
     for view in 0..4 {
-        let name = stage.offscreen.view(&gl, framebuffer, view);
+        let name = stage.offscreen.view(&gl, framebuffer, ViewIndex(view));
         let state = stage.fake.state();
         for point in [c::COLOR_ATTACHMENT0, c::DEPTH_ATTACHMENT] {
             let at = state.get(Scope::Framebuffer(name), point);
-            assert_eq!(at[3], f64::from(tiles.slot(view)), "layer of view {view}");
+            assert_eq!(
+                at[3],
+                f64::from(tiles.slot(ViewIndex(view))),
+                "layer of view {view}"
+            );
         }
     }
 }
@@ -220,7 +224,7 @@ fn a_views_texture_is_bound_for_its_draw() {
     assert_eq!(stage.offscreen.bound(&gl).len(), 2, "unit 0 has it as well");
     let views = stage.offscreen.views(texture);
     for (view, &name) in (0..).zip(&views) {
-        stage.offscreen.bind(&gl, &bound, view);
+        stage.offscreen.bind(&gl, &bound, ViewIndex(view));
         let state = stage.fake.state();
         assert_eq!(state.int(Scope::Unit(5), c::TEXTURE_BINDING_2D), name);
         let filter = state.int(Scope::Texture(name), c::TEXTURE_MIN_FILTER);
@@ -230,10 +234,10 @@ fn a_views_texture_is_bound_for_its_draw() {
     stage.fake.assert_restored(&before);
     // Parameters are read again only after they have changed.
     stage.fake.forget();
-    stage.offscreen.bind(&gl, &bound, 3);
+    stage.offscreen.bind(&gl, &bound, ViewIndex(3));
     assert_eq!(stage.fake.count("glTexParameter*"), 0);
     stage.offscreen.look_changed();
-    stage.offscreen.bind(&gl, &bound, 3);
+    stage.offscreen.bind(&gl, &bound, ViewIndex(3));
     assert!(stage.fake.count("glTexParameter*") > 0);
     stage.offscreen.unbind(&gl, &bound);
     stage.fake.assert_restored(&before);
@@ -250,7 +254,7 @@ fn nothing_is_asked_where_all_views_see_the_same() {
             .bound_among(&gl, [(0, c::TEXTURE_2D)].into_iter())
             .is_empty()
     );
-    stage.offscreen.bind(&gl, &[], 2);
+    stage.offscreen.bind(&gl, &[], ViewIndex(2));
     stage.offscreen.unbind(&gl, &[]);
     assert_eq!(stage.fake.count("gl*"), 0);
 }
@@ -272,13 +276,13 @@ fn a_target_draws_to_its_views_or_to_all_layers() {
         "taken"
     );
     for view in 0..4 {
-        assert_eq!(target.enter(&gl, view), 0);
+        assert_eq!(target.enter(&gl, ViewIndex(view)), 0);
         let bound = stage.fake.value(c::DRAW_FRAMEBUFFER_BINDING);
-        assert_eq!(bound, [f64::from(target.view(view))]);
+        assert_eq!(bound, [f64::from(target.view(ViewIndex(view)))]);
     }
     target.take_layers(true);
     stage.fake.forget();
-    target.enter(&gl, 0);
+    target.enter(&gl, ViewIndex(0));
     assert_eq!(
         stage.fake.count("gl*"),
         0,

@@ -7,6 +7,7 @@
 
 use crate::config::Camera;
 use crate::config::profile::FARTHEST;
+use crate::view::ViewIndex;
 
 /// The cameras of all views.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -77,11 +78,11 @@ impl Rig {
     }
 
     /// Position of a view in units of the spacing: −(N−1)/2 … (N−1)/2; 0 is the program's own camera.
-    pub fn position(&self, view: u32) -> f64 {
+    pub fn position(&self, view: ViewIndex) -> f64 {
         if self.flat {
             return 0.0;
         }
-        f64::from(view) - (f64::from(self.views) - 1.0) / 2.0
+        f64::from(view.0) - (f64::from(self.views) - 1.0) / 2.0
     }
 
     /// A perspective projection that the program draws its scene with. With [`Camera::Auto`], the first one fixes the focal depth,
@@ -320,8 +321,10 @@ mod tests {
         let p = frustum(-1.0, 1.0, -1.0, 1.0, 1.0, 60.0).to_cols_array();
         let shear = rig().shear(&p).expect("a shear");
         let near = Vec4::new(0.0, 0.0, -2.0, 1.0);
-        let left = Mat4::from_cols_array(&shear.projection(&p, rig().position(0))) * near;
-        let right = Mat4::from_cols_array(&shear.projection(&p, rig().position(4))) * near;
+        let left =
+            Mat4::from_cols_array(&shear.projection(&p, rig().position(ViewIndex(0)))) * near;
+        let right =
+            Mat4::from_cols_array(&shear.projection(&p, rig().position(ViewIndex(4)))) * near;
         assert!(left.x / left.w > right.x / right.w);
     }
 
@@ -361,11 +364,11 @@ mod tests {
         };
         changed.change(eye, false);
         assert_eq!(changed.shear(&p), rig().shear(&p));
-        assert_eq!(changed.position(4), 2.0);
+        assert_eq!(changed.position(ViewIndex(4)), 2.0);
         changed.change(eye, true);
         let shear = changed.shear(&p).expect("a shear");
         for view in 0..5 {
-            assert_eq!(shear.projection(&p, changed.position(view)), p);
+            assert_eq!(shear.projection(&p, changed.position(ViewIndex(view))), p);
         }
     }
 

@@ -14,6 +14,7 @@ use crate::interleave::shader::{
 };
 use crate::interleave::{Disparities, Layout, Places, Program, bind_reference};
 use crate::state::Neutral;
+use crate::view::ViewIndex;
 
 /// The passes of one context.
 #[derive(Debug)]
@@ -185,7 +186,7 @@ impl Passes {
             .as_ref()
             .filter(|_| textures.reference.is_some());
         let program = reference.map_or(&self.view, |reference| &reference.view);
-        let drawn = |view: u32| match &disparities.sources {
+        let drawn = |view: ViewIndex| match &disparities.sources {
             Some(sources) => sources.has(view),
             None => view == own,
         };
@@ -197,7 +198,7 @@ impl Passes {
             let left = atlas.enter(gl, view);
             gl.viewport(left, 0, tiles.width as i32, tiles.height as i32);
             let disparities = Disparities {
-                aim: (view, left as u32),
+                aim: (view.0, left as u32),
                 places,
                 ..*disparities
             };

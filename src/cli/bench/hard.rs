@@ -13,6 +13,7 @@ use manyview::bench::hard::{
 use manyview::bench::{BenchError, CONFIGURATIONS, Configuration, find};
 use manyview::config::{AtlasLayout, OptionId, Origin, Settings};
 use manyview::launch::{Launch, Screen, Stop, once, writable};
+use manyview::view::ViewIndex;
 use std::collections::HashMap;
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
@@ -244,7 +245,7 @@ impl Runner<'_> {
             };
             for (view, actual) in (0..self.views).zip(&layered.views) {
                 let (width, x) = tiles.as_ref().map_or((SIZE[0], 0), |tiles| {
-                    (tiles.texture_width(), tiles.place(view).1)
+                    (tiles.texture_width(), tiles.place(ViewIndex(view)).1)
                 });
                 worst = worst.max(self.measure(bound.measure, view, width, x, actual)?);
             }

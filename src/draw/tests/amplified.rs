@@ -105,7 +105,7 @@ fn one_call_draws_all_views_and_leaves_no_trace() {
             });
             // Row 0 of each projection, in the order of the slots.
             let tiles = &drawing.stage.atlas.tiles;
-            let expected = (0..4).map(|slot| drawing.stage.aside(tiles.slot(slot)));
+            let expected = (0..4).map(|slot| drawing.stage.aside(tiles.view_in(slot)));
             assert!(
                 places
                     .zip(expected)
@@ -244,7 +244,7 @@ proptest! {
             }
             let [left, right] = shown(viewport, scissor);
             for index in 0..views {
-                let view = tiles.slot(order[next]);
+                let view = tiles.view_in(order[next]);
                 next += 1;
                 let (layer, tile) = tiles.place(view);
                 let place = uniform(&format!("mv_tile[{index}]"));

@@ -15,6 +15,7 @@ use crate::gl::fake::{Drawn, Fake};
 use crate::gl::{Gl, consts as c};
 use crate::plan::{Rig, Shear};
 use crate::state::{State, Window};
+use crate::view::ViewIndex;
 
 /// A projection with a right angle of view, from 1 to 100.
 const PERSPECTIVE: [f32; 16] = [
@@ -80,7 +81,7 @@ impl Stage {
     }
 
     /// What the projection of a view moves the far distance by, in clip space over w.
-    fn aside(&self, view: u32) -> f64 {
+    fn aside(&self, view: ViewIndex) -> f64 {
         -0.25 * self.rig.position(view)
     }
 }

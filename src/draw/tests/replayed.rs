@@ -8,10 +8,11 @@ use crate::gl::Vertices;
 use crate::gl::consts as c;
 use crate::gl::fake::Fake;
 use crate::state::Effect;
+use crate::view::ViewIndex;
 
 impl Stage {
     /// Replays something that leaves the state as the program's own call does.
-    fn replay(&mut self, hazard: ReplayHazard, call: &mut dyn FnMut(u32)) -> bool {
+    fn replay(&mut self, hazard: ReplayHazard, call: &mut dyn FnMut(ViewIndex)) -> bool {
         self.replay_and(hazard, true, call)
     }
 
@@ -19,7 +20,7 @@ impl Stage {
         &mut self,
         hazard: ReplayHazard,
         leaves: bool,
-        call: &mut dyn FnMut(u32),
+        call: &mut dyn FnMut(ViewIndex),
     ) -> bool {
         let (gl, shear) = (self.gl, self.shear());
         let (atlas, state, rig) = (&mut self.atlas, &self.state, &self.rig);
@@ -44,8 +45,8 @@ fn every_view_has_its_tile_and_its_camera() {
         views.push(view);
         gl.draw_arrays(c::TRIANGLES, Vertices::without_arrays(0, 3));
     }));
-    let order: Vec<u32> = stage.atlas.tiles.order().collect();
-    assert_eq!((&views, views.last()), (&order, Some(&1)));
+    let order: Vec<ViewIndex> = stage.atlas.tiles.order().collect();
+    assert_eq!((&views, views.last()), (&order, Some(&ViewIndex(1))));
     let drawn = stage.fake.draws();
     assert_eq!(drawn.len(), 4);
     for (drawn, &view) in drawn.iter().zip(&views) {
@@ -158,11 +159,11 @@ fn a_clear_without_a_scissor_is_one_for_each_layer() {
 fn a_view_that_nobody_sees_is_not_drawn() {
     for layout in [SideBySide, Layers] {
         let mut stage = Stage::new(layout, Grid::FULL);
-        stage.atlas.tiles.shown = [3].into_iter().collect::<ViewSet>();
+        stage.atlas.tiles.shown = [ViewIndex(3)].into_iter().collect::<ViewSet>();
         let (gl, before) = (stage.gl, stage.fake.state());
         let mut views = Vec::new();
         stage.replay(ReplayHazard::None, &mut |view| views.push(view));
-        assert_eq!(views, [3, 1]);
+        assert_eq!(views, [3, 1].map(ViewIndex));
         stage.replay(ReplayHazard::Clear, &mut |_| gl.clear(c::COLOR_BUFFER_BIT));
         let clears = if layout == Layers { 2 } else { 1 };
         assert_eq!(stage.fake.draws().len(), clears);
@@ -260,7 +261,7 @@ fn a_full_attribute_stack_leaves_the_own_view_alone() {
         let before = stage.fake.state();
         let mut views = Vec::new();
         assert!(!stage.replay_and(LIST, leaves, &mut |view| views.push(view)));
-        let own: &[u32] = if leaves { &[1] } else { &[] };
+        let own: &[ViewIndex] = if leaves { &[ViewIndex(1)] } else { &[] };
         assert_eq!(views, own);
         stage.fake.assert_restored(&before);
     }
@@ -343,7 +344,7 @@ fn what_begins_in_the_own_view_ends_in_the_others() {
             );
             assert_eq!(views.len(), if wanted { 3 } else { 0 });
             let own = &stage.fake.draws()[0];
-            assert!((sheared(own) - stage.aside(1)).abs() < 1e-6);
+            assert!((sheared(own) - stage.aside(ViewIndex(1))).abs() < 1e-6);
             stage.fake.assert_restored(&before);
         }
     }

@@ -8,6 +8,7 @@ use crate::gl::{Gl, consts as c};
 use crate::plan::Flat;
 use crate::rewrite::{Stage as Shader, VertexLayer};
 use crate::state::Text;
+use crate::view::ViewIndex;
 use std::sync::Arc;
 
 const VERTEX: &str = "#version 150\nuniform mat4 camera;\nuniform vec4 lamps[2];\nin vec4 at;\nvoid main() { gl_Position = camera * at + lamps[1]; }\n";
@@ -93,7 +94,9 @@ fn the_views_that_follow_are_placed_by_uniforms_alone() {
         let variant = variant(&stage, program, kind);
         gl.use_program(variant.name());
         stage.fake.forget();
-        let places: Vec<f64> = (0..views).map(|view| stage.rig.position(view)).collect();
+        let places: Vec<f64> = ViewIndex::all(views)
+            .map(|view| stage.rig.position(view))
+            .collect();
         variant.set_views(&gl, shifts, &places, 64);
         let sent = stage.fake.calls();
         assert!(

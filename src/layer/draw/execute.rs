@@ -12,6 +12,7 @@ use crate::gl::{Gl, consts as c};
 use crate::offscreen::Target;
 use crate::plan::{Method, Plan, Shear, camera};
 use crate::state::Touch;
+use crate::view::ViewIndex;
 
 /// How a draw goes, once it is known what can be had.
 #[allow(
@@ -142,7 +143,7 @@ impl Layer {
         let (rig, own) = (self.known.rig, self.targets.atlas.tiles);
         let tiles = target.as_ref().map_or(own, |target| target.tiles());
         let shear = plan.shear.filter(|_| !plan.variant);
-        let prepare = |view: u32| {
+        let prepare = |view: ViewIndex| {
             if let Some(Entered { variant, layers }) = &entered {
                 let place = rig.position(view);
                 set_view(gl, variant, draw.images, plan, place, tiles.stride);
@@ -152,7 +153,7 @@ impl Layer {
             }
         };
         let send = &mut *draw.send;
-        let mut call = |view: u32| {
+        let mut call = |view: ViewIndex| {
             prepare(view);
             send(Send::AsItIs);
         };
@@ -178,7 +179,7 @@ impl Layer {
         shear: Option<Shear>,
         hazard: ReplayHazard,
         images: &Images,
-        call: &mut dyn FnMut(u32),
+        call: &mut dyn FnMut(ViewIndex),
     ) -> bool {
         let Layer {
             targets,
@@ -347,7 +348,7 @@ fn set_all_views(
     rig: &crate::plan::Rig,
     tiles: &Tiles,
 ) -> u32 {
-    let views: Vec<u32> = tiles.order().collect();
+    let views: Vec<ViewIndex> = tiles.order().collect();
     let places: Vec<f64> = views.iter().map(|&view| rig.position(view)).collect();
     let layers: Vec<u32> = views.iter().map(|&view| tiles.slot(view)).collect();
     variant.set_views(gl, (plan.shear, plan.flat), &places, tiles.stride);
